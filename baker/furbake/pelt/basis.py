@@ -1,0 +1,101 @@
+"""Functions of the light's direction that a texel's coefficients multiply, and their integrals over an environment."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+PTM_TERMS = 6
+DEGREE = 4
+
+
+def ptm(lights: Array) -> Array:
+    """Rows of the paper's eq. (2): [lu², lv², lu·lv, lu, lv, 1], (n, 3) → (n, 6). No factors 2 (those of eq. (1))."""
+    u, v = lights[:, 0], lights[:, 1]
+    return np.stack([u * u, v * v, u * v, u, v, np.ones_like(u)], 1)
+
+
+def smooth(lights: Array, degree: int = DEGREE) -> Array:
+    """lu^i·lv^j·lz^k for k in (0, 1), i + j + k ≤ degree (k outermost, then i, then j), then lz^½, lz^¼: 27 at 4."""
+    u, v, z = lights[:, 0], lights[:, 1], np.maximum(lights[:, 2], 0)
+    terms = [u**i * v**j * z**k for k in (0, 1) for i in range(degree + 1) for j in range(degree + 1 - k - i)]
+    return np.stack([*terms, z**0.5, z**0.25], 1)
+
+
+@dataclass(frozen=True)
+class Basis:
+    """`ptm`: eq. (2). `eigen`: C light curves, each a row of 27 weights of the smooth functions."""
+
+    kind: Literal["ptm", "eigen"]
+    degree: int | None = None
+    matrix: Array | None = None
+
+    def __call__(self, lights: Array) -> Array:
+        """(n, 3) unit directions → (n, C)."""
+        if self.matrix is None:
+            return ptm(lights)
+        return smooth(lights, self.degree or DEGREE) @ self.matrix.T
+
+    @property
+    def coefficients(self) -> int:
+        return PTM_TERMS if self.matrix is None else len(self.matrix)
+
+
+PTM = Basis("ptm")
+
+
+def eigen(samples: NDArray[np.floating], weights: NDArray[np.floating], lights: Array, coefficients: int) -> Basis:
+    """The light curves that lose least of this fur: left singular vectors of the α-weighted samples, made smooth.
+
+    samples : (n, texels), weights : (texels,), lights : (n, 3). Ridge 1e-3 keeps the smooth fit tame between lights.
+    """
+    weighted = samples * np.sqrt(weights)
+    _, vectors = np.linalg.eigh((weighted @ weighted.T).astype(np.float64))
+    curves = vectors[:, ::-1][:, :coefficients] * np.sqrt(len(lights))
+    curves = curves * np.where(curves.sum(0) < 0, -1.0, 1.0)
+    terms = smooth(lights)
+    matrix = np.linalg.solve(terms.T @ terms + 1e-3 * np.eye(terms.shape[1]), terms.T @ curves).T
+    return Basis("eigen", DEGREE, matrix)
+
+
+def harmonics(directions: Array) -> Array:
+    """Real orthonormal spherical harmonics to order 2 without the Condon–Shortley sign, (n, 3) → (n, 9)."""
+    x, y, z = directions.T
+    one = np.ones_like(x)
+    return np.stack(
+        [
+            np.sqrt(1 / (4 * np.pi)) * one,
+            np.sqrt(3 / (4 * np.pi)) * y,
+            np.sqrt(3 / (4 * np.pi)) * z,
+            np.sqrt(3 / (4 * np.pi)) * x,
+            np.sqrt(15 / (4 * np.pi)) * x * y,
+            np.sqrt(15 / (4 * np.pi)) * y * z,
+            np.sqrt(5 / (16 * np.pi)) * (3 * z * z - 1),
+            np.sqrt(15 / (4 * np.pi)) * x * z,
+            np.sqrt(15 / (16 * np.pi)) * (x * x - y * y),
+        ],
+        1,
+    )
+
+
+def environment(basis: Basis, rings: int = 64, spokes: int = 64) -> Array:
+    """∫ Y_j(ω)·φ_i(ω) dω over the upper hemisphere, (C, 9): radiance in harmonics → light moments.
+
+    Gauss–Legendre in lz^¼, which is singular at the horizon otherwise, equal steps in azimuth.
+    """
+    node, weight = np.polynomial.legendre.leggauss(rings)
+    root = (node + 1) / 2
+    z = root**4
+    ring = weight / 2 * 4 * root**3
+    azimuth = (np.arange(spokes) + 0.5) / spokes * 2 * np.pi
+    across = np.sqrt(1 - z * z)
+    directions = np.stack(
+        [np.outer(across, np.cos(azimuth)), np.outer(across, np.sin(azimuth)), np.repeat(z[:, None], spokes, 1)], -1
+    ).reshape(-1, 3)
+    area = np.repeat(ring, spokes) * 2 * np.pi / spokes
+    return basis(directions).T @ (harmonics(directions) * area[:, None])

@@ -1,0 +1,57 @@
+"""Coefficients to bytes and back: a' = round(a/λ + Ω), a = λ(a' − Ω)   (paper, eq. 3, with rounding)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Bytes = NDArray[np.uint8]
+
+TAIL = 0.02
+"""Percentile of the visible texels that may saturate at either end of a coefficient's range."""
+
+
+def byte_range(coefficients: Array, alpha: Array) -> tuple[Array, Array]:
+    """λ and Ω per coefficient, (C,) each, so that the bytes span the coefficients of the visible texels.
+
+    coefficients : (K, N, N, C), alpha : (K, N, N).
+    """
+    visible = coefficients[alpha > 0.05] if (alpha > 0.05).any() else coefficients.reshape(-1, coefficients.shape[-1])
+    low, high = np.percentile(visible, [TAIL, 100 - TAIL], axis=0)
+    scale = np.maximum(high - low, 1e-6) / 255
+    return scale, -low / scale
+
+
+def quantise(coefficients: Array, scale: Array, bias: Array, gram: Array) -> Bytes:
+    """Bytes of the coefficients, (..., C) → (..., C), with the rounding errors played off against each other.
+
+    gram : (C, C) mean of φφᵀ over the lights. Coefficients are rounded one after the other, the last first; each takes
+    up what the rounding of those before it did to the light (Babai's nearest plane), which the decoder need not know.
+    """
+    count = coefficients.shape[-1]
+    upper = np.linalg.cholesky(gram * np.outer(scale, scale)).T
+    wanted = coefficients / scale + bias
+    codes = np.empty(coefficients.shape, np.uint8)
+    carried = np.zeros_like(wanted)
+    for i in reversed(range(count)):
+        target = wanted[..., i] + (carried[..., i + 1 :] @ upper[i, i + 1 :]) / upper[i, i]
+        codes[..., i] = np.clip(np.round(target), 0, 255)
+        carried[..., i] = wanted[..., i] - codes[..., i]
+    return codes
+
+
+def dequantise(codes: Bytes, scale: Array, bias: Array) -> Array:
+    """(..., C) bytes → coefficients."""
+    return scale * (codes - bias)
+
+
+def unit_bytes(values: Array) -> Bytes:
+    """0..1 → 0..255, rounded."""
+    return np.round(np.clip(values, 0, 1) * 255).astype(np.uint8)
+
+
+def srgb_bytes(linear: Array) -> Bytes:
+    """Linear 0..1 → sRGB bytes (IEC 61966-2-1)."""
+    linear = np.clip(linear, 0, 1)
+    return unit_bytes(np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055))

@@ -1,0 +1,174 @@
+"""Strands drawn into a periodic volume of slabs, and averaged down to the slabs that are stored."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from furbake.pelt.strands import Strands
+
+Array = NDArray[np.float64]
+Real = TypeVar("Real", np.float32, np.float64)
+
+OVERSAMPLE = 2
+"""The volume is built and lit this much finer in every axis: discretisation is the largest error of all."""
+
+PLANES = 3
+"""Horizontal cuts per fine slab."""
+
+SOLID_SLAB = 1 / 16
+"""Share of the fur's height to which `Coat.opacity` refers."""
+
+
+@dataclass(frozen=True)
+class Volume:
+    """A tile of fur as K slabs of N × N voxels, slab 0 at the skin, indexed [slab, row = v, column = u].
+
+    sigma : (K, N, N) extinction per tile width
+    tangent : (K, N, N, 3) unit mean direction of the hairs, towards the tips; +z where there are none
+    tint, hue : (K, N, N) means over the hairs, 0..1
+    drift : (K, 2) mean displacement of the hairs from their roots, tile widths
+    height : tile widths
+    """
+
+    sigma: Array
+    tangent: Array
+    tint: Array
+    hue: Array
+    drift: Array
+    height: float
+
+    @property
+    def slab(self) -> float:
+        """Thickness of a slab, tile widths."""
+        return self.height / len(self.sigma)
+
+    @property
+    def coverage(self) -> Array:
+        """α = 1 − exp(−σ·h), (K, N, N): what a slab hides, seen from straight above."""
+        return -np.expm1(-self.sigma * self.slab)
+
+
+def voxelise(strands: Strands, height: float, layers: int, size: int, opacity: float) -> Volume:
+    """Draw strands into `layers` slabs of `size` × `size` voxels.
+
+    Each slab is cut by `PLANES` horizontal planes; where a hair crosses a plane, its cross-section (an ellipse, the
+    longer the more the hair lies down) is drawn with an antialiased rim.
+
+    `opacity` is the optical depth of 1/16 of the height filled with hair.
+    """
+    points, radius = strands.points, strands.radius
+    low, high = points[:, :-1, 2], points[:, 1:, 2]
+    step = points[:, 1:] - points[:, :-1]
+    direction = step / np.maximum(np.linalg.norm(step, axis=-1, keepdims=True), 1e-12)
+
+    solid = np.zeros((layers, size * size))
+    weight = np.zeros((layers, size * size))
+    sums = np.zeros((layers, 5, size * size))  # tangent x, y, z, tint, hue
+    drift = np.zeros((layers, 3))
+
+    for plane in range(layers * PLANES):
+        slab = plane // PLANES
+        z = (plane + 0.5) / (layers * PLANES) * height
+        hair, segment = np.nonzero((low <= z) != (high <= z))
+        if not len(hair):
+            continue
+        t = (z - low[hair, segment]) / step[hair, segment, 2]
+        centre = points[hair, segment, :2] + t[:, None] * step[hair, segment, :2]
+        thick = radius[hair, segment] * (1 - t) + radius[hair, segment + 1] * t
+        along = direction[hair, segment]
+        along = along * np.where(along[:, 2:] < 0, -1.0, 1.0)
+
+        cover, voxel = _cross_sections(centre, thick, along, size)
+        here = np.zeros(size * size)
+        np.maximum.at(here, voxel.ravel(), cover.ravel())
+        solid[slab] += here / PLANES
+        values = np.concatenate([along, strands.tint[hair, None], strands.hue[hair, None]], 1)
+        weight[slab] += np.bincount(voxel.ravel(), cover.ravel(), size * size)
+        for channel in range(5):
+            sums[slab, channel] += np.bincount(voxel.ravel(), (cover * values[:, channel, None]).ravel(), size * size)
+        moved = centre - points[hair, 0, :2]
+        drift[slab] += np.append((thick[:, None] * moved).sum(0), thick.sum())
+
+    shape = (layers, size, size)
+    empty = (weight < 1e-6).reshape(shape)
+    means = (sums / np.maximum(weight, 1e-6)[:, None]).reshape(layers, 5, size, size)
+    tangent = np.moveaxis(means[:, :3], 1, -1)
+    tangent = np.where(empty[..., None], [0.0, 0.0, 1.0], tangent)
+    tangent /= np.maximum(np.linalg.norm(tangent, axis=-1, keepdims=True), 1e-9)
+    return Volume(
+        sigma=solid.reshape(shape) * opacity / (height * SOLID_SLAB),
+        tangent=tangent,
+        tint=np.where(empty, strands.tint.mean(), means[:, 3]),
+        hue=np.where(empty, strands.hue.mean(), means[:, 4]),
+        drift=drift[:, :2] / np.maximum(drift[:, 2:], 1e-12),
+        height=height,
+    )
+
+
+def _cross_sections(centre: Array, thick: Array, along: Array, size: int) -> tuple[Array, NDArray[np.int64]]:
+    """Coverage of the voxels around n cut hairs: (n, w) coverage 0..1 and (n, w) flat voxel index, wrapped."""
+    reach = int(np.ceil(min((thick / np.maximum(along[:, 2], 0.3)).max() * size, size / 2))) + 1
+    offset = np.arange(-reach, reach + 1)
+    dv, du = (grid.ravel() for grid in np.meshgrid(offset, offset, indexing="ij"))
+    position = centre * size - 0.5
+    nearest = np.floor(position + 0.5).astype(np.int64)
+    u = nearest[:, :1] + du - position[:, :1]
+    v = nearest[:, 1:] + dv - position[:, 1:]
+    axial = u * along[:, :1] + v * along[:, 1:2]
+    distance = np.sqrt(np.maximum(u * u + v * v - axial * axial, 0.0))
+    # A disc of radius q with a rim one voxel wide has the area π(q² + 1/12): q is such that this is the hair's own.
+    # Below q = 1/2 nothing but the rim is left, which is then drawn thinner.
+    square = (thick[:, None] * size) ** 2
+    q = np.sqrt(np.maximum(square - 1 / 12, 1 / 4))
+    cover = np.clip(q - distance + 0.5, 0.0, 1.0) * np.minimum(1.0, 3 * square)
+    voxel = (nearest[:, 1:] + dv) % size * size + (nearest[:, :1] + du) % size
+    return cover, voxel
+
+
+def pool(fine: NDArray[Real], factor: int = OVERSAMPLE) -> NDArray[Real]:
+    """Mean over blocks of factor × factor voxels in the plane: (..., N, N) → (..., N/factor, N/factor)."""
+    *rest, rows, columns = fine.shape
+    blocks = fine.reshape(*rest, rows // factor, factor, columns // factor, factor)
+    mean: NDArray[Real] = blocks.mean((-3, -1))
+    return mean
+
+
+def seen_from_above(coverage: NDArray[Real], factor: int = OVERSAMPLE) -> NDArray[Real]:
+    """What the eye sees of each fine slab in its coarse slab, α_j·Π_{above}(1−α): (K·f, N, N) → (K, f, N, N)."""
+    layers, rows, columns = coverage.shape
+    slabs = coverage.reshape(layers // factor, factor, rows, columns)
+    shares = np.empty_like(slabs)
+    clear = np.ones_like(slabs[:, 0])
+    for j in reversed(range(factor)):
+        shares[:, j] = slabs[:, j] * clear
+        clear = clear * (1 - slabs[:, j])
+    return shares
+
+
+def average_down(fine: NDArray[Real], shares: NDArray[Real]) -> NDArray[Real]:
+    """Mean of a quantity as seen from above: (K·f, N·f, N·f) with shares (K, f, N·f, N·f) → (K, N, N)."""
+    factor = shares.shape[1]
+    weights = np.maximum(shares, 1e-6)
+    values = fine.reshape(shares.shape)
+    mean: NDArray[Real] = pool((values * weights).sum(1), factor) / pool(weights.sum(1), factor)
+    return mean
+
+
+def coarsen(fine: Volume, factor: int = OVERSAMPLE) -> Volume:
+    """The stored slabs from the fine ones: coverage is kept exactly, all else is weighted by what the eye sees."""
+    shares = seen_from_above(fine.coverage, factor)
+    coverage = pool(shares.sum(1), factor)
+    layers = coverage.shape[0]
+    tangent = np.stack([average_down(fine.tangent[..., axis], shares) for axis in range(3)], -1)
+    return Volume(
+        sigma=-np.log1p(-np.minimum(coverage, 1 - 1e-9)) / (fine.height / layers),
+        tangent=tangent / np.maximum(np.linalg.norm(tangent, axis=-1, keepdims=True), 1e-9),
+        tint=average_down(fine.tint, shares),
+        hue=average_down(fine.hue, shares),
+        drift=fine.drift.reshape(layers, factor, 2).mean(1),
+        height=fine.height,
+    )

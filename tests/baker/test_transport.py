@@ -1,0 +1,111 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.ndimage import map_coordinates
+
+from furbake.pelt.strands import Coat, grow
+from furbake.pelt.transport import (
+    LOWEST,
+    OpticalDepth,
+    curved_elevation,
+    cylinder,
+    hemisphere,
+    sample,
+    within_slab,
+)
+from furbake.pelt.volume import voxelise
+
+
+def march(sigma: np.ndarray, slab: float, light: np.ndarray, step: float = 0.1) -> np.ndarray:
+    """The oracle: walk from the middle of every voxel to its slab's ceiling and on, adding up σ as it is met."""
+    layers, size, _ = sigma.shape
+    v, u = np.mgrid[0:size, 0:size].astype(float)
+    per_slab = light[:2] / light[2] * slab * size
+    steps = int(np.ceil(np.hypot(*per_slab) / step)) + 4
+    depth = np.zeros_like(sigma)
+    for k in range(layers):
+        for j in range(k + 1, layers):
+            for t in j - k - 0.5 + (np.arange(steps) + 0.5) / steps:
+                depth[k] += map_coordinates(
+                    sigma[j], [v + per_slab[1] * t, u + per_slab[0] * t], order=1, mode="grid-wrap"
+                )
+        depth[k] *= slab / light[2] / steps
+    return depth
+
+
+@pytest.mark.parametrize("elevation", [83, 60, 35, 15, 6])
+@pytest.mark.parametrize("azimuth", [20, 135])
+def test_optical_depth_equals_brute_force(elevation: float, azimuth: float) -> None:
+    volume = voxelise(grow(Coat(), 0.6, 0), 0.6, 8, 32, 2.2)
+    e, a = np.radians([elevation, azimuth])
+    light = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
+    above, _ = OpticalDepth(volume.sigma, volume.slab)(light)
+    error = np.exp(-above) - np.exp(-march(volume.sigma, volume.slab, light))
+    assert np.sqrt((error**2).mean()) <= 0.002
+
+
+def test_own_slab_is_crossed_from_floor_to_ceiling() -> None:
+    sigma = np.full((3, 16, 16), 4.0)
+    light = np.array([0.6, 0.0, 0.8])
+    above, own = OpticalDepth(sigma, 0.1)(light)
+    np.testing.assert_allclose(own, 4 * 0.1 / 0.8, rtol=1e-5)
+    np.testing.assert_allclose(above[0], 2 * 4 * 0.1 / 0.8, rtol=1e-5)
+
+
+def test_g_is_the_mean_over_the_slab() -> None:
+    height = (np.arange(20_000) + 0.5) / 20_000
+    for tau_view, tau_light in ((0.3, 0.2), (2.0, 5.0), (0.01, 3.0), (1.0, 1e-9), (1e-6, 1.5)):
+        seen = np.exp(-tau_view * height)
+        mean = (seen * np.exp(-tau_light * height)).sum() / seen.sum()
+        assert within_slab(np.array(tau_view), np.array(tau_light)) == pytest.approx(mean, rel=1e-3)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_cylinder_is_the_mean_over_its_lit_and_seen_side(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    fibre = rng.normal(size=3)
+    fibre[2] *= 0.05  # seen from the side, where the angle around the fibre has a meaning
+    fibre /= np.linalg.norm(fibre)
+    light = rng.normal(size=3)
+    light[2] = abs(light[2])
+    light /= np.linalg.norm(light)
+
+    eye = np.array([0.0, 0.0, 1.0])
+    toward = eye - fibre * fibre[2]
+    toward /= np.linalg.norm(toward)
+    beside = np.cross(fibre, toward)
+    across = (np.arange(40_000) + 0.5) / 20_000 - 1  # position across the hair's picture, -1..1
+    normal = np.sqrt(1 - across**2)[:, None] * toward + across[:, None] * beside
+    radiance = np.maximum(normal @ light, 0).mean()  # per albedo/π and irradiance
+    assert cylinder(fibre, light) == pytest.approx(4 * radiance, rel=0.02, abs=0.02)
+
+
+def test_curved_path_is_that_through_a_ball_of_fur() -> None:
+    beta = 4.0
+    for lz in (0.0, 0.1, 0.5, 0.9, 1.0):
+        across, up = np.sqrt(1 - lz * lz), lz
+        # From (0, β) along (across, up) to the circle of radius β + 1.
+        path = -beta * up + np.sqrt(beta**2 * up**2 + (beta + 1) ** 2 - beta**2)
+        assert np.hypot(path * across, beta + path * up) == pytest.approx(beta + 1)
+        assert curved_elevation(lz, beta) == pytest.approx(1 / path)
+
+
+def test_lights_are_spread_over_the_upper_hemisphere() -> None:
+    lights = hemisphere(64)
+    np.testing.assert_allclose(np.linalg.norm(lights, axis=1), 1)
+    assert lights[:, 2].min() >= LOWEST
+    np.testing.assert_allclose(lights.mean(0), [0, 0, 0.5], atol=0.02)
+
+
+def test_deeper_layers_are_darker_and_light_falls_from_its_side() -> None:
+    fine = voxelise(grow(Coat(), 0.6, 0), 0.6, 16, 64, 2.2)
+    seen: list[float] = []
+    samples = sample(fine, np.array([[0.0, 0.0, 1.0], [0.8, 0.0, 0.6]]), progress=seen.append)
+    assert samples.shape == (2, 8, 32, 32)
+    assert seen == [0.5, 1.0]
+    straight = samples[0].mean((1, 2))
+    assert straight[0] < 0.6 * straight[-2]
+    flat = sample(fine, np.array([[0.98, 0.0, np.sqrt(1 - 0.98**2)]]), flat=True)
+    curved = sample(fine, np.array([[0.98, 0.0, np.sqrt(1 - 0.98**2)]]))
+    assert flat[0, 0].mean() < curved[0, 0].mean()
