@@ -1,0 +1,167 @@
+/** The library on the GPU: what is uploaded, what the shader makes of it, what it refuses. */
+
+import { readFile } from 'node:fs/promises';
+import { fileURLToPath } from 'node:url';
+import type { Page } from '@playwright/test';
+import { decode } from 'fast-png';
+import type { FurAsset } from '../../web/fur/format.ts';
+import { evaluateBasis } from '../../web/fur/moments.ts';
+import { expect, site, test } from './harness.ts';
+import type { Stage } from './stage.ts';
+
+declare const stage: Stage;
+
+const repository = fileURLToPath(new URL('../..', import.meta.url));
+const served = (path: string) =>
+	path.startsWith('public/') ? path.slice('public'.length) : `/@fs${repository}${path}`;
+const GOLDEN = ['ptm-6', 'eigen-6', 'eigen-3'];
+
+/** A page with nothing on it but the library. */
+async function openStage(page: Page): Promise<void> {
+	const body = `<!doctype html><title>stage</title><link rel="icon" href="data:,">
+		<script type="module" src="${served('tests/browser/stage.ts')}"></script>`;
+	await page.route('**/stage.html', (route) => route.fulfill({ contentType: 'text/html', body }));
+	await page.goto(`${site}stage.html`);
+	await page.waitForFunction(() => 'stage' in window);
+}
+
+async function readAsset(folder: string): Promise<{ fur: FurAsset; images: { uri: string }[] }> {
+	const gltf = JSON.parse(await readFile(`${repository}${folder}/model.gltf`, 'utf8'));
+	return { fur: gltf.extensions.FUR_ptm_shells, images: gltf.images };
+}
+
+async function readFloats(path: string): Promise<Float32Array> {
+	const bytes = await readFile(`${repository}${path}`);
+	return new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
+}
+
+const floats = (base64: string) => new Float32Array(Uint8Array.from(Buffer.from(base64, 'base64')).buffer);
+
+for (const model of ['public/models/bunny', 'public/models/torus', 'tests/golden/eigen-3']) {
+	test(`every byte of ${model}'s planes is on the GPU`, async ({ page }) => {
+		await openStage(page);
+		const planes = await page.evaluate((url) => stage.planes(url), served(`${model}/model.gltf`));
+		const { fur, images } = await readAsset(model);
+		const stored = fur.pelts[0]?.planes ?? [];
+		expect(planes).toHaveLength(stored.length);
+		for (const [i, image] of stored.entries()) {
+			const png = decode(await readFile(`${repository}${model}/${images[image]?.uri}`));
+			expect(png.channels).toBe(4);
+			const gpu = Buffer.from(planes[i] ?? '', 'base64');
+			expect(Buffer.compare(gpu, Buffer.from(png.data.buffer, png.data.byteOffset, png.data.byteLength))).toBe(0);
+			const covered = i === stored.length - 1 ? (stored.length === 2 ? 2 : 3) : undefined;
+			if (covered !== undefined && model.startsWith('public')) {
+				const empty = gpu.filter((byte, b) => b % 4 === covered && byte === 0).length;
+				expect(empty, 'texels with α = 0 are among them').toBeGreaterThan(100);
+			}
+		}
+	});
+}
+
+for (const name of GOLDEN) {
+	test(`the shader's L equals numpy's: ${name}`, async ({ page }) => {
+		await openStage(page);
+		const folder = `tests/golden/${name}`;
+		const lights: number[][] = JSON.parse(await readFile(`${repository}${folder}/lights.json`, 'utf8'));
+		const expected = await readFloats(`${folder}/light.f32`);
+		const light = floats(
+			await page.evaluate(([url, l]) => stage.light(url, l), [served(`${folder}/model.gltf`), lights] as const),
+		);
+		expect(light).toHaveLength(expected.length);
+		let worst = 0;
+		light.forEach((value, i) => {
+			worst = Math.max(worst, Math.abs(value - (expected[i] ?? Number.NaN)));
+		});
+		test.info().annotations.push({ type: 'largest error', description: worst.toExponential(2) });
+		expect(worst).toBeLessThanOrEqual(1e-3);
+	});
+
+	test(`an environment of order 2 equals its integral: ${name}`, async ({ page }) => {
+		await openStage(page);
+		const folder = `tests/golden/${name}`;
+		const { fur, images } = await readAsset(folder);
+		const probe = [1.2, 0.2, -0.3, 0.25, 0.15, -0.1, 0.12, 0.18, -0.14];
+		const ambient = 0.7;
+		const dome = { sky: 1.5, ground: 0.4, up: [0.36, 0.48, 0.8] };
+		const { light, frame } = await page.evaluate(([url, p, a, d]) => stage.environment(url, p, a, d), [
+			served(`${folder}/model.gltf`),
+			probe,
+			ambient,
+			dome,
+		] as const);
+		const radiance = (x: number[]) =>
+			worldRadiance(x, probe) +
+			(ambient + (dome.sky + dome.ground) / 2) / Math.PI +
+			((0.75 * (dome.sky - dome.ground)) / Math.PI) * dot(x, dome.up);
+		const moments = integrate(fur, frame, radiance);
+		const coefficients = await layerCoefficients(folder, fur, images);
+		light.forEach((value, i) => {
+			const exact = Math.max(dot(coefficients[i] ?? [], moments), 0);
+			expect(Math.abs(value - exact)).toBeLessThan(2e-3 * Math.max(1, exact));
+		});
+		expect(Math.max(...light)).toBeGreaterThan(1);
+	});
+}
+
+const dot = (a: readonly number[], b: readonly number[]) => a.reduce((sum, x, i) => sum + x * (b[i] ?? 0), 0);
+
+/** Σ_j probe[j]·Y_j of a unit vector in world axes. */
+function worldRadiance([x = 0, y = 0, z = 0]: number[], probe: number[]): number {
+	const { PI, sqrt } = Math;
+	const harmonics = [
+		sqrt(1 / (4 * PI)),
+		...[y, z, x].map((axis) => sqrt(3 / (4 * PI)) * axis),
+		sqrt(15 / (4 * PI)) * x * y,
+		sqrt(15 / (4 * PI)) * y * z,
+		sqrt(5 / (16 * PI)) * (3 * z * z - 1),
+		sqrt(15 / (4 * PI)) * x * z,
+		sqrt(15 / (16 * PI)) * (x * x - y * y),
+	];
+	return dot(harmonics, probe);
+}
+
+/** ∫R(ω)·φ(ω)dω over the upper hemisphere by brute force. */
+function integrate(fur: FurAsset, frame: number[][], radiance: (world: number[]) => number): number[] {
+	const rings = 400;
+	const spokes = 64;
+	const moments = new Array<number>(fur.coefficients).fill(0);
+	for (let r = 0; r < rings; r++) {
+		const z = (r + 0.5) / rings;
+		for (let s = 0; s < spokes; s++) {
+			const azimuth = ((s + 0.5) / spokes) * 2 * Math.PI;
+			const local: [number, number, number] = [
+				Math.sqrt(1 - z * z) * Math.cos(azimuth),
+				Math.sqrt(1 - z * z) * Math.sin(azimuth),
+				z,
+			];
+			const world = [0, 1, 2].map((axis) => local.reduce((sum, c, i) => sum + c * (frame[i]?.[axis] ?? 0), 0));
+			const weight = (radiance(world) * 2 * Math.PI) / (rings * spokes);
+			evaluateBasis(fur.basis, local).forEach((phi, i) => {
+				moments[i] = (moments[i] ?? 0) + weight * phi;
+			});
+		}
+	}
+	return moments;
+}
+
+/** Coefficients of layer 0, texel by texel. */
+async function layerCoefficients(folder: string, fur: FurAsset, images: { uri: string }[]): Promise<number[][]> {
+	const pelt = fur.pelts[0];
+	const planes = await Promise.all(
+		(pelt?.planes ?? []).map(async (i) => decode(await readFile(`${repository}${folder}/${images[i]?.uri}`)).data),
+	);
+	const slots = [
+		[0, 0],
+		[0, 1],
+		[0, 2],
+		[1, 0],
+		[1, 1],
+		[0, 3],
+	].slice(0, fur.coefficients);
+	return Array.from({ length: fur.size * fur.size }, (_, texel) =>
+		slots.map(([plane = 0, channel = 0], i) => {
+			const byte = planes[plane]?.[texel * 4 + channel] ?? Number.NaN;
+			return (pelt?.scale[i] ?? 0) * (byte - (pelt?.bias[i] ?? 0));
+		}),
+	);
+}

@@ -1,0 +1,88 @@
+import { readFileSync } from 'node:fs';
+import { decode } from 'fast-png';
+import { describe, expect, it } from 'vitest';
+import { channelOf, type FurAsset } from '../../web/fur/format.ts';
+import {
+	BODY_RADIUS,
+	type Direction,
+	evaluateBasis,
+	lightMoments,
+	relight,
+	smoothFunctions,
+} from '../../web/fur/moments.ts';
+
+const golden = (name: string, file: string) => new URL(`../golden/${name}/${file}`, import.meta.url);
+
+describe.each(['ptm-6', 'eigen-6', 'eigen-3'])('golden %s', (name) => {
+	const gltf = JSON.parse(readFileSync(golden(name, 'model.gltf'), 'utf8'));
+	const fur: FurAsset = gltf.extensions.FUR_ptm_shells;
+	const lights: Direction[] = JSON.parse(readFileSync(golden(name, 'lights.json'), 'utf8'));
+	const bytes = readFileSync(golden(name, 'light.f32'));
+	const expected = new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
+
+	it('gives the light that numpy expects, above and below the horizon', () => {
+		const { layers, size, basis } = fur;
+		const pelt = fur.pelts[0];
+		if (!pelt) throw new Error('no pelt');
+		const planes = pelt.planes.map((image) => decode(readFileSync(golden(name, gltf.images[image].uri))).data);
+		let worst = 0;
+		lights.forEach((light, n) => {
+			for (let k = 0; k < layers; k++) {
+				const moments = lightMoments(basis, light, (k + 0.5) / layers);
+				for (let texel = 0; texel < size * size; texel++) {
+					const at = k * size * size + texel;
+					const coefficients = pelt.scale.map((lambda, i) => {
+						const { plane, channel } = channelOf(i);
+						return lambda * ((planes[plane]?.[at * 4 + channel] ?? Number.NaN) - (pelt.bias[i] ?? Number.NaN));
+					});
+					const error = relight(coefficients, moments) - (expected[n * layers * size * size + at] ?? Number.NaN);
+					worst = Math.max(worst, Math.abs(error));
+				}
+			}
+		});
+		expect(worst).toBeLessThan(1e-4);
+	});
+});
+
+describe('lightMoments', () => {
+	const ptm = { kind: 'ptm' } as const;
+
+	it('is continuous across the horizon', () => {
+		const above = lightMoments(ptm, [0.6, 0.8, 0], 0.7);
+		const below = lightMoments(ptm, [0.6, 0.8, -1e-9], 0.7);
+		above.forEach((moment, i) => {
+			expect(below[i]).toBeCloseTo(moment, 6);
+		});
+	});
+
+	it('lets tips see a sunken light longer than roots', () => {
+		const sunken: Direction = [Math.sqrt(1 - 0.04), 0, -0.2];
+		expect(lightMoments(ptm, sunken, 0.02)[5]).toBe(0);
+		expect(lightMoments(ptm, sunken, 1)[5]).toBeGreaterThan(0.5);
+	});
+
+	it('is dark from where the ball of fur hides the lamp', () => {
+		const dip = Math.sqrt(1 - (BODY_RADIUS / (BODY_RADIUS + 1)) ** 2);
+		const z = -dip - 1e-6;
+		expect(lightMoments(ptm, [Math.sqrt(1 - z * z), 0, z], 1)).toEqual(
+			[0, 0, 0, 0, 0, 0].map((x) => expect.closeTo(x)),
+		);
+		expect(lightMoments(ptm, [0, 0, -1], 1).every((moment) => moment === 0)).toBe(true);
+	});
+});
+
+describe('basis', () => {
+	it("is eq. (2)'s, without factors 2", () => {
+		expect(evaluateBasis({ kind: 'ptm' }, [0.3, -0.5, 0.81])).toEqual(
+			[0.09, 0.25, -0.15, 0.3, -0.5, 1].map((x) => expect.closeTo(x)),
+		);
+	});
+
+	it('has 27 smooth functions at degree 4', () => {
+		expect(smoothFunctions([0.3, -0.5, 0.81], 4)).toHaveLength(27);
+	});
+
+	it('never gives negative light', () => {
+		expect(relight([-1, 0], [1, 0])).toBe(0);
+	});
+});

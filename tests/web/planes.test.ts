@@ -1,0 +1,95 @@
+import { encode } from 'fast-png';
+import { describe, expect, it } from 'vitest';
+import { decodePlane, mipLevels, type Texels, textureArray } from '../../web/fur/planes.ts';
+
+const noise = (length: number) => Uint8Array.from({ length }, (_, i) => (i * 7919 + (i >> 3) * 104729) % 256);
+
+const png = (width: number, height: number, channels: number, depth: 8 | 16 = 8) => {
+	const data = depth === 8 ? noise(width * height * channels) : new Uint16Array(width * height * channels);
+	return encode({ width, height, channels, depth, data });
+};
+
+describe('decodePlane', () => {
+	it('keeps every byte, those of empty texels too', () => {
+		const texels = noise(8 * 16 * 4);
+		for (let i = 3; i < texels.length; i += 8) texels[i] = 0;
+		expect(decodePlane('p', encode({ width: 8, height: 16, channels: 4, data: texels }), 8, 2)).toEqual(texels);
+	});
+
+	it('makes RGB opaque', () => {
+		const texels = decodePlane('colour', png(4, 8, 3), 4, 2);
+		expect([...texels.subarray(0, 8)]).toEqual([...noise(3), 255, ...noise(6).subarray(3), 255]);
+	});
+
+	it.each([
+		['wrong size', png(8, 8, 4), 'plane0.png: got 8 × 8 pixels, expected 8 × 16'],
+		['grey', png(8, 16, 1), 'plane0.png: got 1 channels of 8 bits, expected RGB or RGBA of 8'],
+		['16 bits', png(8, 16, 4, 16), 'plane0.png: got 4 channels of 16 bits, expected RGB or RGBA of 8'],
+		['no PNG', new TextEncoder().encode('hello'), /^plane0\.png: not a readable PNG/],
+		['cut off', png(8, 16, 4).subarray(0, 60), /^plane0\.png: not a readable PNG/],
+	])('refuses %s', (_, bytes, message) => {
+		expect(() => decodePlane('plane0.png', bytes, 8, 2)).toThrow(message);
+	});
+});
+
+/** Two planes of one layer with the given coverage; every other channel is `value` where there is coverage, else 0. */
+function planesOf(alpha: number[], value: number): Texels[] {
+	const plane = (channel: number) =>
+		Uint8Array.from(alpha.flatMap((a) => [0, 1, 2, 3].map((c) => (c === channel ? a : a ? value : 0))));
+	return [plane(-1), plane(2)];
+}
+
+describe('mipLevels', () => {
+	const size = 16;
+	const random = noise(size * size);
+	const alpha = Array.from(random, (x) => (x < 64 ? 30 + x : 0)); // a quarter of the texels is covered a little
+
+	it('go down to one texel and leave level 0 as it is', () => {
+		const planes = planesOf(alpha, 200);
+		const levels = mipLevels(planes, size, 1, 6, 0.1);
+		expect(levels.map(([plane]) => plane?.length)).toEqual([16, 8, 4, 2, 1].map((n) => n * n * 4));
+		expect(levels[0]).toEqual(planes);
+	});
+
+	it('average coefficients by coverage: empty texels do not count', () => {
+		for (const [plane] of mipLevels(planesOf(alpha, 200), size, 1, 6, 0.1).slice(1, 4)) {
+			const values = Array.from(plane ?? []).filter((_, i) => i % 4 === 0);
+			expect(values.filter((value) => value > 0 && value < 190)).toEqual([]);
+			expect(Math.max(...values)).toBe(200);
+		}
+	});
+
+	it('keep the share that the alpha cut lets through', () => {
+		const share = (values: number[]) => values.filter((value) => value > 0.1 * 255).length / values.length;
+		const levels = mipLevels(planesOf(alpha, 200), size, 1, 6, 0.1);
+		const shares = levels.map(([, plane]) => share(Array.from(plane ?? []).filter((_, i) => i % 4 === 2)));
+		for (const passed of shares.slice(1, 4)) expect(Math.abs(passed - (shares[0] ?? 0))).toBeLessThan(0.13);
+	});
+
+	it('find coverage in the alpha of the only plane with three coefficients', () => {
+		const plane = Uint8Array.from(alpha.flatMap((a) => [a ? 90 : 0, 0, 0, a]));
+		const [, half] = mipLevels([plane], size, 1, 3, 0.1);
+		const values = Array.from(half?.[0] ?? []).filter((_, i) => i % 4 === 0);
+		expect(Math.max(...values)).toBe(90);
+	});
+
+	it('never mix layers', () => {
+		const first = planesOf(new Array(16).fill(255), 100);
+		const second = planesOf(new Array(16).fill(255), 200);
+		const both = first.map((plane, p) => Uint8Array.from([...plane, ...(second[p] as Texels)]));
+		for (const [plane] of mipLevels(both, 4, 2, 6, 0.1)) {
+			const half = (plane?.length ?? 0) / 2;
+			expect(new Set(plane?.subarray(0, half))).toEqual(new Set([100]));
+			expect(new Set(plane?.subarray(half))).toEqual(new Set([200]));
+		}
+	});
+});
+
+describe('textureArray', () => {
+	it('is unflipped, not premultiplied, and sRGB for colours only', () => {
+		const mips = mipLevels(planesOf(new Array(16).fill(255), 9), 4, 1, 6, 0.1).map(([plane]) => plane as Texels);
+		const [data, colour] = [textureArray('a', mips, 4, 1), textureArray('b', mips, 4, 1, true)];
+		expect([data.flipY, data.premultiplyAlpha, data.colorSpace, colour.colorSpace]).toEqual([false, false, '', 'srgb']);
+		expect(data.mipmaps).toHaveLength(3);
+	});
+});

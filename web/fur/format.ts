@@ -1,0 +1,95 @@
+/** The glTF extension `FUR_ptm_shells`: its shape, and the checks that a reader makes. Knows no three. */
+
+import { Validator } from '@cfworker/json-schema';
+import schema from '../../baker/furbake/asset/schema/FUR_ptm_shells.schema.json';
+
+export const EXTENSION = 'FUR_ptm_shells';
+
+/** The newest version that this reader knows; a higher major version shows the skin alone. */
+export const VERSION = '1.0';
+
+/** What the coefficients multiply: the paper's eq. (2), or weights of the 27 smooth functions, a row per coefficient. */
+export type Basis = { kind: 'ptm' } | { kind: 'eigen'; degree: number; matrix: number[][] };
+
+export type RGB = [number, number, number];
+
+/** One state of the fur. */
+export interface Pelt {
+	name: string;
+	/** Indices of images: (a0, a1, a2, a5) and (a3, a4, α, tint); with three coefficients one image (a0, a1, a2, α). */
+	planes: number[];
+	/** Index of an sRGB image: the texel's original colour. */
+	colour?: number;
+	/** The paper's λ, per coefficient: a = λ(byte − Ω). */
+	scale: number[];
+	/** The paper's Ω. */
+	bias: number[];
+}
+
+export interface FurAsset {
+	version: string;
+	/** Indices of nodes. */
+	skin: number;
+	shells: number;
+	/** Slabs of the tile. */
+	layers: number;
+	/** Texels per side of the tile. */
+	size: number;
+	/** Numbers per texel, 3 to 6. */
+	coefficients: number;
+	/** Longest fur, the model's own units. */
+	length: number;
+	/** Longest fur, tile widths. */
+	height: number;
+	basis: Basis;
+	/** A row of 9 per coefficient: spherical harmonics of the radiance → light moments. */
+	environment: number[][];
+	/** Per slab: mean displacement of the hairs at its middle, tile widths. */
+	drift: [number, number][];
+	/** Linear colours along a hair: mix(root, tip, s^power). */
+	ramp: { root: RGB; tip: RGB; tip2: RGB; power: number };
+	pelts: Pelt[];
+}
+
+const validator = new Validator(schema as object, '2020-12', false);
+
+/**
+ * Checks the extension's object and returns it typed.
+ *
+ * @returns undefined for a newer major version, which a reader leaves alone
+ * @throws Error that says what is wrong
+ */
+export function parseFur(extension: unknown): FurAsset | undefined {
+	const version = (extension as { version?: unknown } | null)?.version;
+	if (typeof version === 'string' && Number.parseInt(version, 10) > Number.parseInt(VERSION, 10)) return undefined;
+	const { valid, errors } = validator.validate(extension);
+	if (!valid) {
+		const { instanceLocation, error } = errors[errors.length - 1] ?? { instanceLocation: '#', error: 'unknown' };
+		throw new Error(`${EXTENSION}${instanceLocation.slice(1)}: ${error}`);
+	}
+	const asset = extension as FurAsset;
+	for (const [name, rows, wanted] of [
+		['drift', asset.drift.length, asset.layers],
+		['environment', asset.environment.length, asset.coefficients],
+		['basis.matrix', asset.basis.kind === 'eigen' ? asset.basis.matrix.length : 6, asset.coefficients],
+		...asset.pelts.flatMap((pelt): [string, number, number][] => [
+			[`${pelt.name}.scale`, pelt.scale.length, asset.coefficients],
+			[`${pelt.name}.bias`, pelt.bias.length, asset.coefficients],
+			[`${pelt.name}.planes`, pelt.planes.length, asset.coefficients > 3 ? 2 : 1],
+		]),
+	] as [string, number, number][]) {
+		if (rows !== wanted) throw new Error(`${EXTENSION}/${name}: got ${rows} entries, expected ${wanted}`);
+	}
+	return asset;
+}
+
+/** Where coefficient `i` is stored: plane and channel. */
+export function channelOf(i: number): { plane: number; channel: number } {
+	if (i < 3) return { plane: 0, channel: i };
+	return i === 5 ? { plane: 0, channel: 3 } : { plane: 1, channel: i - 3 };
+}
+
+/** Where the coverage α is stored. */
+export function alphaChannel(coefficients: number): { plane: number; channel: number } {
+	return coefficients > 3 ? { plane: 1, channel: 2 } : { plane: 0, channel: 3 };
+}
