@@ -1,0 +1,1 @@
+"""The files: planes, glTF, the folder they stand in, and whether all of it fits together."""

@@ -1,0 +1,63 @@
+"""What a baked folder holds, in numbers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from furbake.asset.read import Asset, AssetError
+
+
+def summary(asset: Asset) -> dict[str, Any]:
+    """Figures of an asset: plain data, lengths in the model's units. Raises AssetError where it is malformed."""
+    try:
+        return _summary(asset)
+    except (LookupError, TypeError, AttributeError) as error:
+        raise AssetError(
+            f"{asset.folder}: malformed ({type(error).__name__}: {error}), see furbake validate"
+        ) from error
+
+
+def _summary(asset: Asset) -> dict[str, Any]:
+    fur, record = asset.fur, asset.record
+    states = fur["pelts"]
+    images = sum(len(state["planes"]) for state in states)
+    colours = sum("colour" in state for state in states)
+    texels = fur["layers"] * fur["size"] ** 2
+    names = [asset.document["buffers"][0]["uri"], *(image["uri"] for image in asset.document.get("images", []))]
+    files = {name: (asset.folder / name).stat().st_size for name in ["model.gltf", *names] if _exists(asset, name)}
+    return {
+        "folder": str(asset.folder),
+        "furbake": record.get("furbake", "unknown"),
+        "input": record.get("input", {}),
+        "fur": {
+            "version": fur["version"],
+            "layers": fur["layers"],
+            "size": fur["size"],
+            "coefficients": fur["coefficients"],
+            "basis": fur["basis"]["kind"],
+            "length": fur["length"],
+            "height": fur["height"],
+            "tile": fur["length"] / fur["height"],
+            "pelts": [state["name"] for state in states],
+            "colour plane": colours > 0,
+            "texture bytes": 4 * texels * (images + colours),
+        },
+        "skin": _mesh(asset, "skin"),
+        "shells": _mesh(asset, "shells"),
+        "fit": record.get("fit", {}),
+        "files": files,
+    }
+
+
+def _mesh(asset: Asset, name: str) -> dict[str, Any]:
+    primitive = asset.primitive(asset.fur[name])
+    accessors = asset.document["accessors"]
+    return {
+        "vertices": accessors[primitive["attributes"]["POSITION"]]["count"],
+        "faces": accessors[primitive["indices"]]["count"] // 3,
+        "attributes": list(primitive["attributes"]),
+    }
+
+
+def _exists(asset: Asset, name: Any) -> bool:
+    return isinstance(name, str) and (asset.folder / name).is_file()

@@ -1,0 +1,121 @@
+"""A pelt as images: layers stacked into one column, layer 0 on top, every byte as it is.
+
+plane0 = (a0, a1, a2, a5), plane1 = (a3, a4, α, tint). Three coefficients take one plane: (a0, a1, a2, α), tint 1.
+With four or five the channels that are left over are 0. An optional third image has the original colour, sRGB.
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import OpenImageIO as oiio  # noqa: N813 — as its own documentation spells it
+from numpy.typing import NDArray
+
+from furbake.pelt.pelt import Pelt
+
+Bytes = NDArray[np.uint8]
+
+SLOTS = ((0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (0, 3))
+"""(plane, channel) of a0 to a5."""
+
+
+class PlaneError(ValueError):
+    """An image that cannot be written or read."""
+
+
+@dataclass(frozen=True)
+class Planes:
+    """The images of one pelt: (layers·size, size, 4) bytes each, the colour with 3 channels."""
+
+    coefficients: tuple[Bytes, ...]
+    colour: Bytes | None
+
+
+@dataclass(frozen=True)
+class Texels:
+    """What the images hold, per texel; the reverse of `pack`.
+
+    codes : (K, N, N, C), alpha, tint : (K, N, N), colour : (K, N, N, 3) bytes or None
+    """
+
+    codes: Bytes
+    alpha: Bytes
+    tint: Bytes
+    colour: Bytes | None
+
+
+def pack(pelt: Pelt) -> Planes:
+    """The images of a pelt. Raises ValueError for fewer than 3 or more than 6 coefficients."""
+    layers, size, count = pelt.layers, pelt.size, pelt.coefficients
+    if not 3 <= count <= 6:
+        raise ValueError(f"coefficients: got {count}, expected 3 to 6")
+    colour = None if pelt.colour is None else _column(pelt.colour)
+    if count == 3:
+        return Planes((_column(np.concatenate([pelt.codes, pelt.alpha[..., None]], axis=-1)),), colour)
+    planes = np.zeros((2, layers, size, size, 4), dtype=np.uint8)
+    for i, (plane, channel) in enumerate(SLOTS[:count]):
+        planes[plane, ..., channel] = pelt.codes[..., i]
+    planes[1, ..., 2] = pelt.alpha
+    planes[1, ..., 3] = pelt.tint
+    return Planes((_column(planes[0]), _column(planes[1])), colour)
+
+
+def unpack(planes: Planes, coefficients: int) -> Texels:
+    """What a pelt's images hold. Raises ValueError where shapes and count disagree."""
+    first = planes.coefficients[0]
+    size = first.shape[1]
+    if len(planes.coefficients) != (1 if coefficients == 3 else 2) or first.shape[0] % size or first.shape[2] != 4:
+        raise ValueError(f"planes: got {[p.shape for p in planes.coefficients]} for {coefficients} coefficients")
+    stacks = [plane.reshape(-1, size, size, 4) for plane in planes.coefficients]
+    colour = None if planes.colour is None else planes.colour.reshape(-1, size, size, 3)
+    if coefficients == 3:
+        alpha = stacks[0][..., 3]
+        return Texels(stacks[0][..., :3], alpha, np.full_like(alpha, 255), colour)
+    codes = np.stack([stacks[plane][..., channel] for plane, channel in SLOTS[:coefficients]], axis=-1)
+    return Texels(codes, stacks[1][..., 2], stacks[1][..., 3], colour)
+
+
+def write_png(path: Path, pixels: Bytes, srgb: bool = False) -> None:
+    """Write (height, width, channels) bytes as they are. Raises PlaneError."""
+    height, width, channels = pixels.shape
+    spec = oiio.ImageSpec(width, height, channels, "uint8")
+    spec.attribute("oiio:UnassociatedAlpha", 1)  # or RGB is multiplied by A, and coefficients are lost
+    spec.attribute("png:compressionLevel", 9)
+    spec.attribute("oiio:ColorSpace", "srgb_rec709_scene" if srgb else "data")
+    output = oiio.ImageOutput.create(os.fspath(path))
+    if output is None:
+        raise PlaneError(f"{path}: {oiio.geterror() or 'no PNG writer'}")
+    try:
+        written = output.open(os.fspath(path), spec) and output.write_image(np.ascontiguousarray(pixels))
+        if not (written and output.close()):
+            raise PlaneError(f"{path}: {output.geterror() or 'cannot be written'}")
+    finally:
+        output.close()
+
+
+def read_png(path: Path) -> Bytes:
+    """(height, width, channels) bytes of an image as they are. Raises PlaneError."""
+    config = oiio.ImageSpec()
+    config.attribute("oiio:UnassociatedAlpha", 1)
+    source = oiio.ImageInput.open(os.fspath(path), config)
+    if source is None:
+        raise PlaneError(f"{path}: {' '.join(oiio.geterror().split()) or 'cannot be read'}")
+    try:
+        spec = source.spec()
+        if spec.format != oiio.UINT8:
+            raise PlaneError(f"{path}: samples are {spec.format}, expected bytes")
+        pixels = source.read_image("uint8")
+        if pixels is None:
+            raise PlaneError(f"{path}: {' '.join(source.geterror().split()) or 'cannot be read'}")
+        return np.asarray(pixels, dtype=np.uint8).reshape(spec.height, spec.width, spec.nchannels)
+    finally:
+        source.close()
+
+
+def _column(stack: Bytes) -> Bytes:
+    """(K, N, N, C) → (K·N, N, C), layer 0 on top."""
+    layers, size, _, channels = stack.shape
+    return np.ascontiguousarray(stack).reshape(layers * size, size, channels)

@@ -1,0 +1,115 @@
+"""Read a baked folder: its JSON, its accessors as arrays, its images."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from furbake.asset.gltf import EXTENSION
+from furbake.asset.planes import Bytes, read_png
+
+COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
+
+
+class AssetError(ValueError):
+    """A folder that is no readable asset; the message names the file, what was got and what was expected."""
+
+
+@dataclass(frozen=True)
+class Asset:
+    """A baked folder.
+
+    document : the glTF, record : bake.json (empty if there is none), data : model.bin, or what the buffer names
+    """
+
+    folder: Path
+    document: dict[str, Any]
+    record: dict[str, Any]
+    data: bytes
+
+    @property
+    def fur(self) -> dict[str, Any]:
+        """The extension's object. Raises AssetError where there is none."""
+        found = self.document.get("extensions")
+        fur = found.get(EXTENSION) if isinstance(found, dict) else None
+        if not isinstance(fur, dict):
+            raise AssetError(f"model.gltf: no {EXTENSION}, expected a folder that furbake wrote")
+        return fur
+
+    def primitive(self, node: int) -> dict[str, Any]:
+        """The first primitive of a node's mesh."""
+        primitive = self.document["meshes"][self.document["nodes"][node]["mesh"]]["primitives"][0]
+        if not isinstance(primitive, dict):
+            raise TypeError("primitive is no object")
+        return primitive
+
+    def accessor(self, index: int) -> NDArray[Any]:
+        """(count, width) components as stored, or (count,) for scalars. Raises AssetError where it leaves the data."""
+        accessor = self.document["accessors"][_index(index)]
+        view = self.document["bufferViews"][_index(accessor["bufferView"])]
+        dtype, width = np.dtype(COMPONENTS[accessor["componentType"]]), WIDTHS[accessor["type"]]
+        count = _index(accessor["count"])
+        item = width * dtype.itemsize
+        stride = _index(view.get("byteStride", item))
+        inner, start = _index(accessor.get("byteOffset", 0)), _index(view.get("byteOffset", 0))
+        end = inner + stride * (count - 1) + item
+        length = _index(view["byteLength"])
+        if count < 1 or stride < item or end > length or start + length > len(self.data):
+            raise AssetError(f"model.gltf: accessor {index} leaves its buffer, expected {end} of {length} bytes there")
+        raw = np.frombuffer(self.data, np.uint8, length, start)[inner:]
+        rows = np.lib.stride_tricks.as_strided(raw, (count, item), (stride, 1))
+        values = np.ascontiguousarray(rows).view(dtype)
+        return values[:, 0] if width == 1 else values
+
+    def image(self, index: int) -> Bytes:
+        """(height, width, channels) bytes of an image. Raises AssetError or PlaneError."""
+        return read_png(inside(self.folder, self.document["images"][_index(index)]["uri"]))
+
+
+def read_asset(folder: Path) -> Asset:
+    """The folder's contents. Raises AssetError where there is no readable glTF in it."""
+    if not folder.is_dir():
+        what = "is a file" if folder.exists() else "no such folder"
+        raise AssetError(f"{folder}: {what}, expected a folder that furbake wrote")
+    document = _json(folder / "model.gltf")
+    record = _json(folder / "bake.json") if (folder / "bake.json").exists() else {}
+    uri = "model.bin"
+    try:
+        uri = document["buffers"][0]["uri"]
+        data = inside(folder, uri).read_bytes()
+    except (LookupError, TypeError) as error:
+        raise AssetError("model.gltf: no buffer, expected one with its uri") from error
+    except OSError as error:
+        raise AssetError(f"{uri}: {(error.strerror or 'cannot be read').lower()}, expected the buffer") from error
+    return Asset(folder, document, record, data)
+
+
+def inside(folder: Path, uri: Any) -> Path:
+    """Path of a uri that names a file in the folder. Raises AssetError for every other."""
+    if not isinstance(uri, str) or not uri or Path(uri).name != uri or uri in (".", "..") or ":" in uri:
+        raise AssetError(f"model.gltf: uri {uri!r}, expected the name of a file in the folder")
+    return folder / uri
+
+
+def _index(value: Any) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or value < 0:
+        raise AssetError(f"model.gltf: got {value!r}, expected a number 0, 1, 2 ...")
+    return value
+
+
+def _json(path: Path) -> dict[str, Any]:
+    try:
+        found = json.loads(path.read_text("utf-8"))
+    except OSError as error:
+        raise AssetError(f"{path.name}: {(error.strerror or 'cannot be read').lower()}, expected JSON") from error
+    except (ValueError, RecursionError) as error:
+        raise AssetError(f"{path.name}: not JSON ({str(error).splitlines()[0]}), expected a JSON object") from error
+    if not isinstance(found, dict):
+        raise AssetError(f"{path.name}: a JSON {type(found).__name__}, expected an object")
+    return found

@@ -1,0 +1,223 @@
+"""Is a baked folder what it claims to be? Schema, references, sizes, ranges; every problem in one sentence."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from jsonschema import Draft202012Validator
+
+from furbake.asset.gltf import EXTENSION, QUANTIZATION
+from furbake.asset.planes import PlaneError
+from furbake.asset.read import Asset, AssetError, read_asset
+
+REQUIRED = ("POSITION", "NORMAL", "TANGENT", "TEXCOORD_0")
+HEAVIEST = 32
+"""Bytes of a shell vertex."""
+
+UNIT = 0.02
+"""How far from 1 a normal may be: bytes hold it to 1/127 per component."""
+
+FIGURES = (
+    "psnr", "psnr_worst_layer", "psnr_composite", "r2", "psnr_quantised", "psnr_quantised_composite",
+    "psnr_quantisation",
+)  # fmt: skip
+
+
+def validate(folder: Path) -> list[str]:
+    """What is wrong with a baked folder, nothing when all is well."""
+    try:
+        asset = read_asset(folder)
+        fur = asset.fur
+    except AssetError as error:
+        return [str(error)]
+    problems = [f"{EXTENSION}: {_where(error)}{error.message}" for error in schema().iter_errors(fur)]
+    if problems:  # the other checks lean on the schema
+        return problems
+    for check in (_document, _nodes, _skin, _shells, _pelts, _record):
+        try:
+            problems.extend(check(asset))
+        except (AssetError, PlaneError) as error:
+            problems.append(str(error))
+        except (LookupError, TypeError, ValueError, AttributeError) as error:
+            what = check.__name__.strip("_")
+            problems.append(f"model.gltf: {what} is malformed ({type(error).__name__}: {error}), expected valid glTF")
+    return problems
+
+
+@cache
+def schema() -> Draft202012Validator:
+    """The extension's JSON schema, ready to check with."""
+    text = (files("furbake.asset") / "schema" / f"{EXTENSION}.schema.json").read_text("utf-8")
+    return Draft202012Validator(json.loads(text))
+
+
+def _where(error: Any) -> str:
+    path = "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in error.absolute_path)
+    return f"{path.lstrip('.')}: " if path else ""
+
+
+def _document(asset: Asset) -> Iterator[str]:
+    document = asset.document
+    if document["asset"]["version"] != "2.0":
+        yield f"model.gltf: glTF {document['asset']['version']}, expected 2.0"
+    used, required = document.get("extensionsUsed", []), document.get("extensionsRequired", [])
+    for name, listed in ((EXTENSION, used), (QUANTIZATION, used), (QUANTIZATION, required)):
+        if name not in listed:
+            yield f"model.gltf: {name} is not in {'extensionsUsed' if listed is used else 'extensionsRequired'}"
+    if len(document["buffers"]) != 1:
+        yield f"model.gltf: {len(document['buffers'])} buffers, expected 1"
+    size = document["buffers"][0]["byteLength"]
+    if size != len(asset.data):
+        yield f"{document['buffers'][0]['uri']}: {len(asset.data)} bytes, expected {size}"
+
+
+def _nodes(asset: Asset) -> Iterator[str]:
+    fur, nodes = asset.fur, asset.document["nodes"]
+    drawn = {root for scene in asset.document["scenes"] for root in scene.get("nodes", [])}
+    for root in list(drawn):
+        drawn |= _below(nodes, root)
+    for name in ("skin", "shells", "fins"):
+        if name not in fur:
+            continue
+        node = fur[name]
+        if node >= len(nodes) or "mesh" not in nodes[node]:
+            yield f"{EXTENSION}: {name} is node {node}, expected one of {len(nodes)} nodes that has a mesh"
+        elif (name == "skin") != (node in drawn):
+            yield f"{EXTENSION}: {name} is node {node}, expected {'in the' if name == 'skin' else 'in no'} scene"
+
+
+def _below(nodes: list[dict[str, Any]], root: int) -> set[int]:
+    found, todo = set[int](), [root]
+    while todo:
+        node = todo.pop()
+        if node not in found:
+            found.add(node)
+            todo.extend(nodes[node].get("children", []))
+    return found
+
+
+def _skin(asset: Asset) -> Iterator[str]:
+    yield from _primitive(asset, "skin", ("POSITION", "NORMAL"))
+
+
+def _shells(asset: Asset) -> Iterator[str]:
+    yield from _primitive(asset, "shells", REQUIRED)
+    primitive = asset.primitive(asset.fur["shells"])
+    attributes = primitive["attributes"]
+    views = [asset.document["bufferViews"][asset.document["accessors"][i]["bufferView"]] for i in attributes.values()]
+    weight = sum(view["byteStride"] for view in {json.dumps(v, sort_keys=True): v for v in views}.values())
+    if weight > HEAVIEST:
+        yield f"shells: {weight} bytes per vertex, expected at most {HEAVIEST}"
+    signs = np.unique(asset.accessor(attributes["TANGENT"])[:, 3])
+    if not set(signs.tolist()) <= {-127, 127, -1.0, 1.0}:
+        yield f"shells: TANGENT w of {signs[0]}, expected 1 or -1"
+    if "_WEIGHT" in attributes:
+        yield from _weights(asset, primitive)
+
+
+def _primitive(asset: Asset, name: str, required: tuple[str, ...]) -> Iterator[str]:
+    primitive = asset.primitive(asset.fur[name])
+    attributes = primitive["attributes"]
+    missing = [attribute for attribute in required if attribute not in attributes]
+    if missing:
+        yield f"{name}: no {', '.join(missing)}, expected {', '.join(required)}"
+        return
+    values = {attribute: asset.accessor(index) for attribute, index in attributes.items()}
+    count = len(values["POSITION"])
+    for attribute, array in values.items():
+        if len(array) != count:
+            yield f"{name}: {len(array)} values of {attribute}, expected {count} as of POSITION"
+        if not np.isfinite(array).all():
+            yield f"{name}: {attribute} is not finite, expected numbers"
+    indices = asset.accessor(primitive["indices"])
+    if len(indices) % 3 or indices.max() >= count:
+        yield f"{name}: {len(indices)} indices up to {indices.max()}, expected triangles of vertices below {count}"
+    for attribute in ("NORMAL", "TANGENT"):
+        if attribute in values:
+            vectors = values[attribute][:, :3].astype(np.float64)
+            vectors /= 127.0 if values[attribute].dtype == np.int8 else 1.0
+            off = float(np.abs(np.linalg.norm(vectors, axis=1) - 1.0).max())
+            if off > UNIT:
+                yield f"{name}: {attribute} is {off:.3f} off unit length, expected at most {UNIT}"
+    bounds = asset.document["accessors"][attributes["POSITION"]]
+    low, high = values["POSITION"].min(axis=0).tolist(), values["POSITION"].max(axis=0).tolist()
+    if bounds.get("min") != low or bounds.get("max") != high:
+        yield f"{name}: POSITION says {bounds.get('min')} to {bounds.get('max')}, expected {low} to {high}"
+
+
+def _weights(asset: Asset, primitive: dict[str, Any]) -> Iterator[str]:
+    """The weights of all copies of a face sum to 1 at each of its corners."""
+    attributes = primitive["attributes"]
+    weights = asset.accessor(attributes["_WEIGHT"])
+    if weights.dtype != np.uint8:
+        return
+    _, place = np.unique(asset.accessor(attributes["POSITION"]), axis=0, return_inverse=True)
+    corners = asset.accessor(primitive["indices"]).reshape(-1, 3).astype(np.int64)
+    faces, shares = place.reshape(-1)[corners], weights[corners].astype(np.int64)
+    turn = (np.argmin(faces, axis=1)[:, None] + np.arange(3)) % 3
+    faces, shares = np.take_along_axis(faces, turn, axis=1), np.take_along_axis(shares, turn, axis=1)
+    _, index = np.unique(faces, axis=0, return_inverse=True)
+    total = np.stack([np.bincount(index.reshape(-1), shares[:, i]) for i in range(3)], axis=1)
+    # Faces that quantisation has laid on top of each other count once each.
+    wrong = (total == 0) | (total % 255 != 0)
+    if wrong.any():
+        got = total[wrong][0] / 255.0
+        yield f"shells: _WEIGHT sums to {got:.3f} at {int(wrong.sum())} corners, expected 1"
+
+
+def _pelts(asset: Asset) -> Iterator[str]:
+    fur = asset.fur
+    count, layers, size = fur["coefficients"], fur["layers"], fur["size"]
+    if size & (size - 1):
+        yield f"{EXTENSION}: size {size}, expected a power of two"
+    if fur["basis"]["kind"] == "ptm" and count != 6:
+        yield f"{EXTENSION}: {count} coefficients of the basis ptm, expected 6"
+    lists = {"environment": (fur["environment"], count), "drift": (fur["drift"], layers)}
+    if fur["basis"]["kind"] == "eigen":
+        lists["basis.matrix"] = (fur["basis"]["matrix"], count)
+    for i, pelt in enumerate(fur["pelts"]):
+        lists |= {f"pelts[{i}].{key}": (pelt[key], count) for key in ("scale", "bias")}
+        lists[f"pelts[{i}].planes"] = (pelt["planes"], 1 if count == 3 else 2)
+        for index in pelt["planes"]:
+            yield from _image(asset, index, (layers * size, size, 4))
+        if "colour" in pelt:
+            yield from _image(asset, pelt["colour"], (layers * size, size, 3))
+    for name, (values, expected) in lists.items():
+        if len(values) != expected:
+            yield f"{EXTENSION}: {name} has {len(values)} rows, expected {expected}"
+        elif not np.isfinite(np.array(values, dtype=np.float64)).all():
+            yield f"{EXTENSION}: {name} is not finite, expected numbers"
+
+
+def _image(asset: Asset, index: int, shape: tuple[int, int, int]) -> Iterator[str]:
+    images = asset.document.get("images", [])
+    if index >= len(images):
+        yield f"{EXTENSION}: a pelt uses image {index}, expected one of {len(images)}"
+        return
+    got = asset.image(index).shape
+    if got != shape:
+        yield (
+            f"{images[index]['uri']}: {got[1]} × {got[0]} texels with {got[2]} channels, "
+            f"expected {shape[1]} × {shape[0]} with {shape[2]}"
+        )
+
+
+def _record(asset: Asset) -> Iterator[str]:
+    record = asset.record
+    missing = [key for key in ("furbake", "libraries", "options", "input", "key", "fit") if key not in record]
+    if missing:
+        yield f"bake.json: no {', '.join(missing)}, expected the record of the bake"
+        return
+    figures = {name: record["fit"].get(name) for name in FIGURES}
+    bound = record["fit"].get("bound", {})
+    figures |= {f"bound.{name}": bound.get(name) for name in ("rank", "psnr", "psnr_composite")}
+    for name, value in figures.items():
+        if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+            yield f"bake.json: fit.{name} is {value!r}, expected a number"

@@ -1,0 +1,247 @@
+"""The pipeline: from a mesh and options to a folder, one call per stage, in reading order."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext, suppress
+from dataclasses import dataclass, field
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from furbake.asset.gltf import write_gltf
+from furbake.asset.store import atomic_file, atomic_folder
+from furbake.options import BakeOptions
+from furbake.pelt import basis as bases
+from furbake.pelt.basis import Basis, environment
+from furbake.pelt.fill import fill
+from furbake.pelt.fit import Judge, fit, relight
+from furbake.pelt.pelt import Pelt, Ramp
+from furbake.pelt.quantise import byte_range, dequantise, quantise, srgb_bytes, unit_bytes
+from furbake.pelt.strands import Strands, grow
+from furbake.pelt.transport import hemisphere, sample
+from furbake.pelt.volume import OVERSAMPLE, Volume, coarsen, voxelise
+from furbake.surface.mesh import Surface, load_mesh
+from furbake.surface.projection import project
+from furbake.surface.shapes import builtin, is_builtin
+from furbake.surface.thickness import length_by_thickness
+
+LIBRARIES = ("numpy", "scipy", "OpenImageIO", "trimesh", "embreex", "DracoPy")
+STAGES = ("mesh", "strands", "volume", "light", "fit", "write")
+
+Progress = Callable[[str, float], None]
+Floats = NDArray[np.float64]
+Single = NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class BakeResult:
+    """Where the asset is, what `bake.json` says, and the seconds of every stage (which are not stored)."""
+
+    folder: Path
+    record: dict[str, Any]
+    seconds: dict[str, float]
+
+
+@dataclass
+class _Clock:
+    """Tells the caller which stage has begun, and times it."""
+
+    progress: Progress
+    seconds: dict[str, float] = field(default_factory=dict)
+
+    @contextmanager
+    def stage(self, name: str) -> Iterator[Callable[[float], None]]:
+        start = time.perf_counter()
+        self.progress(name, 0.0)
+        yield lambda fraction: self.progress(name, fraction)
+        self.seconds[name] = time.perf_counter() - start
+        self.progress(name, 1.0)
+
+
+@dataclass(frozen=True)
+class Lighting:
+    """Directions, which of them the fit does not see, and L under each of them.
+
+    lights : (n, 3), held_out : (n,) bool, samples : (n, K, N, N) float32
+    """
+
+    lights: Floats
+    held_out: NDArray[np.bool_]
+    samples: Single
+
+
+def bake(
+    model: str,
+    out: Path,
+    options: BakeOptions | None = None,
+    *,
+    force: bool = False,
+    samples: Path | None = None,
+    progress: Progress = lambda stage, fraction: None,
+) -> BakeResult:
+    """Bake `model` (a file or the name of a built-in shape) into the folder `out`, whole or not at all.
+
+    samples : optional file for the physics itself, for others to check
+    progress : called with a stage of `STAGES` and the fraction of it that is done
+
+    Raises OptionError, MeshError or StoreError, each with one sentence.
+    """
+    options = options or BakeOptions()
+    options.check()
+    clock = _Clock(progress)
+    with atomic_folder(out, force) as folder, atomic_file(samples) if samples else nullcontext() as archive:
+        with clock.stage("mesh"):
+            surface = load_surface(model)
+            tile, length = options.dimensions(surface.extent)
+            charts = project(surface, tile, options.guide)
+            lengths = length_by_thickness(surface) if options.length_by_thickness else np.ones(len(surface.vertices))
+        height = length / tile
+        with clock.stage("strands"):
+            strands = grow(options.coat, height, options.seed)
+        with clock.stage("volume"):
+            fine = voxelise(
+                strands, height, options.layers * OVERSAMPLE, options.size * OVERSAMPLE, options.coat.opacity
+            )
+            volume = coarsen(fine)
+        with clock.stage("light") as step:
+            lighting = light(fine, options, step)
+        with clock.stage("fit"):
+            pelt, figures = fit_pelt(volume, lighting, options)
+        with clock.stage("write"):
+            record = {
+                "furbake": version("furbake"),
+                "libraries": library_versions(),
+                "options": options.as_record(),
+                "input": describe_input(model, surface),
+                "key": bake_key(model, options),
+                "fit": figures,
+            }
+            record["asset"] = write_gltf(folder, surface, charts, lengths, pelt, length)
+            (folder / "bake.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
+            if archive is not None:
+                write_samples(archive, volume, lighting, strands)
+    return BakeResult(out, record, clock.seconds)
+
+
+def load_surface(model: str) -> Surface:
+    """A built-in shape by its name, else the mesh in a file."""
+    return builtin(model) if is_builtin(model) else load_mesh(Path(model))
+
+
+def light(fine: Volume, options: BakeOptions, step: Callable[[float], None] = lambda fraction: None) -> Lighting:
+    """Sample the oversampled volume under the lights of the fit and half as many others between them."""
+    fitted = hemisphere(options.lights)
+    others = hemisphere(max(8, options.lights // 2), turn=1.0)
+    lights = np.concatenate([fitted, others])
+    held_out = np.arange(len(lights)) >= len(fitted)
+    return Lighting(lights, held_out, sample(fine, lights, flat=options.flat, progress=step))
+
+
+def fit_pelt(volume: Volume, lighting: Lighting, options: BakeOptions) -> tuple[Pelt, dict[str, Any]]:
+    """Coefficients, bytes and the figures that `bake.json` reports."""
+    alpha = volume.coverage
+    seen, unseen = lighting.lights[~lighting.held_out], lighting.lights[lighting.held_out]
+    samples = lighting.samples[~lighting.held_out]
+    basis = choose_basis(samples, alpha, seen, options)
+    coefficients = fit(samples, basis, seen)
+    filled = fill(coefficients, alpha)
+    scale, bias = byte_range(filled, alpha)
+    phi = basis(seen)
+    codes = quantise(filled, scale, bias, phi.T @ phi / len(phi))
+    coverage, tint = unit_bytes(alpha), unit_bytes(fill(volume.tint[..., None], alpha)[..., 0])
+    pelt = Pelt(
+        codes=codes,
+        alpha=coverage,
+        tint=tint,
+        colour=srgb_bytes(fill(original_colour(volume, options.ramp), alpha)) if options.colour_plane else None,
+        scale=scale,
+        bias=bias,
+        kind=basis.kind,
+        degree=basis.degree,
+        matrix=basis.matrix,
+        environment=environment(basis),
+        drift=volume.drift,
+        height=volume.height,
+        ramp=options.ramp,
+    )
+    judge = Judge(lighting.samples[lighting.held_out], alpha, volume.tint)
+    fitted, stored = relight(coefficients, basis, unseen), relight(dequantise(codes, scale, bias), basis, unseen)
+    quantised = judge.figures(stored)
+    figures = judge.figures(fitted) | {
+        "psnr_quantised": quantised["psnr"],
+        "psnr_quantised_composite": quantised["psnr_composite"],
+        "psnr_quantisation": judge.between(stored, relight(filled, basis, unseen)),
+        "bound": judge.bound(basis.coefficients),
+    }
+    return pelt, figures
+
+
+def choose_basis(samples: Single, alpha: Floats, lights: Floats, options: BakeOptions) -> Basis:
+    """The paper's polynomial, or the light curves that suit this fur best."""
+    if options.basis == "ptm":
+        return bases.PTM
+    return bases.eigen(samples.reshape(len(samples), -1), alpha.ravel(), lights, options.coefficients)
+
+
+def original_colour(volume: Volume, ramp: Ramp) -> Floats:
+    """The paper's (Rn, Gn, Bn): colour of every texel's hairs in plain light, linear, (K, N, N, 3)."""
+    layers = volume.sigma.shape[0]
+    s = ((np.arange(layers) + 0.5) / layers).reshape(-1, 1, 1, 1)
+    hue = volume.hue[..., None]
+    tip = (1 - hue) * np.array(ramp.tip) + hue * np.array(ramp.tip2)
+    colour = np.array(ramp.root) + (tip - np.array(ramp.root)) * s**ramp.power
+    return np.asarray(colour * volume.tint[..., None])
+
+
+def write_samples(archive: BinaryIO, volume: Volume, lighting: Lighting, strands: Strands) -> None:
+    """The physics for others to check, as a NumPy archive."""
+    np.savez_compressed(
+        archive,
+        sigma=volume.sigma,
+        tangent=volume.tangent,
+        tint=volume.tint,
+        height=volume.height,
+        lights=lighting.lights,
+        held_out=lighting.held_out,
+        L=lighting.samples,
+        strands=strands.points,
+        radius=strands.radius,
+    )
+
+
+def library_versions() -> dict[str, str]:
+    """Versions of the libraries that the result depends on, of those that are there."""
+    versions = {}
+    for name in LIBRARIES:
+        with suppress(PackageNotFoundError):
+            versions[name] = version(name)
+    return versions
+
+
+def describe_input(model: str, surface: Surface) -> dict[str, Any]:
+    """Name, hash and size of what was baked."""
+    return {
+        "name": Path(model).name,
+        "sha256": input_hash(model),
+        "vertices": len(surface.vertices),
+        "faces": len(surface.faces),
+    }
+
+
+def input_hash(model: str) -> str:
+    """SHA-256 of the file, or of the built-in shape's name."""
+    data = model.encode() if is_builtin(model) else Path(model).read_bytes()
+    return hashlib.sha256(data).hexdigest()
+
+
+def bake_key(model: str, options: BakeOptions) -> str:
+    """SHA-256 of everything that decides the result: version, options, input. A differing key means a stale asset."""
+    parts = {"furbake": version("furbake"), "options": options.as_record(), "input": input_hash(model)}
+    return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()

@@ -1,0 +1,61 @@
+"""What the shells stand on: a surface with texture coordinates, vertices repeated where patches overlap or end."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Charts:
+    """A textured copy of a surface.
+
+    source : (M,) int, vertex of the surface that each vertex here is a copy of
+    faces : (F', 3) int, into the copies; every one has a positive Jacobian (is not mirrored)
+    tangents : (M, 4) float, unit T along growing u, and w = ±1: B = w·N×T along growing v
+    uv : (M, 2) float, tiles
+    weights : (M,) float 0..1, share of each copy in the fur
+    group : (M,) int, the weights of the copies of one group sum to 1. A source vertex has one group, or several
+        where different copies serve different faces around it (texture seams, sharp corners)
+    """
+
+    source: Ints
+    faces: Ints
+    tangents: Floats
+    uv: Floats
+    weights: Floats
+    group: Ints
+
+
+@dataclass(frozen=True)
+class Natural:
+    """The texture coordinates that a built-in shape has by itself, before a tile width is known.
+
+    source, faces, tangents : as in `Charts`
+    uv : (M, 2) float, 0..1 over the whole shape
+    lengths : mean lengths of the shape along u and v, model units
+    closed : whether u and v meet their own beginning, so that a whole number of tiles must fit
+    """
+
+    source: Ints
+    faces: Ints
+    tangents: Floats
+    uv: Floats
+    lengths: tuple[float, float]
+    closed: tuple[bool, bool]
+
+    def charts(self, tile: float) -> Charts:
+        """Charts for tiles about `tile` model units wide."""
+        tiles = [
+            float(max(1, round(length / tile))) if closed else length / tile
+            for length, closed in zip(self.lengths, self.closed, strict=True)
+        ]
+        count = len(self.source)
+        return Charts(
+            self.source, self.faces, self.tangents, self.uv * np.array(tiles), np.ones(count), np.arange(count)
+        )

@@ -1,0 +1,77 @@
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from furbake import BakeOptions, bake
+from furbake.asset.planes import Planes, read_png, unpack
+from furbake.bake import STAGES
+from furbake.pelt.basis import Basis
+from furbake.pelt.fit import Judge, relight
+from furbake.pelt.quantise import dequantise
+
+SMALL = replace(BakeOptions(), layers=6, size=32, lights=32)
+
+
+def test_stages_come_in_order_each_to_its_end(tmp_path: Path) -> None:
+    seen: list[tuple[str, float]] = []
+    result = bake("plane", tmp_path / "out", SMALL, progress=lambda stage, done: seen.append((stage, done)))
+    assert [stage for stage, done in seen if done == 0] == list(STAGES)
+    assert [stage for stage, done in seen if done == 1][::-1][0] == "write"
+    assert set(result.seconds) == set(STAGES)
+    assert result.folder == tmp_path / "out"
+
+
+@pytest.mark.parametrize(("basis", "coefficients"), [("ptm", 6), ("eigen", 6), ("eigen", 4), ("eigen", 3)])
+def test_stored_planes_give_back_the_samples_as_well_as_the_record_says(
+    tmp_path: Path, basis: str, coefficients: int
+) -> None:
+    options = replace(SMALL, basis=basis, coefficients=coefficients)
+    record = bake("plane", tmp_path / "out", options, samples=tmp_path / "s.npz").record
+    samples = np.load(tmp_path / "s.npz")
+    gltf = json.loads((tmp_path / "out" / "model.gltf").read_text("utf-8"))
+    fur = gltf["extensions"]["FUR_ptm_shells"]
+    pelt = fur["pelts"][0]
+    images = tuple(read_png(tmp_path / "out" / gltf["images"][i]["uri"]) for i in pelt["planes"])
+    texels = unpack(Planes(images, None), coefficients)
+
+    matrix = np.array(fur["basis"]["matrix"]) if basis == "eigen" else None
+    stored = dequantise(texels.codes, np.array(pelt["scale"]), np.array(pelt["bias"]))
+    held_out = samples["held_out"]
+    light = relight(
+        stored, Basis(fur["basis"]["kind"], fur["basis"].get("degree"), matrix), samples["lights"][held_out]
+    )
+    alpha = -np.expm1(-samples["sigma"] * samples["height"] / options.layers)
+    figures = Judge(samples["L"][held_out], alpha, samples["tint"]).figures(light)
+
+    assert np.abs(texels.alpha / 255 - alpha).max() <= 0.5 / 255 + 1e-9
+    assert figures["psnr"] == pytest.approx(record["fit"]["psnr_quantised"], abs=0.01)
+    assert record["fit"]["psnr_quantisation"] >= 48
+    assert record["fit"]["psnr"] < record["fit"]["bound"]["psnr"]
+    assert record["fit"]["psnr"] > 15
+
+
+def test_six_eigen_curves_beat_the_polynomial(tmp_path: Path) -> None:
+    figures = [
+        bake("plane", tmp_path / basis, replace(SMALL, lights=64, basis=basis)).record["fit"]
+        for basis in ("ptm", "eigen")
+    ]
+    assert figures[1]["psnr"] > figures[0]["psnr"] + 0.5
+    assert figures[1]["psnr_composite"] > figures[0]["psnr_composite"] + 0.5
+
+
+def test_samples_hold_the_strands_and_lights_of_the_bake(tmp_path: Path) -> None:
+    bake("plane", tmp_path / "out", SMALL, samples=tmp_path / "s.npz")
+    samples = np.load(tmp_path / "s.npz")
+    hairs = SMALL.coat.guard.count + SMALL.coat.under.count
+    assert samples["strands"].shape[0] == samples["radius"].shape[0] == hairs
+    assert samples["strands"][..., 2].max() == pytest.approx(float(samples["height"]))
+    assert samples["L"].shape == (len(samples["lights"]), 6, 32, 32)
+    assert samples["L"].dtype == np.float32
+    assert (~samples["held_out"]).sum() == 32
+    assert samples["tangent"].shape == (6, 32, 32, 3)
+    np.testing.assert_allclose(np.linalg.norm(samples["tangent"], axis=-1), 1)

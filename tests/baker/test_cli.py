@@ -1,0 +1,323 @@
+"""The command, as scripts see it: exit status, the one line, and what is on disk afterwards."""
+
+from __future__ import annotations
+
+import json
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import furbake
+from furbake import BakeOptions, bake, cli
+
+TINY = ("--layers", "4", "--size", "8", "--lights", "8")
+CUBE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+
+
+def files(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+def listed() -> list[str]:
+    return sorted(path.name for path in Path().iterdir())
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_public_names() -> None:
+    assert sorted(furbake.__all__) == [
+        "BakeOptions", "BakeResult", "MeshError", "OptionError", "StoreError", "bake", "preset", "preset_names",
+        "validate",
+    ]  # fmt: skip
+    assert all(hasattr(furbake, name) for name in furbake.__all__)
+
+
+def test_bake_inspect_validate(run: Callable[..., Any]) -> None:
+    done = run("bake", "torus:8x12", "-o", "out", *TINY)
+    assert done.status == 0
+    assert re.fullmatch(r"out: torus:8x12 in 4 layers of 8 x 8, [\d.]+ dB, [\d.]+ MB, [\d.]+ s\n", done.out)
+    stages = re.findall(r"furbake: (\w+) [\d.]+ s\n", done.err)
+    assert stages == ["mesh", "strands", "volume", "light", "fit", "write"]
+    assert set(files(Path("out"))) == {"model.gltf", "model.bin", "plane0.png", "plane1.png", "colour.png", "bake.json"}
+    checked = run("validate", "out")
+    assert (checked.status, checked.out, checked.err) == (0, "out: valid\n", "")
+    told = run("inspect", "out")
+    assert "layers:                   4" in told.out
+    assert json.loads(run("inspect", "out", "--json").out)["fur"]["layers"] == 4
+
+
+def test_json_is_all_there_is_on_standard_output(run: Callable[..., Any]) -> None:
+    done = run("bake", "plane", "-o", "out", *TINY, "--json")
+    told = json.loads(done.out)
+    assert told["baked"] is True
+    assert set(told["seconds"]) == {"mesh", "strands", "volume", "light", "fit", "write"}
+    record = json.loads(Path("out/bake.json").read_text())
+    assert {key: told[key] for key in record} == record
+    assert "seconds" not in record
+
+
+def test_quiet(run: Callable[..., Any]) -> None:
+    done = run("bake", "plane", "-o", "out", *TINY, "--quiet")
+    assert (done.status, done.out, done.err) == (0, "", "")
+
+
+def test_same_input_same_folder(tiny: BakeOptions) -> None:
+    """Acceptance 7: two bakes are identical, bake.json included."""
+    for model in ("sphere", "torus:8x12"):
+        bake(model, Path(f"{model}-a"), tiny)
+        bake(model, Path(f"{model}-b"), tiny)
+        assert files(Path(f"{model}-a")) == files(Path(f"{model}-b"))
+
+
+def test_record_has_every_figure(tiny: BakeOptions) -> None:
+    """Acceptance 7: every figure of the format, and quantisation above 48 dB."""
+    result = bake("plane", Path("out"), tiny)
+    fit = json.loads(Path("out/bake.json").read_text())["fit"]
+    assert fit == result.record["fit"]
+    assert set(fit) >= {
+        "psnr", "psnr_worst_layer", "psnr_composite", "r2", "psnr_quantised", "psnr_quantised_composite",
+        "psnr_quantisation", "bound",
+    }  # fmt: skip
+    assert set(fit["bound"]) >= {"rank", "psnr", "psnr_composite"}
+    assert fit["psnr_quantisation"] >= 48
+
+
+def test_preset_gives_what_is_not_given(run: Callable[..., Any]) -> None:
+    run("bake", "plane", "-o", "out", *TINY, "--quiet", "--seed", "7", "--tile", "0.5", "--height", "0.25")
+    options = json.loads(Path("out/bake.json").read_text())["options"]
+    assert (options["seed"], options["layers"], options["tile"], options["basis"]) == (7, 4, 0.5, "ptm")
+    assert json.loads(Path("out/model.gltf").read_text())["extensions"]["FUR_ptm_shells"]["length"] == 0.125
+
+
+def test_samples(run: Callable[..., Any]) -> None:
+    assert run("bake", "plane", "-o", "out", *TINY, "--samples", "s.npz").status == 0
+    with np.load("s.npz") as samples:
+        layers, size, lights = 4, 8, len(samples["lights"])
+        assert samples["sigma"].shape == (layers, size, size)
+        assert samples["tangent"].shape == (layers, size, size, 3)
+        assert samples["L"].shape == (lights, layers, size, size)
+        assert samples["L"].dtype == np.float32
+        assert samples["held_out"].dtype == bool
+        assert samples["strands"].shape[:2] == samples["radius"].shape
+    assert listed() == ["out", "s.npz"]
+
+
+BAD_COMMANDS = {
+    # Acceptance 9.
+    (
+        "bake",
+        "nope.obj",
+        "-o",
+        "out",
+    ): "nope.obj: no such file, expected a mesh file or sphere, plane, torus, torus:RxC",
+    ("bake", "folder", "-o", "out"): "folder: is a folder, expected a mesh file",
+    ("bake", "empty.obj", "-o", "out"): "empty.obj: 0 bytes, expected a mesh file",
+    ("bake", "text.obj", "-o", "out"): "text.obj: no faces, expected a surface of triangles",
+    ("bake", "points.obj", "-o", "out"): "points.obj: no faces, expected a surface of triangles",
+    ("bake", "nan.obj", "-o", "out"): "nan.obj: 1 of 4 vertices are not finite, expected numbers (no NaN, no infinity)",
+    ("bake", "zero.obj", "-o", "out"): "zero.obj: all faces have zero area, expected a surface",
+    ("bake", "plane", "-o", "out", "--size", "0"): "size: got 0, expected 8 to 512",
+    ("bake", "plane", "-o", "out", "--lights", "3"): "lights: got 3, expected 8 to 1024",
+    ("bake", "plane", "-o", "out", "--length", "-1"): "length: got -1, expected a length above 0",
+    ("bake", "plane", "-o", "old"): "old: exists already, expected a new folder (or --force to replace it)",
+    ("bake", "plane", "-o", "/proc/nowhere/out"): "/proc/nowhere/out: no such file or directory, expected a folder",
+    # And their relatives.
+    ("bake", "plane", "-o", "text.obj"): "text.obj: is a file, expected a new folder",
+    ("bake", "plane", "-o", "folder", "--force"): "folder: holds the folder thing and is no bake, expected a",
+    ("bake", "plane", "-o", "out", "--length", "nan"): "length: got nan, expected a length above 0",
+    ("bake", "plane", "-o", "out", "--size", "48"): "size: got 48, expected a power of two",
+    ("bake", "plane", "-o", "out", "--size", "big"): "size: got 'big', expected a whole number",
+    ("bake", "plane", "-o", "out", "--tile", "wide"): "tile: got 'wide', expected a number",
+    ("bake", "plane", "-o", "out", "--layers"): "layers: got nothing, expected a value",
+    ("bake", "plane", "-o", "out", "--basis", "fft"): "basis: got 'fft', expected ptm or eigen",
+    ("bake", "plane", "-o", "out", "--coefficients", "4"): "coefficients: got 4, expected 6 for the basis ptm",
+    (
+        "bake",
+        "plane",
+        "-o",
+        "out",
+        "--guide",
+        "comb.json",
+    ): "guide: got 'comb.json', expected nose-tail or down (a file",
+    ("bake", "plane", "-o", "out", "--preset", "nope"): "preset: got 'nope', expected one of ",
+    ("bake", "plane", "-o", "out", "--lay", "8"): "--lay 8: unknown, expected arguments of",
+    (
+        "bake",
+        "plane",
+        "-o",
+        "out",
+        "--length",
+        "1",
+        "--tile",
+        "1",
+        "--height",
+        "1",
+    ): "length: got length, tile and height",
+    ("bake", "torus:2x3", "-o", "out"): "torus:2x3: 2 rows and 3 columns, expected 3 to 1024 of each",
+    ("bake", "plane", "-o", "out", "--samples", "folder"): "folder: is a folder, expected a file to write",
+    ("bake", "plane"): "-o: missing, expected furbake bake MODEL -o DIR",
+    ("bake",): "MODEL, -o: missing, expected furbake bake MODEL -o DIR",
+    ("bake", "", "-o", "out"): "MODEL: got '', expected a path",
+    ("bake", "a\0b", "-o", "out"): "MODEL: got 'a\\x00b', expected a path",
+    ("inspect", "nope"): "nope: no such folder, expected a folder that furbake wrote",
+    ("inspect", "folder"): "model.gltf: no such file or directory, expected JSON",
+    ("validate", "nope"): "nope: no such folder, expected a folder that furbake wrote",
+    ("fry",): "command: got 'fry', expected bake, inspect, validate, presets",
+    (): "COMMAND: missing, expected furbake bake, inspect, validate or presets",
+}
+
+
+@pytest.mark.parametrize("command", BAD_COMMANDS, ids=lambda command: "_".join(command).replace("\0", "0") or "nothing")
+def test_bad_input_is_one_line(run: Callable[..., Any], here: Path, command: tuple[str, ...]) -> None:
+    Path("folder/thing").mkdir(parents=True)
+    Path("old").mkdir()
+    Path("old/bake.json").write_text("old")
+    Path("empty.obj").touch()
+    Path("text.obj").write_text("Dear diary,\nno triangles today.\n")
+    Path("points.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\n")
+    Path("nan.obj").write_text(CUBE.replace("v 1", "v nan"))
+    Path("zero.obj").write_text("v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n")
+    before = sorted(str(path) for path in here.rglob("*"))
+    args = ["bake", *TINY, *command[1:]] if "-o" in command else command
+    done = run(*args)
+    assert (done.status, done.out) == (2, "")
+    lines = done.err.splitlines()
+    if "--samples" not in command:  # that file is only written at the end
+        assert len(lines) == 1
+    assert lines[-1].startswith(f"furbake: error: {BAD_COMMANDS[command]}")
+    assert sorted(str(path) for path in here.rglob("*")) == before
+    assert Path("old/bake.json").read_text() == "old"
+
+
+def test_undecodable_draco(run: Callable[..., Any], here: Path) -> None:
+    """Acceptance 9, through a process of its own: nothing else may reach the terminal."""
+    text = json.dumps(
+        {
+            "asset": {"version": "2.0"},
+            "scenes": [{"nodes": [0]}],
+            "nodes": [{"mesh": 0}],
+            "meshes": [
+                {
+                    "primitives": [
+                        {
+                            "attributes": {"POSITION": 1},
+                            "indices": 0,
+                            "extensions": {
+                                "KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}
+                            },
+                        }
+                    ]
+                }
+            ],
+            "accessors": [
+                {"componentType": 5123, "count": 6, "type": "SCALAR"},
+                {"componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 1]},
+            ],
+            "bufferViews": [{"buffer": 0, "byteLength": 12}],
+            "buffers": [{"byteLength": 12, "uri": "data:application/octet-stream;base64,RFJBQ08BAgMEBQYH"}],
+            "extensionsUsed": ["KHR_draco_mesh_compression"],
+            "extensionsRequired": ["KHR_draco_mesh_compression"],
+        }
+    )
+    Path("bad.gltf").write_text(text)
+    command = [sys.executable, "-m", "furbake.cli", "bake", "bad.gltf", "-o", "out"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == (
+        "furbake: error: bad.gltf: geometry that cannot be decoded (KHR_draco_mesh_compression), "
+        "expected intact Draco or plain data\n"
+    )
+    assert listed() == ["bad.gltf"]
+
+
+def test_failed_bake_keeps_the_old_folder(run: Callable[..., Any]) -> None:
+    assert run("bake", "plane", "-o", "out", *TINY).status == 0
+    before = files(Path("out"))
+    assert run("bake", "plane", "-o", "out", *TINY).status == 2
+    assert run("bake", "nope.obj", "-o", "out", "--force", *TINY).status == 2
+    assert files(Path("out")) == before
+    assert run("bake", "plane", "-o", "out", "--force", *TINY, "--seed", "1").status == 0
+    assert files(Path("out")) != before
+    assert listed() == ["out"]
+
+
+def test_if_stale(run: Callable[..., Any]) -> None:
+    Path("m.obj").write_text(CUBE)
+    assert json.loads(run("bake", "m.obj", "-o", "out", "--if-stale", "--json", *TINY).out)["baked"] is True
+    again = run("bake", "m.obj", "-o", "out", "--if-stale", *TINY)
+    assert (again.status, again.out, again.err) == (0, "out: up to date\n", "")
+    assert json.loads(run("bake", "m.obj", "-o", "out", "--if-stale", "--json", *TINY).out)["baked"] is False
+    Path("m.obj").write_text(CUBE.replace("v 1", "v 2"))
+    assert "up to date" not in run("bake", "m.obj", "-o", "out", "--if-stale", *TINY).out
+    assert "up to date" not in run("bake", "m.obj", "-o", "out", "--if-stale", *TINY, "--seed", "3").out
+    Path("out/plane0.png").unlink()
+    assert "up to date" not in run("bake", "m.obj", "-o", "out", "--if-stale", *TINY, "--seed", "3").out
+    assert Path("out/plane0.png").exists()
+
+
+def test_validate_lists_what_is_wrong(run: Callable[..., Any]) -> None:
+    run("bake", "plane", "-o", "out", *TINY)
+    Path("out/plane0.png").unlink()
+    Path("out/bake.json").unlink()
+    done = run("validate", "out")
+    assert done.status == 1
+    assert len(done.out.splitlines()) == 2
+    assert done.err == ""
+
+
+def test_presets_and_version(run: Callable[..., Any], capsys: pytest.CaptureFixture[str]) -> None:
+    told = run("presets")
+    assert told.status == 0
+    assert any(line.startswith("paper ") for line in told.out.splitlines())
+    assert json.loads(run("presets", "--json").out)["paper"]["layers"] == 16
+    with pytest.raises(SystemExit) as stop:
+        cli.main(["--version"])
+    assert stop.value.code == 0
+    assert re.fullmatch(r"furbake \d+\.\d+\.\d+\n", capsys.readouterr().out)
+
+
+def test_interrupt(run: Callable[..., Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    def stop(*args: Any, **kwargs: Any) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(cli, "bake", stop)
+    done = run("bake", "plane", "-o", "out")
+    assert (done.status, done.out, done.err) == (130, "", "furbake: interrupted, nothing written\n")
+
+
+def test_bar_on_a_terminal(run: Callable[..., Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TTY_COMPATIBLE", "1")
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    done = run("bake", "plane", "-o", "out", *TINY)
+    assert done.status == 0
+    assert "%" in done.err
+    assert "\x1b[" in done.err
+    assert "furbake: mesh" not in done.err
+
+
+def test_sigkill_leaves_no_folder(here: Path) -> None:
+    """Acceptance 9: a bake killed half-way leaves no DIR, and the next one clears up behind it."""
+    command = [sys.executable, "-m", "furbake.cli", "bake", "sphere", "-o", "out", "--quiet"]
+    with subprocess.Popen([*command, "--layers", "64", "--size", "128", "--lights", "512"]) as process:
+        limit = time.monotonic() + 60
+        while not [name for name in listed() if name.startswith(".out.")]:
+            assert process.poll() is None
+            assert time.monotonic() < limit
+            time.sleep(0.01)
+        process.send_signal(signal.SIGKILL)
+    assert not Path("out").exists()
+    assert len(listed()) == 1
+    assert subprocess.run([*command, *TINY], check=False).returncode == 0
+    assert listed() == ["out"]

@@ -1,0 +1,202 @@
+"""What is written is what was meant, within half a step of its bytes."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from furbake.asset.gltf import dump, numbers, quantise_positions, quantise_weights, signed, write_gltf
+from furbake.asset.read import Asset, AssetError, inside, read_asset
+from furbake.asset.validate import schema
+from furbake.pelt.pelt import Pelt
+from furbake.surface.projection import project
+from furbake.surface.shapes import builtin
+from furbake.surface.thickness import length_by_thickness
+
+
+@pytest.fixture
+def write(tmp_path: Path, make_pelt: Callable[..., Pelt]) -> Callable[..., Any]:
+    def build(name: str = "sphere", lengths: Any = None, pelt: Any = None, surface: Any = None) -> Any:
+        surface = surface or builtin(name)
+        charts = project(surface, 0.2)
+        folder = tmp_path / "asset"
+        folder.mkdir(exist_ok=True)
+        lengths = np.ones(len(surface.vertices)) if lengths is None else lengths
+        record = write_gltf(folder, surface, charts, lengths, pelt or make_pelt(), 0.12)
+        return read_asset(folder), surface, charts, record
+
+    return build
+
+
+def attribute(asset: Asset, node: int, name: str) -> np.ndarray[Any, Any]:
+    return asset.accessor(asset.primitive(node)["attributes"][name])
+
+
+def test_shells_come_back(write: Callable[..., Any]) -> None:
+    lengths = np.random.default_rng(0).random(2562)
+    asset, surface, charts, _ = write(lengths=lengths)
+    node = asset.document["nodes"][1]
+    codes = attribute(asset, 1, "POSITION")
+    back = np.array(node["translation"]) + np.array(node["scale"]) * codes / 65535
+    assert np.abs(back - surface.vertices[charts.source]).max() <= surface.extent / 65535 / 2 * 1.001
+    normals = attribute(asset, 1, "NORMAL") / 127.0
+    assert np.abs(normals - surface.normals[charts.source]).max() <= 0.5 / 127 + 1e-12
+    tangents = attribute(asset, 1, "TANGENT") / 127.0
+    assert np.abs(tangents - charts.tangents).max() <= 0.5 / 127 + 1e-12
+    assert set(np.unique(tangents[:, 3])) <= {-1.0, 1.0}
+    np.testing.assert_array_equal(attribute(asset, 1, "TEXCOORD_0"), charts.uv.astype(np.float32))
+    assert np.abs(attribute(asset, 1, "_WEIGHT") / 255.0 - charts.weights).max() <= 1 / 255
+    assert np.abs(attribute(asset, 1, "_LENGTH") / 255.0 - lengths[charts.source]).max() <= 0.5 / 255 + 1e-12
+    np.testing.assert_array_equal(asset.accessor(asset.primitive(1)["indices"]).reshape(-1, 3), charts.faces)
+    np.testing.assert_array_equal(asset.accessor(asset.primitive(0)["indices"]).reshape(-1, 3), surface.faces)
+
+
+def test_copies_of_a_vertex_are_equal_to_the_bit(write: Callable[..., Any]) -> None:
+    asset, _, charts, _ = write()
+    skin = attribute(asset, 0, "POSITION")
+    np.testing.assert_array_equal(attribute(asset, 1, "POSITION"), skin[charts.source])
+    for key in ("translation", "scale"):
+        assert asset.document["nodes"][0][key] == asset.document["nodes"][1][key]
+    assert len(set(asset.document["nodes"][1]["scale"])) == 1
+
+
+def test_weights_of_copies_sum_to_255(write: Callable[..., Any]) -> None:
+    asset, _, charts, _ = write()
+    weights = attribute(asset, 1, "_WEIGHT").astype(int)
+    _, index = np.unique(charts.group, return_inverse=True)
+    assert (np.bincount(index, weights) == 255).all()
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_weights_sum_whatever_they_are(seed: int) -> None:
+    chance = np.random.default_rng(seed)
+    group = chance.integers(0, 30, 100) * 7
+    weights = chance.random(100) ** 4
+    totals = np.bincount(group, weights)
+    weights /= totals[group]
+    codes = quantise_weights(weights, group)
+    sums = np.bincount(group, codes)
+    assert (sums[np.unique(group)] == 255).all()
+    assert np.abs(codes / 255.0 - weights).max() < 1 / 255
+
+
+@given(st.integers(0, 2**32 - 1), st.floats(1e-6, 1e6))
+def test_positions_stay_within_half_a_step(seed: int, size: float) -> None:
+    vertices = size * np.random.default_rng(seed).normal(size=(50, 3)) + size
+    codes, offset, scale = quantise_positions(vertices)
+    assert np.abs(offset + scale * codes / 65535.0 - vertices).max() <= 0.5001 * scale / 65535
+
+
+def test_signed_bytes_leave_out_minus_128() -> None:
+    assert signed(np.array([-1.0, 0.0, 1.0, -1.01])).tolist() == [-127, 0, 127, -127]
+
+
+def test_trivial_attributes_are_left_out(write: Callable[..., Any]) -> None:
+    asset, *_ = write("torus:8x12")
+    assert set(asset.primitive(1)["attributes"]) == {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0"}
+    asset, *_ = write("sphere")
+    assert set(asset.primitive(1)["attributes"]) == {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "_WEIGHT"}
+
+
+def test_a_shell_vertex_is_at_most_32_bytes(write: Callable[..., Any]) -> None:
+    surface = builtin("sphere")
+    asset, *_ = write(lengths=0.5 * length_by_thickness(surface))
+    attributes = asset.primitive(1)["attributes"]
+    assert len(attributes) == 6
+    views = [asset.document["bufferViews"][asset.document["accessors"][i]["bufferView"]] for i in attributes.values()]
+    assert sum(view["byteStride"] for view in views) <= 32
+    assert all(view["byteStride"] % 4 == 0 and view["byteOffset"] % 4 == 0 for view in views)
+
+
+def test_large_surfaces_take_32_bit_indices(write: Callable[..., Any]) -> None:
+    asset, surface, *_ = write("torus:300x300")
+    assert len(surface.vertices) > 65535
+    accessor = asset.document["accessors"][asset.primitive(0)["indices"]]
+    assert accessor["componentType"] == 5125
+    np.testing.assert_array_equal(asset.accessor(asset.primitive(0)["indices"]).reshape(-1, 3), surface.faces)
+
+
+def test_document(write: Callable[..., Any]) -> None:
+    asset, surface, charts, record = write()
+    document = asset.document
+    assert document["asset"] == {"version": "2.0", "generator": "furbake 0.1.0"}
+    assert document["extensionsUsed"] == ["FUR_ptm_shells", "KHR_mesh_quantization"]
+    assert document["extensionsRequired"] == ["KHR_mesh_quantization"]  # the fur itself is optional
+    assert document["scenes"] == [{"nodes": [0]}]
+    assert [node["name"] for node in document["nodes"]] == ["skin", "shells"]
+    assert "material" not in document["meshes"][1]["primitives"][0]
+    assert document["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] == [1, 1, 1, 1]
+    assert [image["uri"] for image in document["images"]] == ["plane0.png", "plane1.png", "colour.png"]
+    assert record["skin"] == {"vertices": len(surface.vertices), "faces": len(surface.faces)}
+    assert record["shells"] == {"vertices": len(charts.source), "faces": len(charts.faces)}
+    assert set(record["bytes"]) == {file.name for file in asset.folder.iterdir()}
+    assert all((asset.folder / name).stat().st_size == size for name, size in record["bytes"].items())
+
+
+def test_base_colour_is_kept(write: Callable[..., Any]) -> None:
+    surface = replace(builtin("plane"), colour=(0.4, 0.2, 0.1))
+    asset, *_ = write(surface=surface)
+    assert asset.document["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] == [0.4, 0.2, 0.1, 1]
+
+
+@pytest.mark.parametrize(("coefficients", "kind"), [(6, "ptm"), (6, "eigen"), (4, "eigen"), (3, "eigen")])
+def test_extension_holds_the_pelt(
+    write: Callable[..., Any], make_pelt: Callable[..., Pelt], coefficients: int, kind: str
+) -> None:
+    pelt = make_pelt(coefficients=coefficients, kind=kind, colour=coefficients == 6)
+    asset, *_ = write("plane", pelt=pelt)
+    fur = asset.fur
+    assert list(schema().iter_errors(fur)) == []
+    assert (fur["layers"], fur["size"], fur["coefficients"]) == (4, 8, coefficients)
+    assert (fur["length"], fur["height"]) == (0.12, 0.6)
+    assert fur["basis"]["kind"] == kind
+    state = fur["pelts"][0]
+    assert state["planes"] == ([0] if coefficients == 3 else [0, 1])
+    assert state.get("colour") == (2 if coefficients == 6 else None)
+    np.testing.assert_allclose(state["scale"], pelt.scale, rtol=1e-8)
+    np.testing.assert_allclose(state["bias"], pelt.bias, rtol=1e-8)
+    np.testing.assert_allclose(fur["environment"], pelt.environment, rtol=1e-8)
+    np.testing.assert_allclose(fur["drift"], pelt.drift, rtol=1e-8)
+    if kind == "eigen":
+        assert pelt.matrix is not None
+        np.testing.assert_allclose(fur["basis"]["matrix"], pelt.matrix, rtol=1e-8)
+
+
+def test_eigen_needs_its_matrix(write: Callable[..., Any], make_pelt: Callable[..., Pelt]) -> None:
+    with pytest.raises(ValueError, match="got eigen without its matrix"):
+        write("plane", pelt=replace(make_pelt(kind="eigen"), matrix=None))
+
+
+def test_same_input_same_bytes(tmp_path: Path, make_pelt: Callable[..., Pelt]) -> None:
+    surface = builtin("sphere")
+    for name in ("a", "b"):
+        (tmp_path / name).mkdir()
+        write_gltf(tmp_path / name, surface, project(surface, 0.2), length_by_thickness(surface), make_pelt(), 0.1)
+    for file in (tmp_path / "a").iterdir():
+        assert file.read_bytes() == (tmp_path / "b" / file.name).read_bytes()
+
+
+@given(st.lists(st.floats(allow_nan=False, allow_infinity=False, width=32)))
+def test_numbers_hold_32_bit_floats(values: list[float]) -> None:
+    back = np.array(json.loads(dump(numbers(np.array(values)))), dtype=np.float32)
+    np.testing.assert_array_equal(back, np.array(values, dtype=np.float32))
+
+
+def test_dump_keeps_flat_lists_in_one_line_and_refuses_nan() -> None:
+    assert dump({"a": [1.5, 2.5], "b": [{"c": [1]}]}) == '{\n "a": [1.5, 2.5],\n "b": [\n  {\n   "c": [1]\n  }\n ]\n}\n'
+    with pytest.raises(ValueError, match="not JSON compliant"):
+        dump({"a": float("nan")})
+
+
+@pytest.mark.parametrize("uri", ["../x.png", "/etc/passwd", "http://x/y.png", "data:,x", "", ".", "a/b.png", 3, None])
+def test_uris_stay_in_the_folder(tmp_path: Path, uri: Any) -> None:
+    with pytest.raises(AssetError, match="expected the name of a file in the folder"):
+        inside(tmp_path, uri)

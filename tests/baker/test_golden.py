@@ -1,0 +1,43 @@
+"""The golden assets of both wings, read from their files: what the baker stores must give the light they promise."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from furbake.asset.planes import Planes, read_png, unpack
+from furbake.asset.validate import validate
+from furbake.pelt.basis import Basis
+from furbake.pelt.fit import relight
+from furbake.pelt.quantise import dequantise
+
+GOLDEN = Path(__file__).parents[1] / "golden"
+NAMES = ("ptm-6", "eigen-6", "eigen-3")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_stored_bytes_give_the_expected_light(name: str) -> None:
+    folder = GOLDEN / name
+    gltf = json.loads((folder / "model.gltf").read_text("utf-8"))
+    fur = gltf["extensions"]["FUR_ptm_shells"]
+    pelt = fur["pelts"][0]
+    images = tuple(read_png(folder / gltf["images"][i]["uri"]) for i in pelt["planes"])
+    codes = unpack(Planes(images, None), fur["coefficients"]).codes
+    basis = Basis("ptm") if fur["basis"]["kind"] == "ptm" else Basis("eigen", 4, np.array(fur["basis"]["matrix"]))
+    lights = np.array(json.loads((folder / "lights.json").read_text("utf-8")))
+    expected = np.fromfile(folder / "light.f32", "<f4").reshape(len(lights), *codes.shape[:3])
+
+    above = lights[:, 2] >= 0
+    light = relight(dequantise(codes, np.array(pelt["scale"]), np.array(pelt["bias"])), basis, lights[above])
+    assert above.sum() == 48
+    np.testing.assert_allclose(light, expected[above], atol=1e-4)
+    assert expected.max() > 1
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_golden_assets_are_valid_but_for_the_record_of_a_bake(name: str) -> None:
+    problems = validate(GOLDEN / name)
+    assert [problem for problem in problems if not problem.startswith("bake.json")] == []

@@ -1,0 +1,206 @@
+"""A good folder has no problem; every way to spoil it has one, in a sentence."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import shutil
+from collections.abc import Callable, Iterator
+from copy import deepcopy
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from jsonschema import Draft202012Validator
+
+from furbake import BakeOptions, bake
+from furbake.asset.inspect import summary
+from furbake.asset.planes import write_png
+from furbake.asset.read import AssetError, read_asset
+from furbake.asset.validate import schema, validate
+
+
+@pytest.fixture(scope="module")
+def good(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("good") / "asset"
+    bake("sphere", folder, BakeOptions(layers=4, size=8, lights=8))
+    return folder
+
+
+@pytest.fixture
+def spoil(good: Path, tmp_path: Path) -> Callable[..., Path]:
+    """Change the glTF of a copy, by a function of its document: spoil(lambda document: ...)."""
+
+    def change(edit: Any = lambda document: None) -> Path:
+        folder = tmp_path / "asset"
+        shutil.copytree(good, folder)
+        path = folder / "model.gltf"
+        document = json.loads(path.read_text())
+        edit(document)
+        path.write_text(json.dumps(document))
+        return folder
+
+    return change
+
+
+def fur(document: dict[str, Any]) -> Any:
+    return document["extensions"]["FUR_ptm_shells"]
+
+
+def put(target: Any, key: Any, value: Any) -> None:
+    target[key] = value
+
+
+def test_good(good: Path) -> None:
+    assert validate(good) == []
+
+
+def test_schema_is_a_schema() -> None:
+    Draft202012Validator.check_schema(schema().schema)
+
+
+EDITS = {
+    "no extension": (lambda d: d.pop("extensions"), "model.gltf: no FUR_ptm_shells"),
+    "newer version": (lambda d: put(fur(d), "version", "2.0"), "FUR_ptm_shells: version: '2.0' does not match"),
+    "no layers": (lambda d: fur(d).pop("layers"), "FUR_ptm_shells: 'layers' is a required property"),
+    "zero size": (lambda d: put(fur(d), "size", 0), "FUR_ptm_shells: size: 0 is less than the minimum of 8"),
+    "odd size": (lambda d: put(fur(d), "size", 12), "FUR_ptm_shells: size 12, expected a power of two"),
+    "text as length": (lambda d: put(fur(d), "length", "long"), "FUR_ptm_shells: length: 'long' is not of type"),
+    "other layers": (lambda d: put(fur(d), "layers", 5), "FUR_ptm_shells: drift has 4 rows, expected 5"),
+    "other size": (lambda d: put(fur(d), "size", 16), "plane0.png: 8 × 32 texels with 4 channels, expected 16 × 64"),
+    "short scale": (lambda d: fur(d)["pelts"][0]["scale"].pop(), "pelts[0].scale has 5 rows, expected 6"),
+    "no planes": (lambda d: put(fur(d)["pelts"][0], "planes", []), "FUR_ptm_shells: pelts[0].planes: [] should be"),
+    "one plane": (lambda d: fur(d)["pelts"][0]["planes"].pop(), "pelts[0].planes has 1 rows, expected 2"),
+    "image 9": (lambda d: put(fur(d)["pelts"][0], "planes", [0, 9]), "a pelt uses image 9, expected one of 3"),
+    "skin is shells": (lambda d: put(fur(d), "skin", 1), "skin is node 1, expected in the scene"),
+    "no such node": (lambda d: put(fur(d), "shells", 7), "shells is node 7, expected one of 2 nodes"),
+    "shells drawn": (lambda d: put(d["scenes"][0], "nodes", [0, 1]), "shells is node 1, expected in no scene"),
+    "no tangents": (lambda d: d["meshes"][1]["primitives"][0]["attributes"].pop("TANGENT"), "shells: no TANGENT"),
+    "not required": (lambda d: d.pop("extensionsRequired"), "KHR_mesh_quantization is not in extensionsRequired"),
+    "not used": (lambda d: d["extensionsUsed"].pop(0), "FUR_ptm_shells is not in extensionsUsed"),
+    "long buffer": (lambda d: put(d["buffers"][0], "byteLength", 9), "bytes, expected 9"),
+    "path": (lambda d: put(d["images"][0], "uri", "../plane0.png"), "uri '../plane0.png', expected the name"),
+    "no buffer": (lambda d: d.pop("buffers"), "model.gltf: no buffer"),
+    "no accessors": (lambda d: d.pop("accessors"), "is malformed (KeyError: 'accessors')"),
+    "far accessor": (lambda d: put(d["accessors"][0], "count", 10**9), "accessor 0 leaves its buffer"),
+    "negative": (lambda d: put(d["accessors"][0], "byteOffset", -4), "got -4, expected a number 0, 1, 2"),
+    "wrong bounds": (lambda d: put(d["accessors"][0], "max", [1, 2, 3]), "skin: POSITION says"),
+    "old glTF": (lambda d: put(d["asset"], "version", "1.0"), "model.gltf: glTF 1.0, expected 2.0"),
+}
+
+
+@pytest.mark.parametrize("name", EDITS)
+def test_spoilt_document(spoil: Callable[..., Path], name: str) -> None:
+    edit, message = EDITS[name]
+    problems = validate(spoil(edit))
+    assert any(message in problem for problem in problems), problems
+
+
+def change_bytes(folder: Path, accessor: int, value: bytes, count: int = 4) -> None:
+    asset = read_asset(folder)
+    view = asset.document["bufferViews"][asset.document["accessors"][accessor]["bufferView"]]
+    data = bytearray(asset.data)
+    start = view["byteOffset"]
+    data[start : start + count] = value * count
+    (folder / "model.bin").write_bytes(data)
+
+
+def test_weights_that_do_not_sum_to_one(spoil: Callable[..., Path]) -> None:
+    folder = spoil()
+    attributes = read_asset(folder).primitive(1)["attributes"]
+    change_bytes(folder, attributes["_WEIGHT"], b"\x11")
+    assert any("shells: _WEIGHT sums to" in problem for problem in validate(folder))
+
+
+def test_normals_that_are_not_unit(spoil: Callable[..., Path]) -> None:
+    folder = spoil()
+    change_bytes(folder, read_asset(folder).primitive(1)["attributes"]["NORMAL"], b"\x10")
+    assert any("shells: NORMAL is" in problem for problem in validate(folder))
+
+
+def test_texture_coordinates_that_are_not_finite(spoil: Callable[..., Path]) -> None:
+    folder = spoil()
+    change_bytes(folder, read_asset(folder).primitive(1)["attributes"]["TEXCOORD_0"], b"\xff")
+    assert "shells: TEXCOORD_0 is not finite, expected numbers" in validate(folder)
+
+
+def test_indices_beyond_the_vertices(spoil: Callable[..., Path]) -> None:
+    folder = spoil()
+    change_bytes(folder, read_asset(folder).primitive(1)["indices"], b"\xf0")
+    assert any("shells: 25" in problem and "indices up to 61680" in problem for problem in validate(folder))
+
+
+def test_missing_and_broken_files(spoil: Callable[..., Path]) -> None:
+    folder = spoil()
+    (folder / "plane1.png").unlink()
+    assert any("plane1.png" in problem for problem in validate(folder))
+    write_png(folder / "plane1.png", np.zeros((32, 8, 3), np.uint8))
+    assert "plane1.png: 8 × 32 texels with 3 channels, expected 8 × 32 with 4" in validate(folder)
+    (folder / "plane1.png").write_bytes(b"\x89PNG\r\n\x1a\nrest")
+    assert any("plane1.png" in problem for problem in validate(folder))
+    (folder / "model.bin").unlink()
+    assert validate(folder) == ["model.bin: no such file or directory, expected the buffer"]
+    (folder / "model.gltf").write_text("{")
+    assert validate(folder)[0].startswith("model.gltf: not JSON")
+    (folder / "model.gltf").write_text("[]")
+    assert validate(folder) == ["model.gltf: a JSON list, expected an object"]
+    (folder / "model.gltf").unlink()
+    assert validate(folder) == ["model.gltf: no such file or directory, expected JSON"]
+
+
+def test_record(spoil: Callable[..., Path]) -> None:
+    folder = spoil()
+    path = folder / "bake.json"
+    record = json.loads(path.read_text())
+    del record["fit"]["bound"]["rank"]
+    record["fit"]["psnr"] = "high"
+    path.write_text(json.dumps(record))
+    assert validate(folder) == [
+        "bake.json: fit.psnr is 'high', expected a number",
+        "bake.json: fit.bound.rank is None, expected a number",
+    ]
+    path.unlink()
+    assert validate(folder)[0].startswith("bake.json: no furbake, libraries, options, input, key, fit")
+
+
+JUNK = st.recursive(
+    st.none() | st.booleans() | st.integers(-5, 10**10) | st.floats() | st.text(max_size=5),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=3), inner, max_size=3),
+    max_leaves=5,
+)
+
+
+def places(value: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+    """Every path into a JSON document."""
+    steps = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, inner in steps:
+        yield (*path, key)
+        yield from places(inner, (*path, key))
+
+
+@given(data=st.data())
+def test_any_junk_anywhere_is_told_not_raised(good: Path, tmp_path_factory: pytest.TempPathFactory, data: Any) -> None:
+    document = json.loads((good / "model.gltf").read_text())
+    spoilt = deepcopy(document)
+    *path, last = data.draw(st.sampled_from(list(places(document))))
+    target = spoilt
+    for step in path:
+        target = target[step]
+    target[last] = data.draw(JUNK)
+    folder = tmp_path_factory.mktemp("junk") / "asset"
+    shutil.copytree(good, folder)
+    (folder / "model.gltf").write_text(json.dumps(spoilt))
+    assert all(isinstance(problem, str) for problem in validate(folder))
+    with contextlib.suppress(AssetError):
+        json.dumps(summary(read_asset(folder)))
+
+
+def test_summary(good: Path) -> None:
+    found = summary(read_asset(good))
+    assert found["fur"]["layers"] == 4
+    assert found["skin"] == {"vertices": 2562, "faces": 5120, "attributes": ["POSITION", "NORMAL"]}
+    assert found["fur"]["texture bytes"] == 3 * 4 * 4 * 64
+    assert found["files"]["model.bin"] == (good / "model.bin").stat().st_size

@@ -1,0 +1,103 @@
+"""Writes the golden assets: the smallest whole ones, with lights and the light they must give.
+
+    baker/.venv/bin/python tests/golden/make.py
+
+Each folder is an asset as the baker writes it, over a flat unit square of one tile: 4 layers of 8 × 8 texels with
+random coefficients, all of them covered. Beside it `lights.json` holds 64 unit vectors (a quarter of them below the
+horizon) and `light.f32` the L of every texel, little-endian float32 [light, layer, row, column]. L is computed here in
+plain loops over lights from the formulas of the format, sharing no code with either wing's evaluation.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import numpy as np
+
+from furbake.asset.gltf import write_gltf
+from furbake.pelt.basis import Basis, environment
+from furbake.pelt.pelt import Pelt, Ramp
+from furbake.surface.shapes import builtin
+
+HERE = Path(__file__).parent
+LAYERS, SIZE = 4, 8
+BODY_RADIUS = 4.0
+VARIANTS = {"ptm-6": ("ptm", 6), "eigen-6": ("eigen", 6), "eigen-3": ("eigen", 3)}
+
+
+def phi(kind: str, matrix: np.ndarray | None, light: np.ndarray) -> np.ndarray:
+    """The basis functions of one light above the horizon."""
+    u, v, w = light
+    if kind == "ptm":
+        return np.array([u * u, v * v, u * v, u, v, 1.0])
+    terms = [u**i * v**j * w**k for k in range(2) for i in range(5 - k) for j in range(5 - k - i)]
+    return matrix @ np.array([*terms, w**0.5, w**0.25])
+
+
+def expected(pelt: Pelt, lights: np.ndarray) -> np.ndarray:
+    """L, (n, K, N, N), with the fade of the light below the horizon."""
+    coefficients = pelt.scale * (pelt.codes.astype(float) - pelt.bias)
+    out = np.zeros((len(lights), LAYERS, SIZE, SIZE))
+    for n, light in enumerate(lights):
+        for k in range(LAYERS):
+            fade, seen = 1.0, light
+            if light[2] < 0:
+                s = (k + 0.5) / LAYERS
+                dip = np.sqrt(1 - (BODY_RADIUS / (BODY_RADIUS + s)) ** 2)
+                fade = np.sqrt(max(0.0, 1 + light[2] / dip))
+                seen = np.array([*(light[:2] / np.hypot(*light[:2])), 0.0])
+            out[n, k] = np.maximum(coefficients[k] @ phi(pelt.kind, pelt.matrix, seen) * fade, 0)
+    return out
+
+
+def golden_pelt(kind: str, count: int) -> Pelt:
+    """A pelt of random bytes whose light lies around 0..3."""
+    rng = np.random.default_rng([count, len(kind)])
+    matrix = rng.normal(0, 0.5, (count, 27)) if kind == "eigen" else None
+    basis = Basis("ptm") if matrix is None else Basis("eigen", 4, matrix)
+    shape = (LAYERS, SIZE, SIZE)
+    return Pelt(
+        codes=rng.integers(0, 256, (*shape, count), dtype=np.uint8),
+        alpha=np.full(shape, 255, np.uint8),
+        tint=np.full(shape, 255, np.uint8),
+        colour=None,
+        scale=rng.uniform(0.004, 0.012, count),
+        bias=rng.uniform(60, 130, count),
+        kind=basis.kind,
+        degree=basis.degree,
+        matrix=matrix,
+        environment=environment(basis),
+        drift=np.stack([np.zeros(LAYERS), np.linspace(0, 0.2, LAYERS)], -1),
+        height=0.5,
+        ramp=Ramp((1.0, 1.0, 1.0), (1.0, 1.0, 1.0), (1.0, 1.0, 1.0), 1.0),
+    )
+
+
+def golden_lights() -> np.ndarray:
+    """48 unit vectors above the horizon and 16 below, down to where no tip sees the light any more."""
+    rng = np.random.default_rng(64)
+    z = np.concatenate([rng.uniform(0.01, 1, 48), rng.uniform(-0.7, -0.001, 16)])
+    azimuth = rng.uniform(0, 2 * np.pi, 64)
+    across = np.sqrt(1 - z * z)
+    return np.stack([across * np.cos(azimuth), across * np.sin(azimuth), z], -1)
+
+
+def main() -> None:
+    """Write all variants anew."""
+    lights = golden_lights()
+    surface = builtin("plane")
+    charts = surface.natural.charts(1.0)
+    for name, (kind, count) in VARIANTS.items():
+        folder = HERE / name
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+        pelt = golden_pelt(kind, count)
+        write_gltf(folder, surface, charts, np.ones(len(surface.vertices)), pelt, 0.5)
+        (folder / "lights.json").write_text(json.dumps(lights.tolist()) + "\n", "utf-8")
+        expected(pelt, lights).astype("<f4").tofile(folder / "light.f32")
+
+
+if __name__ == "__main__":
+    main()
