@@ -76,8 +76,10 @@ void addLight(inout Moments moments, mat3 frameVS, float s, vec3 lightVS, vec3 i
 	moments.high += outerProduct(irradiance, high);
 }
 
-// Radiance R(ω) = Σ_j radiance[j]·Y_j(ω) in the tangent frame, from three's ambient, hemisphere and probe lights.
-void addEnvironment(inout Moments moments, mat3 frameVS) {
+// Moments of the radiance R(ω) = Σ_j radiance[j]·Y_j(ω) in the tangent frame (columns T, B, N), from three's ambient,
+// hemisphere and probe lights.
+Moments environmentMoments(mat3 frameVS) {
+	Moments moments;
 	const float Y0 = 0.28209479, Y1 = 0.48860251;
 	vec3 constant = ambientLightColor;
 	mat3 gradient = mat3(0.0); // column per axis of the tangent frame: how the radiance grows along it
@@ -107,15 +109,18 @@ void addEnvironment(inout Moments moments, mat3 frameVS) {
 		order2[channel] = vec4(2.0 * q[0][1] / C1, 2.0 * q[1][2] / C1, q[2][2] / (2.0 * C2), 2.0 * q[0][2] / C1);
 		last[channel] = (q[0][0] - q[1][1]) / C1;
 	}
+#endif
+	moments.low = radiance * mat3x4(environmentLow0);
+	moments.high = radiance * mat3x4(environmentHigh0);
+#ifdef USE_LIGHT_PROBES
 	moments.low += transpose(order2) * mat3x4(environmentLow1) + outerProduct(last, environmentLow2);
 	moments.high += transpose(order2) * mat3x4(environmentHigh1) + outerProduct(last, environmentHigh2);
 #endif
-	moments.low += radiance * mat3x4(environmentLow0);
-	moments.high += radiance * mat3x4(environmentHigh0);
+	return moments;
 }
 
-// frameVS: columns T, B, N. s: height of the shell, 0 at the skin, 1 at the tips.
-Moments lightMoments(mat3 frameVS, vec3 pointVS, float s) {
+// Moments of all lamps. s: height of the shell, 0 at the skin, 1 at the tips.
+Moments lampMoments(mat3 frameVS, vec3 pointVS, float s) {
 	Moments moments = Moments(mat3(0.0), mat3(0.0));
 	IncidentLight light;
 #if NUM_DIR_LIGHTS > 0
@@ -136,6 +141,5 @@ Moments lightMoments(mat3 frameVS, vec3 pointVS, float s) {
 		addLight(moments, frameVS, s, light.direction, light.color);
 	}
 #endif
-	addEnvironment(moments, frameVS);
 	return moments;
 }

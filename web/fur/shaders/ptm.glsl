@@ -15,21 +15,24 @@ struct FurTexel {
 	vec3 light; // Σ over lights of E·L, L in the unit 4π·radiance / (albedo·irradiance)
 };
 
-// low, high: light moments of coefficients 0..2 and 3..5, a column each.
-FurTexel furTexel(vec3 at, mat3 low, mat3 high) {
+// Light moments of coefficients 0..2 (low) and 3..5 (high), a column each. Lamps and environment are clamped apart: where
+// a polynomial dips below zero under a strong lamp it must not eat the light of the sky, which turns shadows blue.
+FurTexel furTexel(vec3 at, mat3 lampLow, mat3 lampHigh, mat3 skyLow, mat3 skyHigh) {
 	FurTexel texel;
 	vec4 byte0 = texture(plane0, at);
 	vec4 a = byte0 * scale0 + offset0;
-	texel.light = low * a.xyz;
+	vec3 lamps = lampLow * a.xyz, sky = skyLow * a.xyz;
 #ifdef TWO_PLANES
 	vec4 byte1 = texture(plane1, at);
-	texel.light += high * vec3(byte1.xy * scale1 + offset1, a.w);
+	vec3 b = vec3(byte1.xy * scale1 + offset1, a.w);
+	lamps += lampHigh * b;
+	sky += skyHigh * b;
 	texel.alpha = byte1.z;
 	texel.tint = byte1.w;
 #else
 	texel.alpha = byte0.w;
 	texel.tint = 1.0;
 #endif
-	texel.light = max(texel.light, 0.0);
+	texel.light = max(lamps, 0.0) + max(sky, 0.0);
 	return texel;
 }

@@ -12,15 +12,17 @@ in vec2 vUv;
 in float vWeight;
 in vec3 vNormalVS;
 in vec3 vViewVS;
-in mat3 vLow;
-in mat3 vHigh;
+in mat3 vLampLow;
+in mat3 vLampHigh;
+in mat3 vSkyLow;
+in mat3 vSkyHigh;
 flat in vec2 vShell;
 
 out vec4 fragColour;
 
 void main() {
 	vec3 at = vec3(vUv, vShell.y);
-	FurTexel texel = furTexel(at, vLow, vHigh);
+	FurTexel texel = furTexel(at, vLampLow, vLampHigh, vSkyLow, vSkyHigh);
 #ifdef COLOUR_PLANE
 	vec3 colour = texture(colourPlane, at).rgb;
 #else

@@ -7,8 +7,11 @@ out vec2 vUv;
 out float vWeight;
 out vec3 vNormalVS;
 out vec3 vViewVS;
-out mat3 vLow; // light moments of coefficients 0..2, a column each
-out mat3 vHigh; // of coefficients 3..5
+// Light moments of coefficients 0..2 (low) and 3..5 (high), a column each.
+out mat3 vLampLow;
+out mat3 vLampHigh;
+out mat3 vSkyLow;
+out mat3 vSkyHigh;
 flat out vec2 vShell; // X = s, Y = slab
 
 void main() {
@@ -17,9 +20,13 @@ void main() {
 	vec3 n = normalize(normalMatrix * normal);
 	vec3 t = mat3(modelViewMatrix) * tangent.xyz;
 	t = normalize(t - n * dot(n, t));
-	Moments moments = lightMoments(mat3(t, tangent.w * cross(n, t), n), pointVS.xyz, s);
-	vLow = moments.low;
-	vHigh = moments.high;
+	mat3 frameVS = mat3(t, tangent.w * cross(n, t), n);
+	Moments lamps = lampMoments(frameVS, pointVS.xyz, s);
+	Moments sky = environmentMoments(frameVS);
+	vLampLow = lamps.low;
+	vLampHigh = lamps.high;
+	vSkyLow = sky.low;
+	vSkyHigh = sky.high;
 	vUv = uv - shell.zw;
 	vWeight = _weight;
 	vNormalVS = n;

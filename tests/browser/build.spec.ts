@@ -1,0 +1,55 @@
+import { createReadStream, mkdtempSync, rmSync, statSync } from 'node:fs';
+import { createServer, type Server } from 'node:http';
+import type { AddressInfo } from 'node:net';
+import { tmpdir } from 'node:os';
+import { extname, join, normalize } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { build } from 'vite';
+import { expect, open, state, test } from './harness.ts';
+
+const types: Record<string, string> = {
+	'.html': 'text/html',
+	'.js': 'text/javascript',
+	'.css': 'text/css',
+	'.json': 'application/json',
+	'.png': 'image/png',
+	'.jpg': 'image/jpeg',
+};
+const folder = '/some/folder/';
+
+let dist = '';
+let server: Server;
+
+test.beforeAll(async () => {
+	dist = mkdtempSync(join(tmpdir(), 'furbake-dist-'));
+	await build({
+		configFile: fileURLToPath(new URL('../../web/vite.config.ts', import.meta.url)),
+		logLevel: 'error',
+		build: { outDir: dist },
+	});
+	// As bare as a static host can be: files below one folder, and nothing else.
+	server = createServer((request, response) => {
+		const { pathname } = new URL(request.url ?? '/', 'http://localhost');
+		const file = join(dist, normalize(pathname.slice(folder.length) || 'index.html'));
+		if (!pathname.startsWith(folder) || !statSync(file, { throwIfNoEntry: false })?.isFile()) {
+			response.writeHead(404).end();
+			return;
+		}
+		response.writeHead(200, { 'content-type': types[extname(file)] ?? 'application/octet-stream' });
+		createReadStream(file).pipe(response);
+	});
+	await new Promise<void>((resolve) => server.listen(0, '127.0.0.1', resolve));
+});
+
+test.afterAll(() => {
+	server?.close();
+	rmSync(dist, { recursive: true, force: true });
+});
+
+test('the built site works from a sub-folder of a static host', async ({ page, watch }) => {
+	const origin = `http://127.0.0.1:${(server.address() as AddressInfo).port}`;
+	await open(page, '?still=1', origin + folder);
+	expect(await state(page)).toBe('ready');
+	const elsewhere = watch.requests.filter((url) => !url.startsWith('data:') && !url.startsWith(origin + folder));
+	expect(elsewhere).toEqual([]);
+});

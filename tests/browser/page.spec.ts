@@ -1,0 +1,127 @@
+import { expect, halves, open, picture, site, state, test } from './harness.ts';
+
+test('the page opens with the first model of the menu, ready and with its controls', async ({ page, watch }) => {
+	await open(page, '');
+	expect(await state(page)).toBe('ready');
+	expect(watch.requests).toContain(`${site}models/bunny/model.gltf`);
+	await expect(page).toHaveTitle(/furbake/);
+	await expect(page.locator('html')).toHaveAttribute('lang', 'en');
+	await expect(page.getByRole('button', { name: 'Turn camera' })).toBeVisible();
+	await expect(page.locator('#overlay')).toContainText(/\d+ draw calls · [\d,]+ triangles/);
+	await expect(page.locator('#overlay canvas').first()).toBeVisible();
+});
+
+test('every control is reached by the Tab key', async ({ page }) => {
+	await page.setViewportSize({ width: 900, height: 600 });
+	await open(page, '?model=torus&still=1');
+	const reached = new Set<string>();
+	for (let i = 0; i < 10; i++) {
+		await page.keyboard.press('Tab');
+		reached.add(await page.evaluate(() => document.activeElement?.tagName ?? ''));
+		const id = await page.evaluate(() => document.activeElement?.id ?? '');
+		if (id) reached.add(id);
+	}
+	for (const control of ['picture', 'orbit', 'SELECT', 'INPUT']) expect(reached).toContain(control);
+});
+
+test('ui=0 leaves the picture alone', async ({ page }) => {
+	await open(page, '?model=sphere&shells=4&still=1&ui=0');
+	for (const element of await page.locator('.ui').all()) await expect(element).toBeHidden();
+	await expect(page.locator('#picture')).toBeVisible();
+	await expect(page.locator('#overlay')).toBeEmpty();
+});
+
+test('the lamp is visible, and hidden with ui=0', async ({ page }) => {
+	const at = '?model=sphere&shells=4&still=1&light=-1,0,.01&camera=0,0,1';
+	const brightest = async () => {
+		const { width, height, brightness } = await picture(page);
+		let most = 0;
+		for (let y = Math.round(height * 0.45); y < height * 0.55; y++)
+			for (let x = 0; x < width * 0.17; x++) most = Math.max(most, brightness[y * width + x] ?? 0);
+		return most;
+	};
+	await open(page, at);
+	expect(await brightest()).toBeGreaterThan(220);
+	await open(page, `${at}&ui=0`);
+	expect(await brightest()).toBeLessThan(180);
+});
+
+test('shells are set by the address and by the panel', async ({ page }) => {
+	await page.setViewportSize({ width: 900, height: 600 });
+	await open(page, '?model=torus&still=1&shells=7');
+	const field = page.locator('#panel input[type=number], #panel input[type=text]').first();
+	await expect(field).toHaveValue('7');
+	await field.fill('12');
+	await field.press('Enter');
+	await expect.poll(() => new URL(page.url()).searchParams.get('shells')).toBe('12');
+	expect(await state(page)).toBe('ready');
+});
+
+test('the menu changes the model, in the picture and in the address', async ({ page, watch }) => {
+	await page.setViewportSize({ width: 900, height: 600 });
+	await open(page, '?model=torus&still=1&light=0,1,.3');
+	await page.locator('#panel select').selectOption('Sphere');
+	await expect.poll(() => watch.requests).toContain(`${site}models/sphere/model.gltf`);
+	await expect.poll(() => state(page)).toBe('ready');
+	await expect.poll(() => new URL(page.url()).searchParams.get('model')).toBe('sphere');
+	expect(new URL(page.url()).searchParams.get('still')).toBe('1');
+});
+
+test('a path to a folder is a model, too', async ({ page, watch }) => {
+	await open(page, '?model=models/torus&still=1');
+	expect(await state(page)).toBe('ready');
+	expect(watch.requests).toContain(`${site}models/torus/model.gltf`);
+});
+
+test('unknown and broken parameters are ignored with a notice', async ({ page }) => {
+	await open(page, '?model=cat&still=1&light=north&camera=1,2&shells=many&colour=red');
+	expect(await state(page)).toBe('ready');
+	const notices = page.getByRole('status');
+	for (const name of ['model=cat', 'light=north', 'camera=1,2', 'shells=many', 'colour']) {
+		await expect(notices).toContainText(name);
+	}
+	await page.getByRole('button', { name: 'Close this message' }).first().click();
+});
+
+test('a missing model gets clear words, and the page stays usable', async ({ page, watch }) => {
+	await page.setViewportSize({ width: 900, height: 600 });
+	await open(page, '?model=models/none/&still=1');
+	expect(await state(page)).toBe('failed');
+	await expect(page.getByRole('status')).toContainText(
+		'models/none/ cannot be shown: model.gltf: there is no such file',
+	);
+	// The browser's own line about the answer 404 is all that is allowed.
+	expect(watch.complaints).toHaveLength(1);
+	expect(watch.complaints.pop()).toContain('404');
+	await page.locator('#panel select').selectOption('Torus');
+	await expect.poll(() => state(page)).toBe('ready');
+	await expect(page.locator('#picture')).toBeVisible();
+});
+
+test('a file that is no glTF gets clear words', async ({ page }) => {
+	await page.route('**/models/torus/model.gltf', (route) => route.fulfill({ body: 'solid cat' }));
+	await open(page, '?model=torus&still=1');
+	expect(await state(page)).toBe('failed');
+	await expect(page.getByRole('status')).toContainText('torus cannot be shown: model.gltf: expected glTF');
+});
+
+test('a broken model from the menu leaves the one before', async ({ page }) => {
+	await page.setViewportSize({ width: 900, height: 600 });
+	await page.route('**/models/torus/model.gltf', (route) => route.fulfill({ body: '{"asset": {"version": "2.0"}}' }));
+	await open(page, '?model=sphere&shells=4&still=1&light=1,0,.3');
+	const before = halves(await picture(page));
+	await page.locator('#panel select').selectOption('Torus');
+	await expect(page.getByRole('status')).toContainText('torus cannot be shown');
+	await expect.poll(() => state(page)).toBe('ready');
+	await expect(page.locator('#panel select')).toHaveValue('Sphere');
+	expect(halves(await picture(page))[0]).toBeGreaterThan(before[0] * 0.8);
+});
+
+test('a broken plane of a furry model gets clear words', async ({ page }) => {
+	await page.route('**/models/torus/*.png', (route) =>
+		route.fulfill({ body: 'not a picture', contentType: 'image/png' }),
+	);
+	await open(page, '?model=torus&still=1');
+	expect(await state(page)).toBe('failed');
+	await expect(page.getByRole('status')).toContainText('torus cannot be shown');
+});

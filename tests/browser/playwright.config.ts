@@ -1,0 +1,31 @@
+import { fileURLToPath } from 'node:url';
+import { defineConfig } from '@playwright/test';
+import { browserArgs, findBrowser } from '../../web/tools/browser.mjs';
+
+const at = (path: string) => fileURLToPath(new URL(path, import.meta.url));
+const executablePath = process.env.FURBAKE_CHROMIUM ?? (await findBrowser());
+const launch = (...more: string[]) => ({
+	launchOptions: { ...(executablePath ? { executablePath } : {}), args: [...browserArgs, ...more] },
+});
+
+export default defineConfig({
+	testDir: at('.'),
+	outputDir: at('../../node_modules/.cache/furbake/browser-tests'),
+	globalSetup: at('serve.ts'),
+	// A software rasteriser uses every core by itself.
+	workers: 1,
+	fullyParallel: false,
+	forbidOnly: Boolean(process.env.CI),
+	timeout: 90_000,
+	expect: { timeout: 30_000 },
+	reporter: 'list',
+	use: {
+		viewport: { width: 480, height: 360 },
+		screenshot: 'off',
+		trace: 'off',
+	},
+	projects: [
+		{ name: 'webgl', testIgnore: '**/without-*.spec.ts', use: launch() },
+		{ name: 'without', testMatch: '**/without-*.spec.ts', use: launch('--disable-3d-apis') },
+	],
+});

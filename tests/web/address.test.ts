@@ -1,0 +1,80 @@
+import { describe, expect, it } from 'vitest';
+import { formatAddress, parseAddress, type View } from '../../web/demo/address.ts';
+
+describe('a view and its address', () => {
+	const views: View[] = [
+		{ still: false, ui: true },
+		{ still: true, ui: false },
+		{ model: 'bunny', light: [0, 0.6, 0.8], camera: [30, -12.5, 1.25], shells: 48, still: true, ui: true },
+		{ model: 'https://example.org/a b/ä&c=d/', still: false, ui: true },
+		{ model: '../out/fox/', camera: [-179.9, 90, 0.1], still: false, ui: false },
+	];
+
+	it.each(views)('survive the round trip: %j', (view) => {
+		expect(parseAddress(formatAddress(view))).toEqual({ view, problems: [] });
+	});
+
+	it('keep a light within half a unit of the third decimal', () => {
+		for (let i = 0; i < 200; i++) {
+			const [a, b] = [i * 2.399963, Math.acos(1 - (2 * i + 1) / 200)];
+			const light: [number, number, number] = [Math.sin(b) * Math.cos(a), Math.cos(b), Math.sin(b) * Math.sin(a)];
+			const back = parseAddress(formatAddress({ light, still: false, ui: true })).view.light ?? [0, 0, 0];
+			for (const axis of [0, 1, 2]) expect(Math.abs((back[axis] ?? 0) - (light[axis] ?? 0))).toBeLessThan(1.5e-3);
+		}
+	});
+
+	it('are readable: the example of the documentation', () => {
+		const search = '?model=bunny&light=0.303,0.808,0.505&camera=30,12,1&shells=48&still=1&ui=0';
+		expect(formatAddress(parseAddress(search).view)).toBe(search);
+	});
+
+	it('have nothing to say where all is the page’s own', () => {
+		expect(formatAddress({ still: false, ui: true })).toBe('');
+	});
+});
+
+describe('reading an address', () => {
+	it('normalises the light, in whatever way its numbers are written', () => {
+		expect(parseAddress('?light=.0,3,-4e0').view.light).toEqual([0, 0.6, -0.8]);
+	});
+
+	it('wraps the azimuth', () => {
+		expect(parseAddress('?camera=370,0,1').view.camera).toEqual([10, 0, 1]);
+		expect(parseAddress('?camera=-190,0,1').view.camera).toEqual([170, 0, 1]);
+	});
+
+	it.each([
+		'model=',
+		'light=',
+		'light=1,2',
+		'light=1,2,3,4',
+		'light=0,0,0',
+		'light=1,,2',
+		'light=1,2,NaN',
+		'light=Infinity,0,0',
+		'light=1e999,0,0',
+		'camera=1,2',
+		'camera=0,91,1',
+		'camera=0,0,0',
+		'camera=0,0,11',
+		'shells=0',
+		'shells=257',
+		'shells=1.5',
+		'shells=-3',
+		'shells=0x10',
+		'still=yes',
+		'ui=',
+	])('ignores %s and says so', (query) => {
+		const { view, problems } = parseAddress(`?${query}`);
+		expect(view).toEqual({ still: false, ui: true });
+		expect(problems).toHaveLength(1);
+		expect(problems[0]).toContain(query);
+		expect(problems[0]).toMatch(/expected .*; ignored$/);
+	});
+
+	it.each(['shadow=1', '__proto__=1', 'constructor=1', 'toString='])('ignores the unknown %s and says so', (query) => {
+		const { view, problems } = parseAddress(query);
+		expect(view).toEqual({ still: false, ui: true });
+		expect(problems).toEqual([`${query.split('=')[0]}: no such parameter, ignored`]);
+	});
+});

@@ -1,0 +1,75 @@
+/** The floors of the web wing: imports only go down, the library knows no page, pages know no shader. */
+
+import { readdirSync, readFileSync } from 'node:fs';
+import { dirname, join, posix, relative, sep } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { describe, expect, it } from 'vitest';
+
+const web = fileURLToPath(new URL('../../web/', import.meta.url));
+
+/** The library from the ground up; modules of one floor do not import each other. A new module gets its floor here. */
+const floors = [['format'], ['planes', 'moments'], ['FurMaterial'], ['shells', 'fins'], ['FurLoaderPlugin'], ['index']];
+const pages = ['demo', 'learn', 'bench'];
+
+const files = readdirSync(web, { recursive: true, encoding: 'utf8' }).map((path) => path.split(sep).join('/'));
+const below = (folder: string) => files.filter((path) => path.startsWith(`${folder}/`) && path.endsWith('.ts'));
+const text = (path: string) => readFileSync(join(web, path), 'utf8');
+
+/** What a module imports: bare names as they are, files relative to web/. */
+function imports(path: string): string[] {
+	const found = text(path).matchAll(/(?:\bfrom|^\s*import|\bimport\()\s*['"]([^'"]+)['"]/gm);
+	return [...found].map(([, name = '']) =>
+		name.startsWith('.')
+			? relative(web, join(web, dirname(path), name))
+					.split(sep)
+					.join('/')
+			: name,
+	);
+}
+
+const floorOf = (path: string) => floors.findIndex((names) => names.includes(posix.basename(path, '.ts')));
+
+describe('the library web/fur', () => {
+	const modules = below('fur').filter((path) => !path.startsWith('fur/baselines/') && !path.startsWith('fur/motion/'));
+
+	it.each(modules)('%s stands on a floor, and imports only what is below it', (path) => {
+		expect(floorOf(path), 'its floor').toBeGreaterThanOrEqual(0);
+		for (const name of imports(path).filter((other) => other.startsWith('fur/') && other.endsWith('.ts'))) {
+			expect(floorOf(name), name).toBeLessThan(floorOf(path));
+		}
+	});
+
+	it.each(below('fur'))('%s takes nothing but packages, its own room and the schema', (path) => {
+		for (const name of imports(path)) {
+			const own = name.startsWith('fur/') || name === '../baker/furbake/asset/schema/FUR_ptm_shells.schema.json';
+			const bare = /^(three(\/addons\/.*)?|fast-png|@cfworker\/json-schema)$/.test(name);
+			expect(own || bare, name).toBe(true);
+		}
+	});
+
+	it.each(below('fur'))('%s never touches the page around it', (path) => {
+		expect(text(path)).not.toMatch(/\b(document|window|location|localStorage)\s*[.[]/);
+		expect(text(path)).not.toMatch(/\bconsole\.(log|info|debug|error)\b/);
+	});
+
+	it('reads the format without three', () => {
+		expect(imports('fur/format.ts').filter((name) => name.startsWith('three'))).toEqual([]);
+	});
+});
+
+describe('the pages', () => {
+	const modules = pages.flatMap(below);
+
+	it.each(modules)('%s takes the library by its one face', (path) => {
+		for (const name of imports(path).filter((other) => other.startsWith('fur/'))) expect(name).toBe('fur/index.ts');
+	});
+
+	it.each(modules)('%s imports no other page', (path) => {
+		const others = pages.filter((page) => !path.startsWith(`${page}/`));
+		for (const name of imports(path)) expect(others).not.toContain(name.split('/')[0]);
+	});
+
+	it.each([...modules, ...files.filter((path) => /^\w+\.html$/.test(path))])('%s contains no GLSL', (path) => {
+		expect(text(path)).not.toMatch(/gl_Position|gl_Frag|\.glsl|ShaderMaterial|onBeforeCompile|void\s+main\s*\(/);
+	});
+});

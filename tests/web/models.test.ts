@@ -1,0 +1,44 @@
+import { readFileSync } from 'node:fs';
+import { describe, expect, it } from 'vitest';
+import { parseAddress } from '../../web/demo/address.ts';
+import { folderOf, type MenuEntry } from '../../web/demo/models.ts';
+
+const menu: MenuEntry[] = JSON.parse(readFileSync(new URL('../../public/models/models.json', import.meta.url), 'utf8'));
+const base = 'https://example.org/fur/?model=x';
+const href = (model: string) => folderOf(model, menu, base)?.href;
+
+describe('the menu', () => {
+	it('begins with the bunny, and each entry has a name of its own and a title', () => {
+		expect(menu[0]?.name).toBe('bunny');
+		expect(new Set(menu.map(({ name }) => name)).size).toBe(menu.length);
+		for (const { name, title } of menu) {
+			expect(name).toMatch(/^[a-z][a-z0-9-]*$/);
+			expect(title).not.toBe('');
+		}
+	});
+
+	it('has first views that the address understands', () => {
+		for (const { view = '' } of menu) expect(parseAddress(view).problems).toEqual([]);
+	});
+});
+
+describe('the folder of a model', () => {
+	it.each([
+		['bunny', 'https://example.org/fur/models/bunny/'],
+		['models/bunny', 'https://example.org/fur/models/bunny/'],
+		['models/bunny/', 'https://example.org/fur/models/bunny/'],
+		['models/bunny/model.gltf', 'https://example.org/fur/models/bunny/'],
+		['../out', 'https://example.org/out/'],
+		['/out/fox', 'https://example.org/out/fox/'],
+		['http://localhost:8000/fox/', 'http://localhost:8000/fox/'],
+	])('%s is %s', (model, folder) => {
+		expect(href(model)).toBe(folder);
+	});
+
+	it.each(['cat', '', 'javascript:alert(1)/', 'data:text/plain,x', 'file:///etc/', 'http://'])(
+		'%j is none',
+		(model) => {
+			expect(href(model)).toBeUndefined();
+		},
+	);
+});

@@ -1,0 +1,96 @@
+/** What stands around the model: a soft slate gradient behind it, and the shadow where it would touch the ground. */
+
+import {
+	type Box3,
+	Color,
+	type ColorRepresentation,
+	DataTexture,
+	DataUtils,
+	HalfFloatType,
+	LinearFilter,
+	LinearSRGBColorSpace,
+	Mesh,
+	MeshBasicMaterial,
+	PlaneGeometry,
+	SRGBColorSpace,
+	Vector3,
+} from 'three';
+
+const middle: ColorRepresentation = '#56687a';
+const rim: ColorRepresentation = '#212a33';
+
+/**
+ * The linear colour that the Khronos Neutral tone mapping turns into `colour` (linear, below its shoulder at 0.76).
+ * The curve takes an offset off every channel: m - 6.25 m² of the smallest one where that is below 0.08, 0.04 above.
+ */
+function beforeNeutral(colour: Color): Color {
+	const smallest = Math.min(colour.r, colour.g, colour.b);
+	const before = 0.4 * Math.sqrt(smallest);
+	const offset = before < 0.08 ? before - smallest : 0.04;
+	return colour.addScalar(offset);
+}
+
+function smoothstep(t: number): number {
+	const x = Math.min(Math.max(t, 0), 1);
+	return x * x * (3 - 2 * x);
+}
+
+/** Radial gradient for `scene.background`; half floats and a grain of one eighth-bit step, or dark slopes band. */
+export function backdrop(size = 384): DataTexture {
+	const inner = new Color(middle).convertLinearToSRGB();
+	const outer = new Color(rim).convertLinearToSRGB();
+	const colour = new Color();
+	const texels = new Uint16Array(size * size * 4);
+	for (let y = 0; y < size; y++) {
+		for (let x = 0; x < size; x++) {
+			const away = Math.hypot((x + 0.5) / size - 0.5, ((y + 0.5) / size - 0.47) * 1.1) / 0.72;
+			colour.lerpColors(inner, outer, smoothstep(away));
+			colour.addScalar((Math.random() + Math.random() - 1) / 255);
+			beforeNeutral(colour.convertSRGBToLinear());
+			const at = (y * size + x) * 4;
+			texels[at] = DataUtils.toHalfFloat(colour.r);
+			texels[at + 1] = DataUtils.toHalfFloat(colour.g);
+			texels[at + 2] = DataUtils.toHalfFloat(colour.b);
+			texels[at + 3] = DataUtils.toHalfFloat(1);
+		}
+	}
+	const texture = new DataTexture(texels, size, size);
+	texture.type = HalfFloatType;
+	texture.colorSpace = LinearSRGBColorSpace;
+	texture.minFilter = LinearFilter;
+	texture.magFilter = LinearFilter;
+	texture.needsUpdate = true;
+	return texture;
+}
+
+/** Blurred dark disc under the model, seen from above only. */
+export class ContactShadow extends Mesh<PlaneGeometry, MeshBasicMaterial> {
+	constructor(size = 128) {
+		const texels = new Uint8Array(size * size * 4);
+		for (let y = 0; y < size; y++) {
+			for (let x = 0; x < size; x++) {
+				const away = Math.hypot(x + 0.5 - size / 2, y + 0.5 - size / 2) / (size / 2);
+				texels[(y * size + x) * 4 + 3] = 255 * smoothstep(1 - away) ** 1.6;
+			}
+		}
+		const map = new DataTexture(texels, size, size);
+		map.colorSpace = SRGBColorSpace;
+		map.magFilter = LinearFilter;
+		map.minFilter = LinearFilter;
+		map.needsUpdate = true;
+		super(
+			new PlaneGeometry(1, 1),
+			new MeshBasicMaterial({ map, transparent: true, depthWrite: false, opacity: 0.8, color: '#141414' }),
+		);
+		this.rotation.x = -Math.PI / 2;
+		// Before the fur, which blends over it.
+		this.renderOrder = -1;
+	}
+
+	/** Lies under the box, a little wider than it. @param fur its length, which reaches beyond the box */
+	fit(box: Box3, fur: number): void {
+		const size = box.getSize(new Vector3()).addScalar(2 * fur);
+		box.getCenter(this.position).setY(box.min.y - fur / 2);
+		this.scale.set(size.x * 1.5, size.z * 1.6, 1);
+	}
+}

@@ -1,0 +1,90 @@
+/** The camera: turns around the model, comes nearer, and always fits it into the window. */
+
+import { MathUtils, MOUSE, PerspectiveCamera, Spherical, TOUCH, Vector3 } from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import type { Triple } from './address.ts';
+
+const fieldOfView = 26; // degrees, of the window's height
+/** Radius of what fits into the window, in radii of the model: leaves room for fur and lamp. */
+const margin = 1.2;
+const nearest = 0.25; // in units of the distance at which the model fits
+const farthest = 4;
+
+export class OrbitCamera extends PerspectiveCamera {
+	readonly #controls: OrbitControls;
+	#fit = 1;
+	/** True once a visitor or a link has chosen the view. */
+	chosen = false;
+
+	/** @param moved called whenever the camera has moved */
+	constructor(canvas: HTMLCanvasElement, still: boolean, moved: () => void) {
+		super(fieldOfView);
+		this.position.z = 1;
+		this.#controls = new OrbitControls(this, canvas);
+		this.#controls.enablePan = false;
+		this.#controls.enableDamping = !still;
+		this.#controls.dampingFactor = 0.12;
+		this.#controls.addEventListener('start', () => {
+			this.chosen = true;
+		});
+		this.#controls.addEventListener('change', moved);
+		this.dragTurns = false;
+	}
+
+	/** Whether the left button or one finger turns the camera, and not the light. */
+	get dragTurns(): boolean {
+		return this.#controls.mouseButtons.LEFT === MOUSE.ROTATE;
+	}
+
+	set dragTurns(value: boolean) {
+		this.#controls.mouseButtons = {
+			LEFT: value ? MOUSE.ROTATE : null,
+			MIDDLE: MOUSE.DOLLY,
+			RIGHT: MOUSE.ROTATE,
+		};
+		this.#controls.touches = { ONE: value ? TOUCH.ROTATE : null, TWO: TOUCH.DOLLY_ROTATE };
+	}
+
+	/** Azimuth and elevation in degrees, distance in units of the one at which the model fits. */
+	get orbit(): Triple {
+		const { theta, phi, radius } = new Spherical().setFromVector3(
+			new Vector3().subVectors(this.position, this.#controls.target),
+		);
+		return [MathUtils.radToDeg(theta), 90 - MathUtils.radToDeg(phi), radius / this.#fit];
+	}
+
+	set orbit([azimuth, elevation, distance]: Triple) {
+		const phi = MathUtils.degToRad(90 - elevation);
+		const offset = new Spherical(distance * this.#fit, phi, MathUtils.degToRad(azimuth)).makeSafe();
+		this.position.setFromSpherical(offset).add(this.#controls.target);
+		this.#controls.update();
+	}
+
+	/** Aims at a model and fits it into a window, keeping the view as it is: angles and relative distance. */
+	frame(centre: Vector3, radius: number, width: number, height: number): void {
+		const orbit = this.orbit;
+		this.aspect = width / height;
+		const vertical = Math.tan(MathUtils.degToRad(fieldOfView / 2));
+		const narrow = Math.atan(vertical * Math.min(this.aspect, 1));
+		this.#fit = (margin * radius) / Math.sin(narrow);
+		this.near = radius / 50;
+		this.far = this.#fit * (farthest + 1) + radius * 4;
+		this.updateProjectionMatrix();
+		this.#controls.target.copy(centre);
+		this.#controls.minDistance = this.#fit * nearest;
+		this.#controls.maxDistance = this.#fit * farthest;
+		this.orbit = orbit;
+	}
+
+	/** Turns and comes nearer, for the keyboard: degrees, degrees, factor. */
+	turn(azimuth: number, elevation: number, factor: number): void {
+		const [a, e, d] = this.orbit;
+		this.chosen = true;
+		this.orbit = [a + azimuth, MathUtils.clamp(e + elevation, -89.9, 89.9), d * factor];
+	}
+
+	/** Once per frame: lets a turn run out. */
+	glide(): void {
+		if (this.#controls.enableDamping) this.#controls.update();
+	}
+}

@@ -1,0 +1,32 @@
+/** The keyboard: arrows move the light (or turn the camera), + and - come nearer and go away. */
+
+const step = 4; // degrees; with Shift three times as far
+
+export interface KeyHandlers {
+	/** degrees to the right and up */
+	arrow(right: number, up: number): void;
+	/** factor of the distance */
+	zoom(factor: number): void;
+}
+
+const arrows: Record<string, [number, number]> = {
+	ArrowLeft: [-1, 0],
+	ArrowRight: [1, 0],
+	ArrowUp: [0, 1],
+	ArrowDown: [0, -1],
+};
+
+export function listenToKeys({ arrow, zoom }: KeyHandlers): void {
+	addEventListener('keydown', (event) => {
+		// The panel's fields have their own use for these keys.
+		if (event.ctrlKey || event.altKey || event.metaKey) return;
+		if (event.target instanceof Element && event.target.closest('#panel')) return;
+		const way = arrows[event.key];
+		const size = event.shiftKey ? 3 * step : step;
+		if (way) arrow(way[0] * size, way[1] * size);
+		else if (event.key === '+' || event.key === '=') zoom(1 / 1.08);
+		else if (event.key === '-') zoom(1.08);
+		else return;
+		event.preventDefault();
+	});
+}

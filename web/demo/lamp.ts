@@ -1,0 +1,136 @@
+/** The visible lamp: a small glowing bulb that rides on a sphere around the model, and its ray. */
+
+import {
+	AdditiveBlending,
+	type Camera,
+	DataTexture,
+	DoubleSide,
+	Group,
+	LinearFilter,
+	Mesh,
+	MeshBasicMaterial,
+	PlaneGeometry,
+	SphereGeometry,
+	Sprite,
+	SpriteMaterial,
+	Vector3,
+} from 'three';
+import { Line2 } from 'three/addons/lines/Line2.js';
+import { LineGeometry } from 'three/addons/lines/LineGeometry.js';
+import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
+
+/** Distance of the lamp from the model's centre, in radii of the model. */
+export const lampDistance = 1.22;
+
+const warm = [1, 0.8, 0.55] as const;
+const resting = 0.35; // strength of the lines while nobody moves the light
+const easing = 0.18; // seconds in which they brighten
+
+/** Circle arc in the x-y plane; its brightness is a function of the angle, black is nothing. */
+function arc(from: number, to: number, brightness: (angle: number) => number, material: LineMaterial): Line2 {
+	const steps = 96;
+	const positions: number[] = [];
+	const colours: number[] = [];
+	for (let i = 0; i <= steps; i++) {
+		const angle = from + ((to - from) * i) / steps;
+		positions.push(Math.cos(angle), Math.sin(angle), 0);
+		colours.push(...warm.map((part) => part * brightness(angle)));
+	}
+	return new Line2(new LineGeometry().setPositions(positions).setColors(colours), material);
+}
+
+/** Grey texture for additive light; `brightness` of u and v in -1..1 is in 0..1. */
+function lightMap(width: number, height: number, brightness: (u: number, v: number) => number): DataTexture {
+	const texels = new Uint8Array(width * height * 4).fill(255);
+	for (let y = 0; y < height; y++) {
+		for (let x = 0; x < width; x++) {
+			const value = brightness((2 * x + 1) / width - 1, (2 * y + 1) / height - 1);
+			texels.fill(255 * value, (y * width + x) * 4, (y * width + x) * 4 + 3);
+		}
+	}
+	const texture = new DataTexture(texels, width, height);
+	texture.magFilter = LinearFilter;
+	texture.minFilter = LinearFilter;
+	texture.needsUpdate = true;
+	return texture;
+}
+
+const additive = { blending: AdditiveBlending, depthWrite: false, transparent: true };
+
+/**
+ * Built once for a lamp at distance 1; everything that moves is a rotation or the scale:
+ *
+ *     lamp ── carrier (azimuth) ── arm (elevation) ── ray, rail, bulb, halo
+ *         └─ horizon
+ */
+export class Lamp extends Group {
+	readonly #carrier = new Group();
+	readonly #arm = new Group();
+	readonly #ray: Mesh<PlaneGeometry, MeshBasicMaterial>;
+	readonly #faint: (LineMaterial | MeshBasicMaterial)[] = [];
+	readonly #eye = new Vector3();
+	#strength = resting;
+	/** Whether somebody moves the light just now: ray and rail are brighter then. */
+	active = false;
+
+	constructor() {
+		super();
+		const horizon = arc(0, 2 * Math.PI, () => 0.07, this.#line());
+		horizon.rotation.x = Math.PI / 2;
+		const reach = 0.9; // radians of the rail to both sides of the lamp
+		const rail = arc(-reach, reach, (angle) => 0.3 * Math.cos((angle / reach) * (Math.PI / 2)) ** 2, this.#line());
+
+		// A soft band and not a line: lines have steps without multisampling.
+		this.#ray = new Mesh(
+			new PlaneGeometry(1, 0.012).translate(0.5, 0, 0),
+			new MeshBasicMaterial({
+				map: lightMap(64, 16, (u, v) => (1 - v * v) ** 2 * ((u + 1) / 2) ** 1.2),
+				side: DoubleSide,
+				...additive,
+			}),
+		);
+		this.#ray.material.color.setRGB(...warm);
+		this.#faint.push(this.#ray.material);
+
+		const bulb = new Mesh(new SphereGeometry(0.022, 24, 16), new MeshBasicMaterial());
+		bulb.material.color.setRGB(4, 3.3, 2.5);
+		const map = lightMap(64, 64, (u, v) => (1 - Math.min(Math.hypot(u, v), 1)) ** 3);
+		const halo = new Sprite(new SpriteMaterial({ map, ...additive }));
+		halo.material.color.setRGB(1.1, 0.72, 0.4);
+		halo.scale.setScalar(0.26);
+		for (const part of [bulb, halo]) part.position.x = 1;
+
+		this.#arm.add(this.#ray, rail, bulb, halo);
+		this.#carrier.add(this.#arm);
+		this.add(horizon, this.#carrier);
+		// After the fur, whose depth hides what is behind it.
+		this.traverse((part) => {
+			part.renderOrder = 1;
+		});
+	}
+
+	#line(): LineMaterial {
+		const linewidth = 1.2 * Math.min(devicePixelRatio, 2);
+		const material = new LineMaterial({ linewidth, vertexColors: true, ...additive });
+		this.#faint.push(material);
+		return material;
+	}
+
+	/** @param direction unit vector from the model to the lamp, world axes; @param radius of the model */
+	place(direction: Vector3, centre: Vector3, radius: number): void {
+		this.position.copy(centre);
+		this.scale.setScalar(radius * lampDistance);
+		this.#carrier.rotation.y = Math.atan2(-direction.z, direction.x);
+		this.#arm.rotation.z = Math.asin(Math.min(Math.max(direction.y, -1), 1));
+	}
+
+	/** Turns the ray's band to the camera. @param elapsed seconds since the last frame; Infinity for no gliding */
+	glide(camera: Camera, elapsed: number): void {
+		this.#arm.updateWorldMatrix(true, false);
+		const eye = this.#arm.worldToLocal(this.#eye.setFromMatrixPosition(camera.matrixWorld));
+		this.#ray.rotation.x = Math.atan2(-eye.y, eye.z);
+		const goal = this.active ? 1 : resting;
+		this.#strength += (goal - this.#strength) * (1 - Math.exp(-elapsed / easing));
+		for (const material of this.#faint) material.opacity = this.#strength;
+	}
+}

@@ -1,0 +1,194 @@
+/** The demo page: composes address, scene, camera, light and panel. */
+
+import { MathUtils } from 'three';
+import { addressWriter, parseAddress, type Triple } from './address.ts';
+import { directionUnder, listenToDrags } from './aim.ts';
+import { OrbitCamera } from './camera.ts';
+import { hasWebGL2, showFallback } from './fallback.ts';
+import { listenToKeys } from './keys.ts';
+import { Lamp, lampDistance } from './lamp.ts';
+import { MovingLight, turned } from './light.ts';
+import { firstView, folderOf, loadMenu, loadModel, type MenuEntry } from './models.ts';
+import { notice } from './notice.ts';
+import { Overlay } from './overlay.ts';
+import { Panel } from './panel.ts';
+import { Stage } from './scene.ts';
+
+/** From the side: light from the front is flat. */
+const defaultLight: Triple = [-0.82, 0.57, -0.02];
+const defaultCamera: Triple = [0, 8, 1];
+
+function element<T extends HTMLElement>(id: string): T {
+	const found = document.getElementById(id);
+	if (!found) throw new Error(`#${id} is not in the page`);
+	return found as T;
+}
+
+function setState(state: 'loading' | 'ready' | 'failed'): void {
+	document.documentElement.dataset.state = state;
+}
+
+function start(): void {
+	const { view, problems } = parseAddress(location.search);
+	if (problems.length) notice(`In the address:\n${problems.join('\n')}`);
+	document.body.classList.toggle('bare', !view.ui);
+
+	const canvas = element<HTMLCanvasElement>('picture');
+	const stage = new Stage(canvas);
+	const camera = new OrbitCamera(canvas, view.still, cameraMoved);
+	const calm = view.still || matchMedia('(prefers-reduced-motion: reduce)').matches;
+	const light = new MovingLight(!calm);
+	const lamp = new Lamp();
+	lamp.visible = false;
+	stage.scene.add(lamp);
+	const overlay = view.ui ? new Overlay(element('overlay'), stage.renderer) : undefined;
+	const write = addressWriter();
+	const panel = new Panel(element('panel'), { model: (name) => void show(name), shells: setShells });
+
+	// Frames: one after the other, or with still=1 only where something has changed.
+	let before = performance.now();
+	let requested = false;
+	const render = () => stage.render(camera);
+	function frame(now: number): void {
+		requested = false;
+		const elapsed = Math.min((now - before) / 1000, 0.1);
+		before = now;
+		camera.glide();
+		if (light.step(elapsed)) placeLight();
+		lamp.glide(camera, calm ? Number.POSITIVE_INFINITY : elapsed);
+		if (overlay) overlay.frame(render);
+		else render();
+		if (!view.still) request();
+	}
+	function request(): void {
+		if (requested) return;
+		requested = true;
+		requestAnimationFrame(frame);
+	}
+
+	function placeLight(): void {
+		stage.light(light.direction);
+		lamp.place(light.direction, stage.centre, stage.radius);
+	}
+	function resize(): void {
+		const { clientWidth: width, clientHeight: height } = canvas;
+		if (width === 0 || height === 0) return;
+		stage.resize(width, height);
+		camera.frame(stage.centre, stage.radius, width, height);
+		request();
+	}
+	function cameraMoved(): void {
+		request();
+		if (!camera.chosen) return;
+		view.camera = camera.orbit;
+		write(view);
+	}
+	function lightTaken(): void {
+		element('hint').hidden = true;
+		view.light = light.wanted;
+		write(view);
+		request();
+	}
+	function setShells(count: number): void {
+		const fur = stage.model?.fur;
+		if (!fur) return;
+		fur.shells.shellCount = count;
+		view.shells = count;
+		write(view);
+		request();
+	}
+
+	// Models.
+	let menu: MenuEntry[] = [];
+	let latest = 0;
+	let shown = '';
+	/** Shows a model of the menu or of the address; where that fails, says why and keeps the one before. */
+	async function show(name: string): Promise<void> {
+		const turn = ++latest;
+		setState('loading');
+		try {
+			const folder = folderOf(name, menu, document.baseURI);
+			if (!folder) throw new Error('it is neither a model of the menu nor the address of a folder');
+			const model = await loadModel(folder);
+			if (turn !== latest) return model.dispose();
+			const first = stage.model === undefined;
+			const entry = menu.find((item) => item.name === name);
+			const preferred = firstView(entry);
+			stage.show(model);
+			lamp.visible = view.ui;
+			if (!camera.chosen) camera.orbit = view.camera ?? preferred.camera ?? defaultCamera;
+			if (first || light.drifting) light.put(view.light ?? preferred.light ?? defaultLight, !view.light);
+			if (model.fur && view.shells) model.fur.shells.shellCount = view.shells;
+			if (!model.fur) notice(`${entry?.title ?? name}: this model has no fur that this page can grow`);
+			if (shown) {
+				view.model = name;
+				write(view);
+			}
+			shown = name;
+			placeLight();
+			resize();
+		} catch (error) {
+			if (turn !== latest) return;
+			notice(`${name} cannot be shown: ${(error as Error).message}`, 'error');
+		}
+		panel.update(shown, stage.model?.fur?.shells.shellCount);
+		if (!stage.model) setState('failed');
+		else requestAnimationFrame(() => requestAnimationFrame(() => turn === latest && setState('ready')));
+	}
+
+	// Hands on the picture.
+	listenToDrags(canvas, {
+		allowed: () => !camera.dragTurns,
+		active: (active) => {
+			lamp.active = active;
+			request();
+		},
+		move: (pointer) => {
+			light.want((wanted) => directionUnder(pointer, camera, stage.centre, stage.radius * lampDistance, wanted));
+			lightTaken();
+		},
+	});
+	listenToKeys({
+		arrow: (right, up) => {
+			if (camera.dragTurns) return camera.turn(right, up, 1);
+			light.want((wanted) => turned(wanted, MathUtils.degToRad(right), MathUtils.degToRad(up)));
+			lightTaken();
+		},
+		zoom: (factor) => camera.turn(0, 0, factor),
+	});
+	const orbit = element<HTMLButtonElement>('orbit');
+	orbit.addEventListener('click', () => {
+		camera.dragTurns = !camera.dragTurns;
+		orbit.setAttribute('aria-pressed', String(camera.dragTurns));
+	});
+	canvas.addEventListener('contextmenu', (event) => event.preventDefault());
+	canvas.addEventListener('webglcontextrestored', request);
+	addEventListener('resize', resize);
+	resize();
+
+	async function open(): Promise<void> {
+		try {
+			menu = await loadMenu();
+			panel.menu(menu);
+		} catch (error) {
+			notice((error as Error).message, 'error');
+		}
+		const preset = menu[0]?.name ?? '';
+		let name = view.model ?? preset;
+		if (!folderOf(name, menu, document.baseURI) && preset) {
+			notice(`model=${name}: expected ${menu.map((item) => item.name).join(', ')} or a folder; showing ${preset}`);
+			name = preset;
+		}
+		if (view.camera) camera.chosen = true;
+		camera.orbit = view.camera ?? defaultCamera;
+		await show(name);
+	}
+	void open();
+}
+
+if (hasWebGL2()) {
+	start();
+} else {
+	showFallback();
+	setState('failed');
+}

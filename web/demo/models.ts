@@ -1,0 +1,109 @@
+/** From a name or a path in the address to a model in memory. */
+
+import { Box3, Material, Mesh, type Object3D, Texture, Vector3 } from 'three';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { type Fur, FurLoaderPlugin } from '../fur/index.ts';
+import { parseAddress, type Triple } from './address.ts';
+
+/** An entry of models/models.json; its other fields are for the command that bakes it. */
+export interface MenuEntry {
+	name: string;
+	title: string;
+	/** first view and light, written as in the address */
+	view?: string;
+}
+
+/** A model that is ready to be shown. */
+export interface Model {
+	object: Object3D;
+	/** undefined where the file has none that this page can grow */
+	fur: Fur | undefined;
+	/** box around the skin */
+	box: Box3;
+	/** of the sphere around the box's centre that holds the skin */
+	radius: number;
+	dispose(): void;
+}
+
+export async function loadMenu(): Promise<MenuEntry[]> {
+	const response = await fetch('models/models.json');
+	if (!response.ok) throw new Error(`models/models.json: got status ${response.status}, expected the list of models`);
+	return response.json();
+}
+
+/** How a model of the menu wants to be seen first. */
+export function firstView(entry: MenuEntry | undefined): { light?: Triple; camera?: Triple } {
+	return parseAddress(entry?.view ?? '').view;
+}
+
+/**
+ * @param model a name of the menu, or a path or http address of a folder (or of the glTF file in it)
+ * @returns the folder with a slash at its end; undefined where there can be none
+ */
+export function folderOf(model: string, menu: readonly MenuEntry[], base: string): URL | undefined {
+	const named = menu.some(({ name }) => name === model);
+	if (!named && !/[./:]/.test(model)) return undefined;
+	const path = named ? `models/${model}` : model.replace(/\/?(model\.gltf)?$/, '');
+	if (!URL.canParse(`${path}/`, base)) return undefined;
+	const url = new URL(`${path}/`, base);
+	return /^https?:$/.test(url.protocol) ? url : undefined;
+}
+
+/** @throws Error that names the file and says what is wrong with it */
+export async function loadModel(folder: URL): Promise<Model> {
+	const loader = new GLTFLoader();
+	loader.register((parser) => new FurLoaderPlugin(parser));
+	const gltf = await loader.loadAsync(new URL('model.gltf', folder).href).catch((error: unknown) => {
+		throw new Error(reason(error));
+	});
+	const object = gltf.scene;
+	const box = new Box3().setFromObject(object);
+	if (box.isEmpty()) throw new Error('model.gltf: got a scene without a mesh, expected one');
+	const fur: Fur | undefined = gltf.userData.fur;
+	return {
+		object,
+		fur,
+		box,
+		radius: radiusAround(object, box.getCenter(new Vector3())),
+		dispose() {
+			fur?.dispose();
+			disposeAll(object);
+		},
+	};
+}
+
+function reason(error: unknown): string {
+	const text = error instanceof Error ? error.message : String(error);
+	if (error instanceof SyntaxError) return `model.gltf: expected glTF, but it is not even JSON (${text})`;
+	// The words of three's loader: it names the address and the status.
+	const missing = /^fetch for "([^"]*)" responded with 404/.exec(text);
+	return missing ? `${missing[1]?.split('/').at(-1)}: there is no such file` : text;
+}
+
+/** A box's own sphere is up to 1.7 times too large for a round body: this one goes through the farthest vertex. */
+function radiusAround(object: Object3D, centre: Vector3): number {
+	const vertex = new Vector3();
+	let radius = 0;
+	object.updateMatrixWorld(true);
+	object.traverse((child) => {
+		if (!(child instanceof Mesh)) return;
+		const position = child.geometry.getAttribute('position');
+		for (let i = 0; i < position.count; i++) {
+			vertex.fromBufferAttribute(position, i).applyMatrix4(child.matrixWorld);
+			radius = Math.max(radius, vertex.distanceTo(centre));
+		}
+	});
+	return radius;
+}
+
+function disposeAll(object: Object3D): void {
+	object.traverse((child) => {
+		if (!(child instanceof Mesh)) return;
+		child.geometry.dispose();
+		for (const material of [child.material].flat()) {
+			if (!(material instanceof Material)) continue;
+			for (const value of Object.values(material)) if (value instanceof Texture) value.dispose();
+			material.dispose();
+		}
+	});
+}

@@ -1,0 +1,53 @@
+/** The small panel: which model, how many shells. */
+
+import GUI from 'lil-gui';
+import type { MenuEntry } from './models.ts';
+
+/** Shells that the slider reaches; the address may ask for more. */
+const sliderEnd = 128;
+
+export interface PanelHandlers {
+	model(name: string): void;
+	shells(count: number): void;
+}
+
+export class Panel {
+	readonly #values = { model: '', shells: 1 };
+	readonly #gui: GUI;
+	readonly #model;
+	readonly #shells;
+	#titles: Record<string, string> = {};
+
+	constructor(container: HTMLElement, handlers: PanelHandlers) {
+		this.#gui = new GUI({ container, title: 'Fur' });
+		this.#gui.domElement.setAttribute('role', 'group');
+		this.#gui.domElement.setAttribute('aria-label', 'Settings');
+		this.#model = this.#gui
+			.add(this.#values, 'model', [])
+			.name('Model')
+			.onChange((name: string) => name && handlers.model(name));
+		this.#shells = this.#gui.add(this.#values, 'shells', 1, sliderEnd, 1).name('Shells').onChange(handlers.shells);
+		this.#shells.disable();
+		if (matchMedia('(max-width: 620px), (max-height: 420px)').matches) this.#gui.close();
+	}
+
+	menu(entries: readonly MenuEntry[]): void {
+		this.#titles = Object.fromEntries(entries.map(({ name, title }) => [title, name]));
+		this.#model.options(this.#titles);
+	}
+
+	/**
+	 * Shows what is on show.
+	 *
+	 * @param model a name of the menu, or any other address, which then gets an entry of its own; '' for none
+	 * @param shells undefined where the model has no fur
+	 */
+	update(model: string, shells: number | undefined): void {
+		this.#values.model = model;
+		if (model && !Object.values(this.#titles).includes(model)) this.#titles[model] = model;
+		this.#model.options(model ? this.#titles : { '–': '', ...this.#titles });
+		this.#values.shells = shells ?? 1;
+		this.#shells.max(Math.max(sliderEnd, shells ?? 1));
+		this.#shells.updateDisplay().enable(shells !== undefined);
+	}
+}

@@ -1,0 +1,78 @@
+/** The picture: renderer, lights, backdrop and the one model on show. */
+
+import {
+	DirectionalLight,
+	HalfFloatType,
+	HemisphereLight,
+	NeutralToneMapping,
+	type PerspectiveCamera,
+	Scene,
+	Vector3,
+	WebGLRenderer,
+} from 'three';
+import { backdrop, ContactShadow } from './backdrop.ts';
+import type { Model } from './models.ts';
+
+const maxPixelRatio = 2;
+
+export class Stage {
+	readonly renderer: WebGLRenderer;
+	readonly scene = new Scene();
+	/** Linear colour times irradiance: 3.4π makes a white matt surface facing it 3.4 bright. */
+	readonly key = new DirectionalLight(0xffffff, 3.4 * Math.PI);
+	readonly sky = new HemisphereLight(0xffffff, 0xffffff, 0.85 * Math.PI);
+	/** Of the model on show. */
+	readonly centre = new Vector3();
+	radius = 1;
+	model: Model | undefined;
+	readonly #shadow = new ContactShadow();
+
+	constructor(canvas: HTMLCanvasElement) {
+		this.renderer = new WebGLRenderer({
+			canvas,
+			antialias: false,
+			outputBufferType: HalfFloatType,
+			powerPreference: 'high-performance',
+		});
+		this.renderer.toneMapping = NeutralToneMapping;
+		// One frame is several renders (scene, output): the counts are those of all of them.
+		this.renderer.info.autoReset = false;
+		this.key.color.setRGB(1, 0.95, 0.87);
+		this.sky.color.setRGB(0.55, 0.65, 0.8);
+		this.sky.groundColor.setRGB(0.28, 0.24, 0.2);
+		this.scene.background = backdrop();
+		this.#shadow.visible = false;
+		this.scene.add(this.key, this.key.target, this.sky, this.#shadow);
+	}
+
+	/** Puts a model in the place of the one before, which is disposed of. */
+	show(model: Model): void {
+		if (this.model) {
+			this.scene.remove(this.model.object);
+			this.model.dispose();
+		}
+		this.model = model;
+		this.scene.add(model.object);
+		model.box.getCenter(this.centre);
+		this.radius = model.radius;
+		this.#shadow.fit(model.box, model.fur?.asset.length ?? 0);
+		this.#shadow.visible = true;
+	}
+
+	/** @param direction unit vector from the model to the lamp, world axes */
+	light(direction: Vector3): void {
+		this.key.target.position.copy(this.centre);
+		this.key.position.copy(this.centre).addScaledVector(direction, 4 * this.radius);
+	}
+
+	/** @param width of the window in CSS pixels */
+	resize(width: number, height: number): void {
+		this.renderer.setPixelRatio(Math.min(devicePixelRatio, maxPixelRatio));
+		this.renderer.setSize(width, height, false);
+	}
+
+	render(camera: PerspectiveCamera): void {
+		this.renderer.info.reset();
+		this.renderer.render(this.scene, camera);
+	}
+}

@@ -1,0 +1,60 @@
+/**
+ * The default models: `public/models/models.json` lists them, this bakes the ones that are missing or stale.
+ */
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { basename, dirname, join } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { ensurePython, runFurbake } from './environment.mjs';
+import { Failure, root, say } from './process.mjs';
+
+const cache = join(root, 'node_modules', '.cache', 'furbake');
+
+/**
+ * @typedef {object} DefaultModel
+ * @property {string} name folder in public/models, and the name in the page's address
+ * @property {string} title for the page's menu
+ * @property {string} model what furbake bakes: a built-in, or `npm:` and a file that an npm package holds as a module
+ * @property {string[]} options of `furbake bake`
+ * @property {string} [view] first view and light, written as in the page's address
+ */
+
+/** @returns {DefaultModel[]} */
+export function defaultModels() {
+	return JSON.parse(readFileSync(join(root, 'public', 'models', 'models.json'), 'utf8'));
+}
+
+/**
+ * A model as a file that furbake reads. `npm:PACKAGE/FILE` means the module FILE.js, whose default export is FILE as a
+ * data URI: it is unpacked once.
+ *
+ * @param {string} model
+ */
+async function unpacked(model) {
+	if (!model.startsWith('npm:')) return model;
+	const source = join(root, 'node_modules', `${model.slice('npm:'.length)}.js`);
+	const target = join(cache, basename(source, '.js'));
+	const { default: uri } = await import(pathToFileURL(source).href);
+	const bytes = Buffer.from(uri.slice(uri.indexOf(',') + 1), 'base64');
+	if (!existsSync(target) || !readFileSync(target).equals(bytes)) {
+		mkdirSync(dirname(target), { recursive: true });
+		writeFileSync(target, bytes);
+	}
+	return target;
+}
+
+/** Bakes what is missing or stale. Where that is impossible, says so in one line: what is there is served. */
+export async function bakeDefaultModels() {
+	try {
+		await ensurePython();
+	} catch (error) {
+		if (!(error instanceof Failure)) throw error;
+		say(`${error.message}: serving the models as they are`);
+		return;
+	}
+	for (const { name, model, options } of defaultModels()) {
+		const args = ['bake', await unpacked(model), '-o', join('public', 'models', name), ...options, '--if-stale'];
+		// Standard error, as all that is said before the address: the bar still sees a terminal there.
+		const code = await runFurbake(args, { stdio: ['ignore', 2, 2] });
+		if (code !== 0) say(`baking ${name} failed with exit code ${code}: serving it as it is`);
+	}
+}

@@ -1,0 +1,81 @@
+/**
+ * Running other programs, and telling a person about it: what every command of the house shares.
+ *
+ * All messages go to standard error: standard output belongs to the program that a command wraps.
+ */
+import { spawn } from 'node:child_process';
+import { fileURLToPath } from 'node:url';
+
+/** The repository's root, without a trailing slash. */
+export const root = fileURLToPath(new URL('../../', import.meta.url)).replace(/[\\/]$/, '');
+
+export const windows = process.platform === 'win32';
+
+/** A failure that is told in one line, without a stack. */
+export class Failure extends Error {}
+
+/** @param {string} line one line for the person at the terminal */
+export function say(line) {
+	process.stderr.write(`furbake: ${line}\n`);
+}
+
+/**
+ * Runs a program to its end. Never rejects: a program that cannot be started counts as exit code 127.
+ *
+ * @param {string} command
+ * @param {string[]} args
+ * @param {import('node:child_process').SpawnOptions} [options] the default shows both outputs as they are
+ * @returns {Promise<number>} exit code; 128 + number of the signal that ended it
+ */
+export function run(command, args, options = {}) {
+	return new Promise((resolve) => {
+		const child = spawn(command, args, { cwd: root, stdio: 'inherit', ...options });
+		child.on('error', () => resolve(127));
+		child.on('exit', (code, signal) => resolve(code ?? (signal === 'SIGINT' ? 130 : 143)));
+	});
+}
+
+/**
+ * Like `run`, for a helper whose chatter must not reach standard output.
+ *
+ * @param {string} command
+ * @param {string[]} args
+ * @param {import('node:child_process').SpawnOptions} [options]
+ */
+export function runAside(command, args, options = {}) {
+	return run(command, args, { stdio: ['ignore', 2, 2], ...options });
+}
+
+/**
+ * What a program prints on standard output; undefined where it is missing or fails.
+ *
+ * @param {string} command
+ * @param {string[]} args
+ * @returns {Promise<string | undefined>}
+ */
+export function ask(command, args) {
+	return new Promise((resolve) => {
+		const child = spawn(command, args, { cwd: root, stdio: ['ignore', 'pipe', 'ignore'] });
+		let text = '';
+		child.stdout.on('data', (chunk) => {
+			text += chunk;
+		});
+		child.on('error', () => resolve(undefined));
+		child.on('close', (code) => resolve(code === 0 ? text : undefined));
+	});
+}
+
+/**
+ * A command's body: a `Failure` becomes its one line and exit code 1; a returned number is the exit code.
+ *
+ * @param {() => Promise<number | void>} body
+ */
+export async function command(body) {
+	try {
+		process.exitCode = (await body()) ?? 0;
+	} catch (error) {
+		if (!(error instanceof Failure)) throw error;
+		say(error.message);
+		process.exitCode = 1;
+	}
+}

@@ -1,0 +1,13 @@
+import { fileURLToPath } from 'node:url';
+import { defineConfig } from 'vitest/config';
+
+const at = (path: string) => fileURLToPath(new URL(path, import.meta.url));
+
+export default defineConfig({
+	root: at('..'),
+	cacheDir: at('../node_modules/.vitest'),
+	test: {
+		include: ['tests/web/**/*.test.ts'],
+		environment: 'node',
+	},
+});
