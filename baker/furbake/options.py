@@ -111,6 +111,11 @@ class BakeOptions:
         """Plain data, for bake.json."""
         return asdict(self)
 
+    @classmethod
+    def from_record(cls, record: dict[str, Any]) -> BakeOptions:
+        """The options that `as_record` wrote, JSON's lists and all."""
+        return _build(record)
+
 
 def _within(name: str, value: float, low: float, high: float) -> None:
     if not (math.isfinite(value) and low <= value <= high):
@@ -148,14 +153,19 @@ def preset(name: str) -> BakeOptions:
     if name not in preset_names():
         raise OptionError(f"preset: got {name!r}, expected one of {', '.join(preset_names())}")
     table = tomllib.loads((files("furbake") / "presets" / f"{name}.toml").read_text("utf-8"))
-    height = table.pop("height", BakeOptions.height_share)
-    coat, ramp = table.pop("coat", {}), table.pop("ramp", {})
+    if "height" in table:
+        table["height_share"] = table.pop("height")
+    return _build({"preset": name, **table})
+
+
+def _build(table: dict[str, Any]) -> BakeOptions:
+    """Options from nested tables and lists; what they don't name is at its default."""
+    coat = dict(table.get("coat", {}))
     for kind in ("guard", "under"):
         if kind in coat:
             coat[kind] = Hairs(**_tuples(coat[kind]))
-    return BakeOptions(
-        preset=name, height_share=height, coat=Coat(**_tuples(coat)), ramp=Ramp(**_tuples(ramp)), **table
-    )
+    built = {"coat": Coat(**_tuples(coat)), "ramp": Ramp(**_tuples(table.get("ramp", {})))}
+    return BakeOptions(**{**_tuples(table), **built})
 
 
 def preset_summary(name: str) -> str:

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import json
 import math
 from dataclasses import replace
 from typing import Any
@@ -54,6 +55,11 @@ def test_paper_is_the_articles_volume() -> None:
     assert (paper.layers, paper.size, paper.basis, paper.coefficients) == (16, 64, "ptm", 6)
     assert paper.colour_plane
     assert paper == BakeOptions()
+
+
+def test_a_record_gives_the_options_back_from_json() -> None:
+    options = replace(preset("paper"), length=0.25, seed=7, coat=Coat(guard=Hairs(count=12)))
+    assert BakeOptions.from_record(json.loads(json.dumps(options.as_record()))) == options
 
 
 def test_length_is_height_times_tile() -> None:
