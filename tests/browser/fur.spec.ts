@@ -103,6 +103,41 @@ for (const name of GOLDEN) {
 	});
 }
 
+test('another basis costs one program at most, and none the second time', async ({ page }) => {
+	await openStage(page);
+	const order = ['ptm-6', 'eigen-6', 'ptm-6', 'eigen-6'].map((name) => served(`tests/golden/${name}/model.gltf`));
+	const [first = 0, ...others] = await page.evaluate((urls) => stage.programs(urls), order);
+	expect(first).toBeGreaterThan(0);
+	expect(others).toEqual([first + 1, first + 1, first + 1]);
+});
+
+for (const [what, change, message] of [
+	['planes of another size', { size: 16 }, 'plane0.png: got 8 × 32 pixels, expected 16 × 64'],
+	['a node that is no mesh', { shells: 7 }, 'FUR_ptm_shells/shells: node 7 is no mesh with one primitive'],
+	['a layer count out of range', { layers: -1 }, 'FUR_ptm_shells/layers:'],
+] as const) {
+	test(`${what}: refused in one sentence`, async ({ page }) => {
+		await openStage(page);
+		const path = 'tests/golden/ptm-6/model.gltf';
+		const gltf = JSON.parse(await readFile(`${repository}${path}`, 'utf8'));
+		Object.assign(gltf.extensions.FUR_ptm_shells, change);
+		await page.route('**/ptm-6/model.gltf', (route) => route.fulfill({ json: gltf }));
+		const said = await page.evaluate((url) => stage.refusal(url), served(path));
+		expect(said).toContain(message);
+		expect(said).not.toContain('\n');
+	});
+}
+
+test('of a newer version the skin alone is shown, with a warning', async ({ page, watch }) => {
+	await openStage(page);
+	const path = 'tests/golden/ptm-6/model.gltf';
+	const gltf = JSON.parse(await readFile(`${repository}${path}`, 'utf8'));
+	gltf.extensions.FUR_ptm_shells = { version: '9.0', whatever: [] };
+	await page.route('**/ptm-6/model.gltf', (route) => route.fulfill({ json: gltf }));
+	expect(await page.evaluate((url) => stage.refusal(url), served(path))).toBe('loaded');
+	expect(watch.complaints.splice(0)).toEqual(['FUR_ptm_shells: version 9.0 is newer than 1.0; showing the skin alone']);
+});
+
 const dot = (a: readonly number[], b: readonly number[]) => a.reduce((sum, x, i) => sum + x * (b[i] ?? 0), 0);
 
 /** Σ_j probe[j]·Y_j of a unit vector in world axes. */

@@ -158,6 +158,20 @@ const stage = {
 		return { light, frame };
 	},
 
+	/** How many shader programs there are after each of these assets has been drawn, the ones before still at hand. */
+	async programs(urls: string[]): Promise<number[]> {
+		const drawn: Fur[] = [];
+		const counts: number[] = [];
+		for (const url of urls) {
+			const flat = new Flat(await load(url));
+			flat.render(0);
+			drawn.push(flat.fur);
+			counts.push(renderer.info.programs?.length ?? 0);
+		}
+		for (const fur of drawn) fur.dispose();
+		return counts;
+	},
+
 	/** The message with which an asset is refused, or 'loaded'. */
 	async refusal(url: string): Promise<string> {
 		try {
