@@ -26,7 +26,7 @@ from furbake.pelt.pelt import Pelt, Ramp
 from furbake.pelt.quantise import byte_range, dequantise, quantise, srgb_bytes, unit_bytes
 from furbake.pelt.strands import Strands, grow
 from furbake.pelt.transport import hemisphere, sample
-from furbake.pelt.volume import OVERSAMPLE, Volume, coarsen, voxelise
+from furbake.pelt.volume import Volume, coarsen, fine_shape, voxelise
 from furbake.surface.mesh import Surface, load_mesh
 from furbake.surface.projection import project
 from furbake.surface.shapes import builtin, is_builtin
@@ -106,10 +106,8 @@ def bake(
         with clock.stage("strands"):
             strands = grow(options.coat, height, options.seed)
         with clock.stage("volume"):
-            fine = voxelise(
-                strands, height, options.layers * OVERSAMPLE, options.size * OVERSAMPLE, options.coat.opacity
-            )
-            volume = coarsen(fine)
+            fine = voxelise(strands, height, *fine_shape(options.layers, options.size, height), options.coat.opacity)
+            volume = coarsen(fine, options.layers, options.size)
         with clock.stage("light") as step:
             lighting = light(fine, options, step)
         with clock.stage("fit"):
@@ -135,13 +133,19 @@ def load_surface(model: str) -> Surface:
     return builtin(model) if is_builtin(model) else load_mesh(Path(model))
 
 
-def light(fine: Volume, options: BakeOptions, step: Callable[[float], None] = lambda fraction: None) -> Lighting:
-    """Sample the oversampled volume under the lights of the fit and half as many others between them."""
+def light(
+    fine: Volume,
+    options: BakeOptions,
+    step: Callable[[float], None] = lambda fraction: None,
+    held_out: int | None = None,
+) -> Lighting:
+    """Sample the oversampled volume under the lights of the fit and others between them, by default half as many."""
     fitted = hemisphere(options.lights)
-    others = hemisphere(max(8, options.lights // 2), turn=1.0)
+    others = hemisphere(held_out or max(8, options.lights // 2), turn=1.0)
     lights = np.concatenate([fitted, others])
-    held_out = np.arange(len(lights)) >= len(fitted)
-    return Lighting(lights, held_out, sample(fine, lights, flat=options.flat, progress=step))
+    apart = np.arange(len(lights)) >= len(fitted)
+    samples = sample(fine, options.layers, options.size, lights, flat=options.flat, progress=step)
+    return Lighting(lights, apart, samples)
 
 
 def fit_pelt(volume: Volume, lighting: Lighting, options: BakeOptions) -> tuple[Pelt, dict[str, Any]]:

@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import math
 import tomllib
-from dataclasses import asdict, dataclass, field
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, replace
 from importlib.resources import files
+from pathlib import Path
 from typing import Any, Literal
 
+from furbake import knobs
+from furbake.knobs import KNOBS, OptionError
 from furbake.pelt.pelt import Ramp
-from furbake.pelt.strands import Coat, Hairs
+from furbake.pelt.strands import Coat
+
+__all__ = ["BakeOptions", "OptionError", "as_toml", "override", "preset", "preset_names", "preset_summary"]
 
 BasisKind = Literal["ptm", "eigen"]
 Guide = Literal["nose-tail", "down"]
-
-
-class OptionError(ValueError):
-    """An option that cannot be used; the message names it, what was got and what was expected."""
 
 
 @dataclass(frozen=True)
@@ -61,37 +63,23 @@ class BakeOptions:
 
     def check(self) -> None:
         """Raise `OptionError` for the first value that is out of range."""
-        if self.preset not in preset_names():
-            raise OptionError(f"preset: got {self.preset!r}, expected one of {', '.join(preset_names())}")
-        _within("layers", self.layers, 1, 64)
-        _within("size", self.size, 8, 512)
+        for name, value in _values(self).items():
+            KNOBS[name].take(name, value)
         if self.size & (self.size - 1):
             raise OptionError(f"size: got {self.size}, expected a power of two")
-        _within("lights", self.lights, 8, 1024)
-        if self.basis not in ("ptm", "eigen"):
-            raise OptionError(f"basis: got {self.basis!r}, expected ptm or eigen")
         if self.basis == "ptm" and self.coefficients != 6:
             raise OptionError(
                 f"coefficients: got {self.coefficients}, expected 6 for the basis ptm (eigen takes 3 to 6)"
             )
-        _within("coefficients", self.coefficients, 3, 6)
-        for name, value in (("length", self.length), ("tile", self.tile)):
-            if value is not None and not (math.isfinite(value) and value > 0):
-                raise OptionError(f"{name}: got {value:g}, expected a length above 0")
+        for name, length in (("length", self.length), ("tile", self.tile)):
+            if length is not None and not (math.isfinite(length) and length > 0):
+                raise OptionError(f"{name}: got {length:g}, expected a length above 0")
         if None not in (self.length, self.tile, self.height):
             raise OptionError(
                 "length: got length, tile and height, expected at most two of them (length = height × tile)"
             )
-        _within("height", self.height if self.height is not None else self.height_share, 0.02, 4)
-        _within("seed", self.seed, 0, 2**63 - 1)
-        if self.guide not in ("nose-tail", "down"):
-            raise OptionError(f"guide: got {self.guide!r}, expected nose-tail or down")
-        _within("tile_share", self.tile_share, 0.001, 10)
-        _check_coat(self.coat)
-        for name, colour in (("root", self.ramp.root), ("tip", self.ramp.tip), ("tip2", self.ramp.tip2)):
-            for channel in colour:
-                _within(f"ramp.{name}", channel, 0, 1)
-        _within("ramp.power", self.ramp.power, 0.05, 20)
+        hairs = self.coat.guard.count + self.coat.under.count
+        knobs.within("coat.guard.count + coat.under.count", hairs, 1, 20_000)
 
     def dimensions(self, extent: float) -> tuple[float, float]:
         """(tile, length) in the model's units, for a model whose largest side is `extent`.
@@ -100,7 +88,7 @@ class BakeOptions:
         """
         height = self.height if self.height is not None else self.height_share
         if self.length is not None and self.tile is not None:
-            _within("height (length / tile)", self.length / self.tile, 0.02, 4)
+            knobs.within("height (length / tile)", self.length / self.tile, 0.02, 4)
             return self.tile, self.length
         if self.length is not None:
             return self.length / height, self.length
@@ -113,59 +101,64 @@ class BakeOptions:
 
     @classmethod
     def from_record(cls, record: dict[str, Any]) -> BakeOptions:
-        """The options that `as_record` wrote, JSON's lists and all."""
-        return _build(record)
+        """The options that `as_record` wrote, JSON's lists and all. Raises OptionError for anything else."""
+        try:
+            options = _build(record)
+            options.check()
+        except (TypeError, ValueError, AttributeError, KeyError) as error:
+            raise OptionError(
+                f"options: got a record that is not understood ({error}), expected one of bake.json"
+            ) from None
+        return options
 
 
-def _within(name: str, value: float, low: float, high: float) -> None:
-    if not (math.isfinite(value) and low <= value <= high):
-        raise OptionError(f"{name}: got {value:g}, expected {low:g} to {high:g}")
+def _values(options: BakeOptions) -> dict[str, Any]:
+    """All knobs by dotted name. A preset's `height` is the default one; a given height takes its place."""
+    values = dict(knobs.flatten(asdict(options)))
+    values["height"] = options.height_share if options.height is None else options.height
+    return {name: values[name] for name in KNOBS}
 
 
-def _check_coat(coat: Coat) -> None:
-    for kind, hairs in (("guard", coat.guard), ("under", coat.under)):
-        name = f"coat.{kind}"
-        _within(f"{name}.count", hairs.count, 0, 20_000)
-        _within(f"{name}.curl", hairs.curl, 0, 0.5)
-        _within(f"{name}.turns", hairs.turns, 0, 20)
-        _within(f"{name}.stray", hairs.stray, 0, 1)
-        _within(f"{name}.clump", hairs.clump, 0, 1)
-        for end in hairs.length:
-            _within(f"{name}.length", end, 0.05, 1)
-        for end in hairs.radius:
-            _within(f"{name}.radius", end, 1e-4, 0.1)
-    _within("coat.guard.count + coat.under.count", coat.guard.count + coat.under.count, 1, 20_000)
-    for axis in coat.lean:
-        _within("coat.lean", axis, -2, 2)
-    _within("coat.bend", coat.bend, 1, 4)
-    _within("coat.clumps", coat.clumps, 1, 5_000)
-    _within("coat.shade", coat.shade, 0, 0.5)
-    _within("coat.opacity", coat.opacity, 0.05, 50)
+def _build(table: Mapping[str, Any]) -> BakeOptions:
+    """Options from nested tables and lists; what they don't name is at its default."""
+    coat = dict(table.get("coat", {}))
+    defaults = Coat()
+    for kind in ("guard", "under"):
+        coat[kind] = replace(getattr(defaults, kind), **_tuples(coat.get(kind, {})))
+    built = {"coat": Coat(**_tuples(coat)), "ramp": Ramp(**_tuples(table.get("ramp", {})))}
+    return BakeOptions(**{**_tuples(table), **built})
+
+
+def _tuples(table: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: tuple(value) if isinstance(value, list) else value for key, value in table.items()}
 
 
 def preset_names() -> list[str]:
     """Names of the presets that come with furbake, sorted."""
-    return sorted(entry.name.removesuffix(".toml") for entry in _presets() if entry.name.endswith(".toml"))
+    entries = (files("furbake") / "presets").iterdir()
+    return sorted(entry.name.removesuffix(".toml") for entry in entries if entry.name.endswith(".toml"))
 
 
-def preset(name: str) -> BakeOptions:
-    """The options that a preset sets, the rest at their defaults. Raises OptionError for an unknown name."""
-    if name not in preset_names():
-        raise OptionError(f"preset: got {name!r}, expected one of {', '.join(preset_names())}")
-    table = tomllib.loads((files("furbake") / "presets" / f"{name}.toml").read_text("utf-8"))
-    if "height" in table:
-        table["height_share"] = table.pop("height")
-    return _build({"preset": name, **table})
+def preset(name: str | Path) -> BakeOptions:
+    """The options that a preset sets, the rest at their defaults.
+
+    name : of one that comes with furbake, or a path that ends in `.toml`: a file of knobs like theirs, which may begin
+        with `extends = NAME` (or another file's path, seen from its own folder)
+
+    Raises OptionError for an unknown preset, and for a knob that is unknown, of another type or out of range.
+    """
+    values, label = _load(str(name), ())
+    return _with(BakeOptions(preset=label), values)
 
 
-def _build(table: dict[str, Any]) -> BakeOptions:
-    """Options from nested tables and lists; what they don't name is at its default."""
-    coat = dict(table.get("coat", {}))
-    for kind in ("guard", "under"):
-        if kind in coat:
-            coat[kind] = Hairs(**_tuples(coat[kind]))
-    built = {"coat": Coat(**_tuples(coat)), "ramp": Ramp(**_tuples(table.get("ramp", {})))}
-    return BakeOptions(**{**_tuples(table), **built})
+def override(options: BakeOptions, texts: Mapping[str, str]) -> BakeOptions:
+    """Options with some knobs changed: dotted name → value as text. Raises OptionError."""
+    return _with(options, {name: knobs.parse(name, text) for name, text in texts.items()})
+
+
+def as_toml(options: BakeOptions) -> str:
+    """All knobs as a preset file, which gives the same options back."""
+    return knobs.write(_values(options))
 
 
 def preset_summary(name: str) -> str:
@@ -174,9 +167,47 @@ def preset_summary(name: str) -> str:
     return text.splitlines()[0].removeprefix("#").strip()
 
 
-def _presets() -> list[Any]:
-    return list((files("furbake") / "presets").iterdir())
+def _with(options: BakeOptions, values: Mapping[str, Any]) -> BakeOptions:
+    """Options with some knobs, by dotted name, at checked values."""
+    table = knobs.nest({**dict(knobs.flatten(asdict(options))), **values})
+    if "height" in values:
+        table |= {"height_share": values["height"], "height": None}
+    return _build(table)
 
 
-def _tuples(table: dict[str, Any]) -> dict[str, Any]:
-    return {key: tuple(value) if isinstance(value, list) else value for key, value in table.items()}
+def _load(name: str, chain: tuple[Path, ...]) -> tuple[dict[str, Any], str]:
+    """Checked values of a preset by dotted name, those that it extends included, and its short name.
+
+    chain : the files that have led here
+    """
+    what = "extends" if chain else "preset"
+    if not name.endswith(".toml"):
+        if name not in preset_names():
+            raise OptionError(f"{what}: got {name!r}, expected one of {', '.join(preset_names())}, or a .toml file")
+        text = (files("furbake") / "presets" / f"{name}.toml").read_text("utf-8")
+        return knobs.read(tomllib.loads(text)), name
+    path = Path(name)
+    try:
+        text, place = path.read_bytes().decode(), path.resolve()
+    except OSError as error:
+        why = (error.strerror or str(error)).lower()
+        raise OptionError(f"{what}: got {name!r} ({why}), expected a .toml file with knobs") from None
+    except ValueError as error:
+        raise OptionError(f"{what}: got {name!r} ({error}), expected a .toml file with knobs") from None
+    if place in chain:
+        raise OptionError(f"{what}: got a circle of files that extend each other, expected an end")
+    try:
+        table = tomllib.loads(text)
+        base = table.pop("extends", None)
+        if base is not None and not isinstance(base, str):
+            raise OptionError(f"extends: got {knobs.show(base)}, expected the name of a preset or a .toml file")
+        values = knobs.read(table)
+        if base is not None:
+            base = str(path.parent / base) if base.endswith(".toml") else base
+            values = {**_load(base, (*chain, place))[0], **values}
+    except OptionError as error:
+        raise OptionError(f"{path.name}: {error}") from None
+    except (ValueError, RecursionError) as error:
+        detail = "too deeply nested" if isinstance(error, RecursionError) else str(error)
+        raise OptionError(f"{path.name}: got no valid TOML ({detail}), expected lines such as layers = 16") from None
+    return values, path.stem

@@ -17,6 +17,7 @@ import pytest
 
 import furbake
 from furbake import BakeOptions, bake, cli
+from furbake.cli import actions
 
 TINY = ("--layers", "4", "--size", "8", "--lights", "8")
 CUBE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
@@ -171,11 +172,41 @@ BAD_COMMANDS = {
     ("bake",): "MODEL, -o: missing, expected furbake bake MODEL -o DIR",
     ("bake", "", "-o", "out"): "MODEL: got '', expected a path",
     ("bake", "a\0b", "-o", "out"): "MODEL: got 'a\\x00b', expected a path",
+    (
+        "bake",
+        "plane",
+        "-o",
+        "out",
+        "--preset",
+        "no.toml",
+    ): "preset: got 'no.toml' (no such file or directory), expected",
+    ("bake", "plane", "-o", "out", "--preset", "bad.toml"): "bad.toml: got 'coat.guard.cout', expected a knob such as "
+    "coat.guard.count",
+    ("bake", "plane", "-o", "out", "--set", "layers"): "set: got 'layers', expected KNOB=VALUE such as",
+    ("bake", "plane", "-o", "out", "--set", "=3"): "set: got '=3', expected KNOB=VALUE such as",
+    ("bake", "plane", "-o", "out", "--set", "coat.gard.count=3"): "set: got 'coat.gard.count', expected a knob such as "
+    "coat.guard.count",
+    ("bake", "plane", "-o", "out", "--set", "coat.bend=x"): "set: coat.bend: got 'x', expected a number, 1 to 4",
+    ("bake", "plane", "-o", "out", "--set", "coat.bend=9"): "set: coat.bend: got 9, expected 1 to 4",
+    ("bake", "plane", "-o", "out", "--preset", "huge.toml"): "coat.guard.count + coat.under.count: got 40000, expected",
+    (
+        "presets",
+        "cat",
+    ): "preset: got 'cat', expected one of bunny, fox, mole, paper, sheep, teddy, wolf, or a .toml file",
+    ("swatch", "folder"): "-o: missing, expected furbake swatch DIR -o FILE.png",
+    ("swatch", "nope", "-o", "x.png"): "nope: no such folder, expected a folder that furbake wrote",
+    ("swatch", "folder", "-o", "x.png", "--preset", "fox"): "swatch: got 'folder' and --preset or --set, expected",
+    ("swatch", "--preset", "cat", "-o", "x.png"): "preset: got 'cat', expected one of",
+    ("swatch", "nope", "-o", "x.png", "--light", "1,2"): "light: got '1,2', expected three numbers X,Y,Z",
+    ("report", "nope"): "nope: no such folder, expected a folder that furbake wrote",
+    ("verify", "nope"): "nope: no such folder, expected a folder that furbake wrote",
+    ("compare", "cat"): "preset: got 'cat', expected one of",
+    ("compare", "paper", "--lights", "3"): "lights: got 3, expected 8 to 1024",
     ("inspect", "nope"): "nope: no such folder, expected a folder that furbake wrote",
     ("inspect", "folder"): "model.gltf: no such file or directory, expected JSON",
     ("validate", "nope"): "nope: no such folder, expected a folder that furbake wrote",
-    ("fry",): "command: got 'fry', expected bake, inspect, validate, presets",
-    (): "COMMAND: missing, expected furbake bake, inspect, validate or presets",
+    ("fry",): "command: got 'fry', expected bake, inspect, validate, presets, report, swatch, verify, compare",
+    (): "COMMAND: missing, expected furbake bake, inspect, validate, presets, report, swatch, verify or compare",
 }
 
 
@@ -185,12 +216,14 @@ def test_bad_input_is_one_line(run: Callable[..., Any], here: Path, command: tup
     Path("old").mkdir()
     Path("old/bake.json").write_text("old")
     Path("empty.obj").touch()
+    Path("bad.toml").write_text("[coat.guard]\ncout = 3\n")
+    Path("huge.toml").write_text("coat.guard.count = 20000\ncoat.under.count = 20000\n")
     Path("text.obj").write_text("Dear diary,\nno triangles today.\n")
     Path("points.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\n")
     Path("nan.obj").write_text(CUBE.replace("v 1", "v nan"))
     Path("zero.obj").write_text("v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n")
     before = sorted(str(path) for path in here.rglob("*"))
-    args = ["bake", *TINY, *command[1:]] if "-o" in command else command
+    args = ["bake", *TINY, *command[1:]] if command[0:1] == ("bake",) and "-o" in command else command
     done = run(*args)
     assert (done.status, done.out) == (2, "")
     lines = done.err.splitlines()
@@ -288,11 +321,81 @@ def test_presets_and_version(run: Callable[..., Any], capsys: pytest.CaptureFixt
     assert re.fullmatch(r"furbake \d+\.\d+\.\d+\n", capsys.readouterr().out)
 
 
+def test_a_preset_can_be_printed_copied_and_changed(run: Callable[..., Any]) -> None:
+    told = run("presets", "fox")
+    assert told.out.startswith("# A red fox: ")
+    Path("mine.toml").write_text(told.out)
+    copied, fox = (json.loads(run("presets", name, "--json").out) for name in ("mine.toml", "fox"))
+    assert copied == fox | {"preset": "mine"}
+    Path("mine.toml").write_text('extends = "fox"\ncoat.guard.count = 20\n')
+    changes = ("--set", "coat.under.count=30", "--set", "coat.lean=0.1,0.2", "--set", "seed=4", "--seed", "5")
+    assert run("bake", "plane", "-o", "out", "--preset", "mine.toml", *changes, *TINY).status == 0
+    options = json.loads(Path("out/bake.json").read_text())["options"]
+    assert (options["preset"], options["seed"], options["layers"]) == ("mine", 5, 4)
+    assert (options["coat"]["guard"]["count"], options["coat"]["under"]["count"]) == (20, 30)
+    assert options["coat"]["lean"] == [0.1, 0.2]
+    assert options["ramp"] == fox["ramp"]
+
+
+def test_a_changed_knob_makes_a_bake_stale(run: Callable[..., Any]) -> None:
+    bake = ("bake", "plane", "-o", "out", "--if-stale", *TINY)
+    assert "up to date" not in run(*bake).out
+    assert "up to date" in run(*bake, "--set", "coat.clumps=60").out
+    assert "up to date" not in run(*bake, "--set", "coat.clumps=61").out
+
+
+def test_swatch_of_a_folder_and_of_a_preset(run: Callable[..., Any]) -> None:
+    run("bake", "plane", "-o", "out", *TINY)
+    done = run("swatch", "out", "-o", "a.png", "--light", "1,0,1", "--tiles", "2", "--pixels", "32")
+    assert (done.status, done.out, done.err) == (0, "a.png\n", "")
+    small = [f"--set={knob}" for knob in ("layers=4", "size=8", "lights=8")]
+    assert run("swatch", "-o", "b.png", *small, "--pixels", "32", "--quiet").status == 0
+    assert listed() == ["a.png", "b.png", "out"]
+    assert all(Path(name).read_bytes().startswith(b"\x89PNG") for name in ("a.png", "b.png"))
+
+
+def test_report(run: Callable[..., Any]) -> None:
+    run("bake", "plane", "-o", "out", *TINY)
+    done = run("report", "out")
+    assert (done.status, done.out) == (0, "out/report.html\n")
+    assert "furbake: strands" in done.err
+    assert Path("out/report.html").exists()
+
+
+def test_verify_without_mitsuba_says_how_to_get_it(run: Callable[..., Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "mitsuba", None)
+    run("bake", "plane", "-o", "out", "--flat", *TINY)
+    done = run("verify", "out")
+    assert (done.status, done.out) == (2, "")
+    assert re.fullmatch(r"furbake: error: mitsuba: .* pip install .*\[verify\].*\n", done.err)
+
+
+def test_verify_prints_the_figures(run: Callable[..., Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    given: dict[str, Any] = {}
+
+    def compared(folder: Path, **told: Any) -> dict[str, Any]:
+        given.update(told, folder=folder)
+        return {"samples": {"r": 0.9}, "spp": told["spp"]}
+
+    monkeypatch.setattr(actions, "verify", compared)
+    assert run("verify", "out", "-o", "side.png", "--spp", "9").out.split() == ["samples:", "r:", "0.9", "spp:", "9"]
+    assert (given["folder"], given["picture"], given["spp"]) == (Path("out"), Path("side.png"), 9)
+    assert json.loads(run("verify", "out", "--json").out)["samples"] == {"r": 0.9}
+
+
+def test_compare_is_a_table(run: Callable[..., Any]) -> None:
+    Path("tiny.toml").write_text("layers = 4\nsize = 8\ncoat.guard.count = 20\ncoat.under.count = 20\n")
+    done = run("compare", "tiny.toml", "--lights", "64", "--quiet")
+    assert (done.status, done.err) == (0, "")
+    assert done.out.startswith("| fur | basis |")
+    assert len(done.out.splitlines()) == 7
+
+
 def test_interrupt(run: Callable[..., Any], monkeypatch: pytest.MonkeyPatch) -> None:
     def stop(*args: Any, **kwargs: Any) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(cli, "bake", stop)
+    monkeypatch.setattr(actions, "bake", stop)
     done = run("bake", "plane", "-o", "out")
     assert (done.status, done.out, done.err) == (130, "", "furbake: interrupted, nothing written\n")
 

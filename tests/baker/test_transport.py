@@ -1,18 +1,22 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.ndimage import map_coordinates
 
-from furbake.pelt.strands import Coat, grow
+from furbake.pelt.fibre import THINNEST, cylinder
+from furbake.pelt.strands import Coat, Hairs, grow
 from furbake.pelt.transport import (
+    LAMP,
     LOWEST,
     OpticalDepth,
+    _Beam,
     curved_elevation,
-    cylinder,
     hemisphere,
+    lamp_cone,
     sample,
-    within_slab,
 )
 from furbake.pelt.volume import voxelise
 
@@ -53,14 +57,6 @@ def test_own_slab_is_crossed_from_floor_to_ceiling() -> None:
     np.testing.assert_allclose(above[0], 2 * 4 * 0.1 / 0.8, rtol=1e-5)
 
 
-def test_g_is_the_mean_over_the_slab() -> None:
-    height = (np.arange(20_000) + 0.5) / 20_000
-    for tau_view, tau_light in ((0.3, 0.2), (2.0, 5.0), (0.01, 3.0), (1.0, 1e-9), (1e-6, 1.5)):
-        seen = np.exp(-tau_view * height)
-        mean = (seen * np.exp(-tau_light * height)).sum() / seen.sum()
-        assert within_slab(np.array(tau_view), np.array(tau_light)) == pytest.approx(mean, rel=1e-3)
-
-
 @pytest.mark.parametrize("seed", range(6))
 def test_cylinder_is_the_mean_over_its_lit_and_seen_side(seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -98,14 +94,41 @@ def test_lights_are_spread_over_the_upper_hemisphere() -> None:
     np.testing.assert_allclose(lights.mean(0), [0, 0, 0.5], atol=0.02)
 
 
+def test_lamp_is_a_small_disc_above_the_horizon() -> None:
+    for light in hemisphere(40):
+        rays = lamp_cone(light, turn=1.0)
+        np.testing.assert_allclose(np.linalg.norm(rays, axis=1), 1)
+        assert (rays[:, 2] >= 0).all()
+        assert np.arccos(np.clip(rays @ light, -1, 1)).max() <= LAMP * 1.01
+
+
 def test_deeper_layers_are_darker_and_light_falls_from_its_side() -> None:
     fine = voxelise(grow(Coat(), 0.6, 0), 0.6, 16, 64, 2.2)
     seen: list[float] = []
-    samples = sample(fine, np.array([[0.0, 0.0, 1.0], [0.8, 0.0, 0.6]]), progress=seen.append)
+    samples = sample(fine, 8, 32, np.array([[0.0, 0.0, 1.0], [0.8, 0.0, 0.6]]), progress=seen.append)
     assert samples.shape == (2, 8, 32, 32)
-    assert seen == [0.5, 1.0]
+    assert seen == sorted(seen)
+    assert seen[-1] == 1.0
     straight = samples[0].mean((1, 2))
     assert straight[0] < 0.6 * straight[-2]
-    flat = sample(fine, np.array([[0.98, 0.0, np.sqrt(1 - 0.98**2)]]), flat=True)
-    curved = sample(fine, np.array([[0.98, 0.0, np.sqrt(1 - 0.98**2)]]))
-    assert flat[0, 0].mean() < curved[0, 0].mean()
+
+
+def test_a_curved_body_lets_grazing_light_in() -> None:
+    fine = voxelise(grow(Coat(), 0.6, 0), 0.6, 16, 64, 2.2)
+    grazing = np.array([[0.98, 0.0, np.sqrt(1 - 0.98**2)]])
+    flat, curved = (sample(fine, 8, 32, grazing, flat=flat)[0, :4].mean() for flat in (True, False))
+    assert flat < 0.8 * curved
+
+
+def test_light_along_the_hairs_passes_between_them() -> None:
+    """Upright hairs: light from above is hardly shaded by them, light from the side is."""
+    upright = Hairs(stray=0, curl=0, clump=0, length=(1, 1), count=400)
+    coat = Coat(guard=upright, under=replace(upright, count=0), lean=(0, 0), clumps=1)
+    fine = voxelise(grow(coat, 0.5, 0), 0.5, 16, 64, 4.0)
+    beam = _Beam(fine, 8, 32, flat=True)
+    _, caught, _, floor = beam(np.array([0.0, 0.0, 1.0]), 0)
+    _, _, side, _ = beam(np.array([0.8, 0.0, 0.6]), 0)
+    covered = fine.coverage.max(0).mean()
+    assert floor.mean() > 0.9 * (1 - covered)
+    assert side[0].mean() < 0.3 * floor.mean()
+    assert caught[-1].max() <= THINNEST * 1.01

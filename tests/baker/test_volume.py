@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from furbake.pelt.strands import Coat, Strands, grow
-from furbake.pelt.volume import average_down, coarsen, pool, seen_from_above, voxelise
+from furbake.pelt.volume import average_down, coarsen, doubled, fine_shape, pool, seen_from_above, voxelise
 
 
 def hair(root: tuple[float, float], tip: tuple[float, float, float], radius: float) -> Strands:
     """One straight hair of even thickness."""
     s = np.linspace(0, 1, 9)[:, None]
     points = np.array([*root, 0.0]) * (1 - s) + np.array(tip) * s
-    return Strands(points[None], np.full((1, 9), radius), np.array([0.5]), np.array([0.25]))
+    return Strands(points[None], np.full((1, 9), radius), np.full((1, 9), 0.5), np.full((1, 9), 0.25))
 
 
 def solid(strands: Strands, height: float = 0.5, layers: int = 8, size: int = 64) -> np.ndarray:
@@ -61,7 +61,7 @@ def test_top_slab_holds_tips() -> None:
 def test_coarse_coverage_is_that_of_the_fine_slabs_together() -> None:
     fine = voxelise(grow(Coat(), 0.6, 1), 0.6, 8, 32, 2.2)
     clear = (1 - fine.coverage).reshape(4, 2, 32, 32).prod(1)
-    np.testing.assert_allclose(coarsen(fine).coverage, pool(1 - clear), atol=1e-9)
+    np.testing.assert_allclose(coarsen(fine, 4, 16).coverage, pool(1 - clear, 16), atol=1e-9)
 
 
 def test_average_down_sees_the_upper_slab_first() -> None:
@@ -69,5 +69,24 @@ def test_average_down_sees_the_upper_slab_first() -> None:
     coverage[1] = 0.75
     coverage[0] = 1.0
     values = np.stack([np.full((2, 2), 10.0), np.full((2, 2), 2.0)])
-    mean = average_down(values, seen_from_above(coverage))
+    mean = average_down(values, seen_from_above(coverage, 1), 1)
     assert mean == pytest.approx(0.75 * 2 + 0.25 * 10, abs=1e-3)
+
+
+def test_the_volume_is_finer_in_every_axis() -> None:
+    assert fine_shape(16, 64, 0.5) == (64, 128)
+    assert fine_shape(24, 128, 0.6) == (72, 256)
+    assert fine_shape(64, 8, 0.5) == (128, 16)
+    assert fine_shape(6, 32, 0.5) == (30, 64)
+    for layers in range(1, 65):
+        fine, _ = fine_shape(layers, 64, 1.0)
+        assert fine % layers == 0
+        assert fine // layers >= 2
+
+
+def test_doubled_keeps_the_mean_and_what_is_linear() -> None:
+    image = np.random.default_rng(0).random((2, 8, 8))
+    np.testing.assert_allclose(pool(doubled(image), 8).mean(), image.mean())
+    ramp = np.tile(np.arange(8.0), (1, 8, 1))
+    np.testing.assert_allclose(doubled(ramp)[0, 5, 2:-2], np.arange(0.75, 6.5, 0.5))
+    np.testing.assert_allclose(doubled(ramp.swapaxes(1, 2))[0, 2:-2, 5], np.arange(0.75, 6.5, 0.5))

@@ -18,8 +18,8 @@ const maxPixelRatio = 2;
 export class Stage {
 	readonly renderer: WebGLRenderer;
 	readonly scene = new Scene();
-	/** Linear colour times irradiance: 3.4π makes a white matt surface facing it 3.4 bright. */
-	readonly key = new DirectionalLight(0xffffff, 3.4 * Math.PI);
+	/** Linear colour times irradiance: 2.8π makes a white matt surface facing it 2.8 bright. */
+	readonly key = new DirectionalLight(0xffffff, 2.8 * Math.PI);
 	readonly sky = new HemisphereLight(0xffffff, 0xffffff, 0.85 * Math.PI);
 	/** Of the model on show. */
 	readonly centre = new Vector3();

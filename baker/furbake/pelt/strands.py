@@ -1,6 +1,7 @@
 """Procedural hairs over one periodic tile: guard hairs above a shorter undercoat.
 
-Units are tile widths; the tile is the square [0, 1)² in u, v and the skin is at z = 0.
+Units are tile widths; the tile is the square [0, 1)² in u, v and the skin is at z = 0. Along a hair, s runs from 0 at
+the root to 1 at the tip.
 """
 
 from __future__ import annotations
@@ -9,20 +10,21 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Hairs:
-    """One kind of hair. Lengths are fractions of the fur's height, radii tile widths."""
+    """One kind of hair. Lengths are fractions of the fur's height, radii and displacements tile widths."""
 
     count: int = 330
     """Hairs per tile, 0 to 20 000."""
     length: tuple[float, float] = (0.8, 1.0)
-    """Shortest and longest hair, 0 to 1."""
+    """Shortest and longest hair, 0.05 to 1."""
     radius: tuple[float, float] = (0.011, 0.004)
-    """Radius at the root and at the tip, 0 to 0.1."""
+    """Radius at the root and at the tip, 0.0001 to 0.1."""
     curl: float = 0.01
     """Radius of the helix that the tip describes, 0 to 0.5."""
     turns: float = 1.3
@@ -31,6 +33,32 @@ class Hairs:
     """Spread (standard deviation) of the tips' own lean, 0 to 1."""
     clump: float = 0.5
     """Share of the way that tips are drawn to their clump's centre, 0 to 1."""
+    taper: float = 1.5
+    """Exponent of the taper: 1 a cone, above 1 thick almost to the tip, 0.2 to 8."""
+    curl_shape: float = 1.0
+    """Exponent of the helix's growth along the hair: 1 a cone, near 0 as wide at the root, 0.1 to 4."""
+    wave: float = 0.0
+    """Amplitude of a plane wave at the tip, 0 to 0.5."""
+    waves: float = 2.0
+    """Periods of that wave from root to tip, 0 to 20."""
+    lock: float = 0.0
+    """Share of the phase of curl and wave that all hairs of a clump have in common: 1 makes locks, 0 to 1."""
+    frizz: float = 0.0
+    """Spread (standard deviation) of each hair's own smooth wandering at the tip, 0 to 0.5."""
+    kinks: float = 4.0
+    """Bends of that wandering from root to tip, 0.5 to 20."""
+    clump_shape: float = 1.3
+    """Exponent of the pull along the hair: below 1 tufts from the root, above 1 tips alone, 0.2 to 8."""
+    tint: float = 0.78
+    """Mean brightness, 0 to 1."""
+    fade: tuple[float, float] = (1.0, 1.0)
+    """Factors of the brightness at the root and at the tip, 0 to 2."""
+    hue: tuple[float, float] = (0.0, 1.0)
+    """Least and greatest share of the ramp's second tip colour, from hair to hair, 0 to 1."""
+    ticking: float = 0.0
+    """How far tips turn to the ramp's second tip colour (the banded hairs of wild coats), 0 to 1."""
+    ticked: float = 0.6
+    """Where along the hair that begins, 0 to 0.99."""
 
 
 @dataclass(frozen=True)
@@ -47,8 +75,16 @@ class Coat:
     """Clump centres per tile, 1 to 5 000."""
     shade: float = 0.15
     """Spread of tint from hair to hair, 0 to 0.5."""
-    opacity: float = 3.0
+    opacity: float = 6.0
     """Optical depth of 1/16 of the fur's height filled with hair, 0.05 to 50."""
+    tufts: float = 0.18
+    """How much shorter than the others a whole clump's guard hairs may be, 0 to 0.9."""
+    patchiness: float = 0.0
+    """Share of the hairs that move from thin places to thick ones, 0 to 0.9."""
+    patches: int = 4
+    """Thick places along a side of the tile, 1 to 16."""
+    flow: float = 0.0
+    """Spread (standard deviation) of the lean from place to place, tile widths, 0 to 1."""
 
 
 @dataclass(frozen=True)
@@ -57,8 +93,8 @@ class Strands:
 
     points : (S, P, 3) float, tile widths; u and v may leave [0, 1): the tile repeats
     radius : (S, P) float, tile widths
-    tint : (S,) float, 0..1, brightness of the whole hair
-    hue : (S,) float, 0..1, from the ramp's first tip colour to its second
+    tint : (S, P) float, 0..1, brightness
+    hue : (S, P) float, 0..1, from the ramp's first tip colour to its second
     """
 
     points: Array
@@ -67,8 +103,24 @@ class Strands:
     hue: Array
 
 
+TILE = np.ones(2)
+
 POINTS = 25
-"""Points per hair. Curls of up to six turns keep four points a turn."""
+"""Points per hair at least."""
+
+POINTS_PER_TURN = 8
+
+MOST_POINTS = 161
+
+FLOW_WAVES = 2
+"""Changes of the lean's direction along a side of the tile."""
+
+
+def points_per_hair(coat: Coat) -> int:
+    """As many as its tightest curl, wave or kink needs."""
+    bends = max(max(kind.turns * (kind.curl > 0), kind.waves * (kind.wave > 0)) for kind in (coat.guard, coat.under))
+    kinks = max(kind.kinks * (kind.frizz > 0) for kind in (coat.guard, coat.under))
+    return min(MOST_POINTS, max(POINTS, 1 + int(np.ceil(POINTS_PER_TURN * max(bends, kinks / 2)))))
 
 
 def scatter(count: int, rng: np.random.Generator) -> Array:
@@ -79,64 +131,152 @@ def scatter(count: int, rng: np.random.Generator) -> Array:
     return points[rng.permutation(side * side)[:count]]
 
 
+def tile_noise(at: Array, waves: int, rng: np.random.Generator) -> Array:
+    """Smooth periodic noise at points (S, 2) of the tile, (S,), mean 0, standard deviation 1.
+
+    A sum of plane waves whose periods fit the tile, about `waves` of them along a side.
+    """
+    steps = np.arange(-waves, waves + 1)
+    vectors = np.stack(np.meshgrid(steps, steps), -1).reshape(-1, 2)
+    length = np.linalg.norm(vectors, axis=1)
+    vectors = vectors[(length > 0.5 * waves) & (length < 1.2 * waves)]
+    size = rng.normal(0.0, 1.0, len(vectors))
+    size *= np.sqrt(2 / (size**2).sum())
+    phase = rng.uniform(0.0, 2 * np.pi, len(vectors))
+    noise: Array = np.cos(2 * np.pi * at @ vectors.T + phase) @ size
+    return noise
+
+
+def plant(coat: Coat, rng: np.random.Generator) -> Array:
+    """Roots of all hairs, guard hairs first, (S, 2): evenly, or thinned out between thick places."""
+    roots = []
+    for kind in (coat.guard, coat.under):
+        if coat.patchiness == 0.0:
+            roots.append(scatter(kind.count, rng))
+            continue
+        seeds = scatter(int(np.ceil(kind.count * (1 + coat.patchiness))), rng)
+        rank = coat.patchiness * tile_noise(seeds, coat.patches, rng) + (1 - coat.patchiness) * rng.random(len(seeds))
+        roots.append(seeds[np.argsort(-rank, kind="stable")[: kind.count]])
+    return np.concatenate(roots)
+
+
 def grow(coat: Coat, height: float, seed: int) -> Strands:
     """Grow the hairs of one tile.
 
-    Every hair rises linearly to its own length, follows the common lean, strays, curls, and is drawn towards the
-    nearest clump's centre across the tile's borders. The longest hair ends exactly at `height` (tile widths), so that
-    the topmost slab is never empty.
+    Every hair rises linearly to its own length, follows the common lean, strays, curls, waves and frizzes, and is drawn
+    towards the nearest clump's centre across the tile's borders. The longest hair ends exactly at `height` (tile
+    widths), so that the topmost slab is never empty.
     """
     rng = np.random.default_rng(seed)
     kinds = (coat.guard, coat.under)
-    count = sum(kind.count for kind in kinds)
+    counts = [kind.count for kind in kinds]
+    count = sum(counts)
 
-    def each(values: list[float]) -> Array:
-        """One value per hair from one value per kind of hair, (S,)."""
-        return np.repeat(np.array(values, float), [kind.count for kind in kinds])
+    def each(name: str) -> Array:
+        """A knob of each hair's own kind, (S,), or (S, 2) for a pair."""
+        return np.repeat(np.array([getattr(kind, name) for kind in kinds], float), counts, axis=0)
 
-    def uniform(low: float, high: float) -> Array:
-        return rng.uniform(low, high, count)
+    def between(name: str, share: Array) -> Array:
+        """A pair of each hair's own kind, mixed: share (S,) or (S, P)."""
+        low, high = each(name).T.reshape(2, count, *[1] * (share.ndim - 1))
+        return np.asarray(low + (high - low) * share)
 
-    root = np.concatenate([scatter(kind.count, rng) for kind in kinds])
-    centre = scatter(coat.clumps, rng)
-    to_centre = centre[None] - root[:, None]
-    to_centre -= np.round(to_centre)
-    clump = np.argmin((to_centre**2).sum(-1), axis=1)
-    to_clump = to_centre[np.arange(count), clump]
+    def column(values: Array) -> Array:
+        return values[:, None]
+
+    root = plant(coat, rng)
+    centre = settle(scatter(coat.clumps, rng), root)
+    clump, to_clump = nearest(root, centre)
 
     # Hairs of one clump share a length, a lean and a shade: tufts, not noise.
-    tuft_length = rng.uniform(0.82, 1.0, coat.clumps)[clump]
+    tuft_length = 1 - coat.tufts * shuffle(centre, rng)[clump]
     tuft_lean = rng.normal(0.0, 0.8, (coat.clumps, 2))[clump]
-    tuft_shade = rng.normal(0.0, 0.7, coat.clumps)[clump]
-    tuft_hue = rng.uniform(0.0, 1.0, coat.clumps)[clump]
+    tuft_shade = 1.5 * (shuffle(centre, rng) - 0.5)[clump]
+    tuft_hue = shuffle(centre, rng)[clump]
+    tuft_phase = rng.random(coat.clumps)[clump]
 
-    guard = each([1.0, 0.0])
-    share = rng.random(count)
-    length = each([k.length[0] for k in kinds]) * (1 - share) + each([k.length[1] for k in kinds]) * share
-    length *= np.where(guard > 0, tuft_length, 1.0)
+    length = between("length", rng.random(count))
+    length *= np.where(np.arange(count) < coat.guard.count, tuft_length, 1.0)
     length *= height / length.max()
 
-    stray = each([k.stray for k in kinds])[:, None]
-    tip = np.array(coat.lean) + stray * (tuft_lean + rng.normal(0.0, 1.0, (count, 2)))
-    tip *= (length / height)[:, None]
-    pull = to_clump * (each([k.clump for k in kinds]) * uniform(0.6, 1.1))[:, None]
+    tip = np.array(coat.lean) + column(each("stray")) * (tuft_lean + rng.normal(0.0, 1.0, (count, 2)))
+    if coat.flow:
+        tip += coat.flow * np.stack([tile_noise(root, FLOW_WAVES, rng) for _ in range(2)], -1)
+    tip *= column(length / height)
+    pull = to_clump * column(each("clump") * rng.uniform(0.6, 1.1, count))
 
-    s = np.linspace(0.0, 1.0, POINTS)
-    angle = (
-        2
-        * np.pi
-        * (rng.random(count)[:, None] + each([k.turns for k in kinds])[:, None] * uniform(0.7, 1.3)[:, None] * s)
-    )
-    curl = (each([k.curl for k in kinds]) * uniform(0.4, 1.2))[:, None] * s
-    sideways = tip[:, None] * s[:, None] ** coat.bend + pull[:, None] * s[:, None] ** 1.3
-    sideways += curl[..., None] * np.stack([np.cos(angle), np.sin(angle)], -1)
+    s = np.linspace(0.0, 1.0, points_per_hair(coat))
+    alone = 1 - each("lock")
+    # Hairs of a lock turn together, so they differ as little in size and pace as in phase.
+    pace = 1 + alone * rng.uniform(-0.3, 0.3, count)
+    phase = tuft_phase + alone * rng.uniform(-0.5, 0.5, count)
+    curl = column(each("curl") * (0.8 + alone * rng.uniform(-0.4, 0.4, count))) * s ** column(each("curl_shape"))
+    curl_angle = 2 * np.pi * (column(phase) + column(each("turns") * pace) * s)
+    wave = column(each("wave") * (1 + alone * rng.uniform(-0.4, 0.4, count))) * s
+    wave = wave * np.sin(2 * np.pi * (column(phase) + column(each("waves") * pace) * s))
+    wave_angle = column(2 * np.pi * (tuft_hue + alone * rng.uniform(-0.5, 0.5, count)))
+
+    sideways = tip[:, None] * s[:, None] ** coat.bend
+    sideways += pull[:, None] * (s ** column(each("clump_shape")))[..., None]
+    sideways += curl[..., None] * circle(curl_angle) + wave[..., None] * circle(wave_angle)
+    if any(kind.frizz for kind in kinds):
+        sideways += each("frizz")[:, None, None] * s[:, None] * wander(s, each("kinks"), rng)
     points = np.concatenate([root[:, None] + sideways, (length[:, None] * s)[..., None]], -1)
 
-    thickness = uniform(0.8, 1.2)[:, None]
-    taper = s**1.5
-    radius = thickness * (
-        each([k.radius[0] for k in kinds])[:, None] * (1 - taper) + each([k.radius[1] for k in kinds])[:, None] * taper
+    thin = s ** column(each("taper"))
+    radius = column(rng.uniform(0.8, 1.2, count)) * between("radius", thin)
+    tint = np.clip(each("tint") + coat.shade * (tuft_shade + rng.normal(0.0, 1.0, count)), 0.35 * each("tint"), 1.0)
+    hue = between("hue", np.clip(0.6 * tuft_hue + 0.4 * rng.random(count), 0.0, 1.0))
+    ticked = np.clip((s - column(each("ticked"))) / (1 - column(each("ticked"))), 0.0, 1.0)
+    ticked = column(each("ticking")) * ticked * ticked * (3 - 2 * ticked)
+    return Strands(
+        points=points,
+        radius=radius,
+        tint=np.clip(column(tint) * between("fade", np.broadcast_to(s, radius.shape)), 0.0, 1.0),
+        hue=column(hue) + (1 - column(hue)) * ticked,
     )
-    tint = np.clip(0.78 + coat.shade * (tuft_shade + rng.normal(0.0, 1.0, count)), 0.35, 1.0)
-    hue = np.clip(0.6 * tuft_hue + 0.4 * rng.random(count), 0.0, 1.0)
-    return Strands(points=points, radius=radius, tint=tint, hue=hue)
+
+
+def settle(centre: Array, root: Array) -> Array:
+    """Centres half-way to the middle of the roots around them: no clump is much larger than the others, (C, 2)."""
+    clump, way = nearest(root, centre)
+    many = np.maximum(np.bincount(clump, minlength=len(centre)), 1)
+    back = np.stack([np.bincount(clump, axis, len(centre)) for axis in way.T], -1) / many[:, None]
+    return np.asarray((centre - 0.5 * back) % 1.0 % 1.0)  # twice: a hair below 0 is 1 after the first
+
+
+def shuffle(centre: Array, rng: np.random.Generator) -> Array:
+    """Values 0..1, evenly spread, one per centre, (C,), that differ from those of the centres around it.
+
+    What many neighbours have in common is what the eye sees of a tile from afar: it would see the tile repeat.
+    """
+    noise = rng.random(len(centre))
+    around = min(7, len(centre))
+    if around > 1:
+        _, near = cKDTree(centre, boxsize=TILE).query(centre, k=around)
+        noise = noise - 0.8 * noise[np.asarray(near)[:, 1:]].mean(1)
+    rank: Array = (np.argsort(np.argsort(noise, kind="stable"), kind="stable") + 0.5) / len(centre)
+    return rank
+
+
+def nearest(root: Array, centre: Array) -> tuple[NDArray[np.intp], Array]:
+    """Index of each root's nearest centre in the repeating tile, (S,), and the way there, (S, 2)."""
+    tree = cKDTree(centre % 1.0, boxsize=TILE)
+    _, index = tree.query(root % 1.0)
+    way = centre[index] - root
+    return np.asarray(index), np.asarray(way - np.round(way))
+
+
+def circle(angle: Array) -> Array:
+    """Points of the unit circle, (..., 2)."""
+    return np.stack([np.cos(angle), np.sin(angle)], -1)
+
+
+def wander(s: Array, kinks: Array, rng: np.random.Generator) -> Array:
+    """Smooth noise along each hair, (S, P, 2), standard deviation about 1, `kinks` bends per hair."""
+    noise = np.zeros((len(kinks), len(s), 2))
+    for octave in (0.5, 1.0, 0.75):  # three sines whose periods have no common measure look like none
+        pace = (octave * kinks)[:, None] * rng.uniform(0.35, 0.65, (len(kinks), 2))
+        phase = rng.random((len(kinks), 2))
+        noise += np.sin(2 * np.pi * (phase[:, None] + pace[:, None] * s[:, None]))
+    return np.asarray(noise * np.sqrt(2 / 3))

@@ -14,7 +14,9 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
-from furbake.pelt.volume import Volume, average_down, seen_from_above
+from furbake.pelt.fibre import cylinder, sine
+from furbake.pelt.scatter import SKIN, scatter
+from furbake.pelt.volume import Volume, average_down, doubled, pool
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
@@ -26,6 +28,15 @@ LOWEST = 0.02
 """lz of the lowest sampled light. None is below the horizon: zeros there would ruin the fit."""
 
 STEPS_PER_TEXEL = 8
+
+LAMP, LAMP_RAYS = np.radians(10), 3
+"""Radius of the lamp as seen from the fur, radians, and the rays that stand for it."""
+
+HIDDEN = 0.02
+"""What hairs that are hidden from the eye count in the mean of their texel, to those that are seen."""
+
+SINGLE_SHARE = 0.8
+"""Share of the time that single scattering takes, for the progress."""
 
 
 def hemisphere(count: int, turn: float = 0.0) -> Array:
@@ -89,55 +100,92 @@ class OpticalDepth:
         return np.maximum(scipy.fft.irfft2(above, s=shape) * path, 0), np.maximum(own, 0)
 
 
-def within_slab(tau_view: NDArray[np.floating], tau_light: NDArray[np.floating]) -> NDArray[np.floating]:
-    """g: mean over a slab of the light's path times the eye's: [τv/(τv+τl)]·[1−e^−(τv+τl)]/[1−e^−τv]."""
-    both = tau_view + tau_light
-    clear = tau_view < 1e-4
-    exact = tau_view * -np.expm1(-both) / np.where(clear, 1, both * -np.expm1(-tau_view))
-    thin = -np.expm1(-tau_light) / np.maximum(tau_light, 1e-6)
-    return np.where(clear, np.where(tau_light < 1e-6, 1, thin), exact)
-
-
-def cylinder(tangent: NDArray[np.floating], light: Array) -> NDArray[np.floating]:
-    """D: a Lambertian cylinder of direction `tangent` (..., 3), lit from `light`, seen from straight above.
-
-    sinθ·[sin φ + (π − φ)·cos φ], θ between light and fibre, φ between light and eye around the fibre. Where the fibre
-    points at the eye φ has no meaning and its mean, (4/π)·sinθ, holds.
-    """
-    up = tangent[..., 2]
-    along = tangent @ light.astype(tangent.dtype)
-    sin_light = np.sqrt(np.maximum(1 - along * along, 0))
-    sin_view = np.sqrt(np.maximum(1 - up * up, 0))
-    cos_phi = np.clip((float(light[2]) - along * up) / np.maximum(sin_light * sin_view, 1e-4), -1, 1)
-    phi = np.arccos(cos_phi)
-    seen = np.sin(phi) + (np.pi - phi) * cos_phi
-    sure = sin_view**2 / (sin_view**2 + 0.15**2)
-    return np.asarray(sin_light * (sure * seen + (1 - sure) * (4 / np.pi)))
+def lamp_cone(light: Array, turn: float) -> Array:
+    """Directions over the disc of a lamp `LAMP` radians in radius, none below the horizon, (`LAMP_RAYS`, 3)."""
+    across = np.cross(light, [0.0, 0.0, 1.0] if abs(light[2]) < 0.99 else [1.0, 0.0, 0.0])
+    across /= np.linalg.norm(across)
+    ray = np.arange(LAMP_RAYS)
+    radius = np.tan(LAMP) * np.sqrt((ray + 0.5) / LAMP_RAYS)
+    angle = turn + ray * np.pi * (3 - np.sqrt(5))
+    spread = np.outer(np.cos(angle), across) + np.outer(np.sin(angle), np.cross(light, across))
+    rays = light + radius[:, None] * spread
+    rays[:, 2] = np.maximum(rays[:, 2], 0)
+    return np.asarray(rays / np.linalg.norm(rays, axis=1, keepdims=True))
 
 
 def sample(
-    fine: Volume, lights: Array, *, flat: bool = False, progress: Callable[[float], None] = lambda fraction: None
+    fine: Volume,
+    layers: int,
+    size: int,
+    lights: Array,
+    *,
+    flat: bool = False,
+    progress: Callable[[float], None] = lambda fraction: None,
 ) -> Single:
-    """L of every stored texel under every light, (n, K, N, N) float32.
+    """L of every stored texel under every light, (n, layers, size, size) float32: once scattered, T·D, and the rest, M.
 
-    `fine` is the oversampled volume; what is returned is averaged down. T·g·D: transmittance of what lies above, times
-    the mean within the slab, times the hair's own scattering. `flat` leaves out the curve of the body.
+    `fine` is the oversampled volume; what is returned is averaged down. `flat` leaves out the curve of the body and the
+    size of the lamp, and makes the skin black: a patch that other renderers can check.
     """
-    depth = OpticalDepth(fine.sigma, fine.slab)
-    coverage = fine.coverage.astype(np.float32)
-    shares = seen_from_above(coverage)
-    tau_view = (fine.sigma * fine.slab).astype(np.float32)
-    tangent = fine.tangent.astype(np.float32)
+    half = (layers, size // 2, size // 2)
+    single = np.empty((len(lights), layers, size, size), np.float32)
+    caught, reaching = (np.empty((len(lights), *half), np.float32) for _ in range(2))
+    floor = np.empty((len(lights), *half[1:]), np.float32)
+    beam = _Beam(fine, layers, size, flat)
+    with ThreadPoolExecutor(os.cpu_count()) as workers:
+        for i, fields in enumerate(workers.map(beam, lights, range(len(lights)))):
+            single[i], caught[i], reaching[i], floor[i] = fields
+            progress((i + 1) / len(lights) * SINGLE_SHARE)
+    tangent = np.stack([beam.stored(beam.sigma * beam.tangent[..., axis]) for axis in range(3)], -1)
+    tangent[..., 2] += 1e-9  # upright where there is no hair
+    tangent /= np.linalg.norm(tangent, axis=-1, keepdims=True)
+    skin = 0.0 if flat else SKIN
+    slab = fine.height / layers
+    multiple = scatter(beam.stored(beam.sigma), slab, tangent, lights, caught, reaching, floor, skin=skin)
+    progress(1.0)
+    return single + doubled(multiple)
 
-    def one(light: Array) -> Single:
-        elevation = float(light[2]) if flat else curved_elevation(float(light[2]))
-        above, own = depth(np.array([light[0], light[1], elevation]))
-        reaching = np.exp(-above) * within_slab(tau_view, own)
-        return average_down(reaching * cylinder(tangent, light), shares).astype(np.float32)
 
-    samples = []
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        for done, image in enumerate(pool.map(one, lights), 1):
-            samples.append(image)
-            progress(done / len(lights))
-    return np.stack(samples)
+class _Beam:
+    """One light through the oversampled volume, before anything is scattered twice."""
+
+    def __init__(self, fine: Volume, layers: int, size: int, flat: bool) -> None:
+        self.flat, self.layers, self.size, self.half, self.slab = flat, layers, size, size // 2, fine.slab
+        coverage = fine.coverage.astype(np.float32)
+        clear = np.cumprod(1 - coverage[::-1], axis=0, dtype=np.float32)[::-1]
+        above = np.concatenate([clear[1:], np.ones_like(clear[:1])])
+        # Of a texel's hairs those count most that the eye sees through all that lies above.
+        shares = (coverage * (above + HIDDEN)).astype(np.float32)
+        self.shares = shares.reshape(layers, -1, *coverage.shape[1:])
+        self.sigma = fine.sigma.astype(np.float32)
+        self.tangent = fine.tangent.astype(np.float32)
+        self.hair: Single = np.maximum(self.stored(self.sigma), np.float32(1e-6))
+
+    def __call__(self, light: Array, number: int) -> tuple[Single, Single, Single, Single]:
+        """T·D averaged down, (K, N, N); T·sin θ and T on average over the hairs, (K, N/2, N/2); the skin's irradiance.
+
+        T is taken at the ceiling of a voxel's slab: how a hair shades itself is in D. A hair that the light runs along
+        catches less of it and shades less: its σ counts times the sine between the two. D and that sine are those of
+        the lamp's middle; its rays are averaged in what they pass through.
+        """
+        width = sine(self.tangent, light)
+        depth = OpticalDepth(self.sigma * width, self.slab)
+        rays = light[None] if self.flat else lamp_cone(light, float(number))
+        passed, hairs = np.zeros_like(self.sigma), np.zeros_like(self.sigma)
+        skin = np.zeros_like(self.sigma[0])
+        for ray in rays:
+            elevation = float(ray[2]) if self.flat else curved_elevation(float(ray[2]))
+            above, own = depth(np.array([ray[0], ray[1], elevation]))
+            clear = np.exp(-above)
+            passed += clear
+            hairs += np.exp(-above - own / 2)
+            skin += clear[0] * np.exp(-own[0]) * np.float32(ray[2])
+        share = np.float32(1 / len(rays))
+        single = average_down(passed * share * cylinder(self.tangent, light), self.shares, self.size)
+        lit = hairs * (share * self.sigma)
+        return single, self.stored(lit * width) / self.hair, self.stored(lit) / self.hair, pool(skin * share, self.half)
+
+    def stored(self, fine: Single) -> Single:
+        """Means over blocks of fine voxels, to stored slabs at half the stored resolution."""
+        mean: Single = pool(fine.reshape(self.layers, -1, *fine.shape[1:]).mean(1), self.half)
+        return mean

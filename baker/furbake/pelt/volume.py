@@ -13,10 +13,13 @@ from furbake.pelt.strands import Strands
 Array = NDArray[np.float64]
 Real = TypeVar("Real", np.float32, np.float64)
 
-OVERSAMPLE = 2
-"""The volume is built and lit this much finer in every axis: discretisation is the largest error of all."""
+FINER = 2
+"""The volume is built and lit this much finer in every axis at least: discretisation is the largest error of all."""
 
-PLANES = 3
+FINE_SLABS = 64
+"""Slabs up to which voxels are made as flat as they are wide; more cost more than they bring."""
+
+PLANES = 2
 """Horizontal cuts per fine slab."""
 
 SOLID_SLAB = 1 / 16
@@ -50,6 +53,12 @@ class Volume:
     def coverage(self) -> Array:
         """α = 1 − exp(−σ·h), (K, N, N): what a slab hides, seen from straight above."""
         return -np.expm1(-self.sigma * self.slab)
+
+
+def fine_shape(layers: int, size: int, height: float) -> tuple[int, int]:
+    """Slabs and voxels per side of the volume from which `layers` slabs of `size` × `size` texels are averaged."""
+    even = round(height * size * FINER / layers)
+    return layers * max(FINER, min(even, -(-FINE_SLABS // layers))), size * FINER
 
 
 def voxelise(strands: Strands, height: float, layers: int, size: int, opacity: float) -> Volume:
@@ -86,7 +95,8 @@ def voxelise(strands: Strands, height: float, layers: int, size: int, opacity: f
         here = np.zeros(size * size)
         np.maximum.at(here, voxel.ravel(), cover.ravel())
         solid[slab] += here / PLANES
-        values = np.concatenate([along, strands.tint[hair, None], strands.hue[hair, None]], 1)
+        colour = [part[hair, segment] * (1 - t) + part[hair, segment + 1] * t for part in (strands.tint, strands.hue)]
+        values = np.concatenate([along, np.stack(colour, 1)], 1)
         weight[slab] += np.bincount(voxel.ravel(), cover.ravel(), size * size)
         for channel in range(5):
             sums[slab, channel] += np.bincount(voxel.ravel(), (cover * values[:, channel, None]).ravel(), size * size)
@@ -129,46 +139,53 @@ def _cross_sections(centre: Array, thick: Array, along: Array, size: int) -> tup
     return cover, voxel
 
 
-def pool(fine: NDArray[Real], factor: int = OVERSAMPLE) -> NDArray[Real]:
-    """Mean over blocks of factor × factor voxels in the plane: (..., N, N) → (..., N/factor, N/factor)."""
+def pool(fine: NDArray[Real], size: int) -> NDArray[Real]:
+    """Means over squares of voxels: (..., N, N) → (..., size, size)."""
     *rest, rows, columns = fine.shape
-    blocks = fine.reshape(*rest, rows // factor, factor, columns // factor, factor)
-    mean: NDArray[Real] = blocks.mean((-3, -1))
+    mean: NDArray[Real] = fine.reshape(*rest, size, rows // size, size, columns // size).mean((-3, -1))
     return mean
 
 
-def seen_from_above(coverage: NDArray[Real], factor: int = OVERSAMPLE) -> NDArray[Real]:
+def doubled(image: NDArray[Real]) -> NDArray[Real]:
+    """Twice as fine, bilinear, periodic: (..., N, N) → (..., 2N, 2N). New voxels lie a quarter of an old one off."""
+    for axis in (-2, -1):
+        before, after = np.roll(image, 1, axis), np.roll(image, -1, axis)
+        shape = list(image.shape)
+        shape[axis] *= 2
+        pairs = np.stack([0.75 * image + 0.25 * before, 0.75 * image + 0.25 * after], axis if axis == -1 else -2)
+        image = pairs.reshape(shape)
+    return image
+
+
+def seen_from_above(coverage: NDArray[Real], layers: int) -> NDArray[Real]:
     """What the eye sees of each fine slab in its coarse slab, α_j·Π_{above}(1−α): (K·f, N, N) → (K, f, N, N)."""
-    layers, rows, columns = coverage.shape
-    slabs = coverage.reshape(layers // factor, factor, rows, columns)
+    slabs = coverage.reshape(layers, -1, *coverage.shape[1:])
     shares = np.empty_like(slabs)
     clear = np.ones_like(slabs[:, 0])
-    for j in reversed(range(factor)):
+    for j in reversed(range(slabs.shape[1])):
         shares[:, j] = slabs[:, j] * clear
         clear = clear * (1 - slabs[:, j])
     return shares
 
 
-def average_down(fine: NDArray[Real], shares: NDArray[Real]) -> NDArray[Real]:
-    """Mean of a quantity as seen from above: (K·f, N·f, N·f) with shares (K, f, N·f, N·f) → (K, N, N)."""
-    factor = shares.shape[1]
+def average_down(fine: NDArray[Real], shares: NDArray[Real], size: int) -> NDArray[Real]:
+    """Mean of a quantity as seen from above: (K·f, M, M) with shares (K, f, M, M) → (K, size, size)."""
     weights = np.maximum(shares, 1e-6)
     values = fine.reshape(shares.shape)
-    mean: NDArray[Real] = pool((values * weights).sum(1), factor) / pool(weights.sum(1), factor)
+    mean: NDArray[Real] = pool((values * weights).sum(1), size) / pool(weights.sum(1), size)
     return mean
 
 
-def coarsen(fine: Volume, factor: int = OVERSAMPLE) -> Volume:
+def coarsen(fine: Volume, layers: int, size: int) -> Volume:
     """The stored slabs from the fine ones: coverage is kept exactly, all else is weighted by what the eye sees."""
-    shares = seen_from_above(fine.coverage, factor)
-    coverage = pool(shares.sum(1), factor)
-    layers = coverage.shape[0]
-    tangent = np.stack([average_down(fine.tangent[..., axis], shares) for axis in range(3)], -1)
+    shares = seen_from_above(fine.coverage, layers)
+    coverage = pool(shares.sum(1), size)
+    tangent = np.stack([average_down(fine.tangent[..., axis], shares, size) for axis in range(3)], -1)
     return Volume(
         sigma=-np.log1p(-np.minimum(coverage, 1 - 1e-9)) / (fine.height / layers),
         tangent=tangent / np.maximum(np.linalg.norm(tangent, axis=-1, keepdims=True), 1e-9),
-        tint=average_down(fine.tint, shares),
-        hue=average_down(fine.hue, shares),
-        drift=fine.drift.reshape(layers, factor, 2).mean(1),
+        tint=average_down(fine.tint, shares, size),
+        hue=average_down(fine.hue, shares, size),
+        drift=fine.drift.reshape(layers, -1, 2).mean(1),
         height=fine.height,
     )

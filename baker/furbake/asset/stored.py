@@ -1,0 +1,87 @@
+"""The pelt of a baked folder: what `write_gltf` stored of it, read back byte for byte."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from furbake.asset.planes import PlaneError, Planes, unpack
+from furbake.asset.read import Asset, AssetError
+from furbake.pelt.pelt import Pelt, Ramp
+
+Floats = NDArray[np.float64]
+RGB = tuple[float, float, float]
+SMOOTH_TERMS = 27
+
+
+def read_pelt(asset: Asset, state: int = 0) -> Pelt:
+    """The pelt of one state (0: dry), with the stored bytes, λ, Ω and basis.
+
+    Raises AssetError where the folder holds no whole pelt.
+    """
+    try:
+        return _pelt(asset.fur, asset, state)
+    except AssetError:
+        raise
+    except PlaneError as error:
+        raise AssetError(f"{error}, expected a plane of the pelt") from error
+    except (LookupError, TypeError, AttributeError, ValueError) as error:
+        detail = f"{type(error).__name__}: {error}"
+        raise AssetError(f"{asset.folder}: malformed pelt ({detail}), see furbake validate") from error
+
+
+def skin_colour(asset: Asset) -> RGB:
+    """Linear base colour of the skin, by which the fur's own colours are multiplied; white where it has none."""
+    try:
+        material = asset.document["materials"][asset.primitive(asset.fur["skin"])["material"]]
+        red, green, blue = (float(c) for c in material["pbrMetallicRoughness"]["baseColorFactor"][:3])
+    except (LookupError, TypeError, ValueError):
+        return 1.0, 1.0, 1.0
+    return red, green, blue
+
+
+def _pelt(fur: dict[str, Any], asset: Asset, state: int) -> Pelt:
+    stored, layers, size, count = fur["pelts"][state], fur["layers"], fur["size"], fur["coefficients"]
+    images = Planes(
+        tuple(asset.image(index) for index in stored["planes"]),
+        asset.image(stored["colour"]) if "colour" in stored else None,
+    )
+    for image in (*images.coefficients, *([] if images.colour is None else [images.colour])):
+        if image.shape[:2] != (layers * size, size):
+            got = " x ".join(str(side) for side in image.shape[1::-1])
+            raise AssetError(f"{asset.folder}: a plane is {got}, expected {size} x {layers * size}")
+    texels = unpack(images, count)
+    basis = fur["basis"]
+    if basis["kind"] not in ("ptm", "eigen"):
+        raise AssetError(f"model.gltf: basis {basis['kind']!r}, expected ptm or eigen")
+    eigen = basis["kind"] == "eigen"
+    ramp = fur["ramp"]
+    return Pelt(
+        codes=texels.codes,
+        alpha=texels.alpha,
+        tint=texels.tint,
+        colour=texels.colour,
+        scale=_array(stored["scale"], count),
+        bias=_array(stored["bias"], count),
+        kind="eigen" if eigen else "ptm",
+        degree=int(basis["degree"]) if eigen else None,
+        matrix=_array(basis["matrix"], count, SMOOTH_TERMS) if eigen else None,
+        environment=_array(fur["environment"], count, 9),
+        drift=_array(fur["drift"], layers, 2),
+        height=float(fur["height"]),
+        ramp=Ramp(_rgb(ramp["root"]), _rgb(ramp["tip"]), _rgb(ramp["tip2"]), float(ramp["power"])),
+    )
+
+
+def _array(values: Any, *shape: int) -> Floats:
+    array = np.array(values, np.float64)
+    if array.shape != shape:
+        raise ValueError(f"got numbers of shape {array.shape}, expected {shape}")
+    return array
+
+
+def _rgb(values: Any) -> RGB:
+    red, green, blue = (float(value) for value in values)
+    return red, green, blue

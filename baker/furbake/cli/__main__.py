@@ -1,0 +1,7 @@
+"""`python -m furbake.cli`."""
+
+import sys
+
+from furbake.cli.command import main
+
+sys.exit(main())

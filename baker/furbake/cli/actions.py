@@ -1,0 +1,196 @@
+"""What each sub-command does with its arguments; its exit status."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from furbake.asset.inspect import summary
+from furbake.asset.read import AssetError, read_asset
+from furbake.asset.validate import validate
+from furbake.bake import STAGES, bake, bake_key
+from furbake.cli.progress import shown
+from furbake.compare import Row, compare, markdown
+from furbake.options import BakeOptions, OptionError, as_toml, override, preset, preset_names, preset_summary
+from furbake.report import STAGES as REPORT_STAGES
+from furbake.report import write as write_report
+from furbake.swatch import save
+from furbake.verify import verify
+
+GIVEN = (
+    "layers", "size", "lights", "basis", "coefficients", "length", "tile", "height", "seed", "flat", "guide",
+    "length_by_thickness",
+)  # fmt: skip
+"""Options of the command that are options of the bake; one that is not given is the preset's."""
+
+VERIFY_STAGES = ("strands", "light", "trace")
+
+INVALID = 1
+
+
+def chosen(args: argparse.Namespace) -> BakeOptions:
+    """The preset's options, then every `--set`, then what has an option of its own."""
+    options = preset(args.preset)
+    try:
+        options = override(options, dict(args.set))
+    except OptionError as error:
+        raise OptionError(f"set: {error}") from None
+    options = replace(options, **{name: getattr(args, name) for name in GIVEN if hasattr(args, name)})
+    options.check()
+    return options
+
+
+def run_bake(args: argparse.Namespace) -> int:
+    """Bake a mesh into a folder."""
+    options = chosen(args)
+    out = Path(args.out)
+    if args.if_stale and (record := _fresh(args.model, out, options)):
+        if args.json:
+            print(json.dumps({"folder": str(out), "baked": False, "seconds": {}, **record}))
+        elif not args.quiet:
+            print(f"{out}: up to date")
+        return 0
+    samples = Path(args.samples) if args.samples else None
+    start = time.perf_counter()
+    with shown(STAGES, args.quiet) as progress:
+        result = bake(args.model, out, options, force=args.force or args.if_stale, samples=samples, progress=progress)
+    if args.json:
+        print(json.dumps({"folder": str(out), "baked": True, "seconds": result.seconds, **result.record}))
+    elif not args.quiet:
+        size = sum(result.record["asset"]["bytes"].values()) / 1e6
+        print(
+            f"{out}: {result.record['input']['name']} in {options.layers} layers of {options.size} x {options.size}, "
+            f"{result.record['fit']['psnr']:.1f} dB, {size:.2f} MB, {time.perf_counter() - start:.1f} s"
+        )
+    return 0
+
+
+def _fresh(model: str, out: Path, options: BakeOptions) -> dict[str, Any] | None:
+    """The record of a whole bake of the same options, version and input in `out`, if there is one."""
+    try:
+        record = read_asset(out).record
+        whole = all((out / name).stat().st_size == size for name, size in record["asset"]["bytes"].items())
+        return record if whole and record["key"] == bake_key(model, options) else None
+    except (AssetError, OSError, LookupError, TypeError, AttributeError):
+        return None
+
+
+def run_inspect(args: argparse.Namespace) -> int:
+    """Say what is in a baked folder."""
+    found = summary(read_asset(Path(args.folder)))
+    if args.json:
+        print(json.dumps(found))
+        return 0
+    table(found)
+    return 0
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, dict):
+        return ", ".join(f"{key} {_text(item)}" for key, item in value.items())
+    if isinstance(value, list):
+        return ", ".join(_text(item) for item in value)
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+def run_validate(args: argparse.Namespace) -> int:
+    """List what is wrong with a baked folder."""
+    folder = Path(args.folder)
+    if not folder.is_dir():
+        read_asset(folder)
+    problems = validate(folder)
+    for problem in problems:
+        print(problem)
+    if not problems:
+        print(f"{folder}: valid")
+    return INVALID if problems else 0
+
+
+def run_presets(args: argparse.Namespace) -> int:
+    """All presets in a line each, or every knob of one, to copy."""
+    if args.name:
+        options = preset(args.name)
+        print(json.dumps(options.as_record()) if args.json else described(args.name, options), end="")
+        return 0
+    if args.json:
+        print(json.dumps({name: preset(name).as_record() for name in preset_names()}))
+        return 0
+    for name in preset_names():
+        options = preset(name)
+        print(f"{name:<12}{options.layers} layers of {options.size} x {options.size}. {preset_summary(name)}")
+    return 0
+
+
+def described(name: str, options: BakeOptions) -> str:
+    """A preset as a file to copy."""
+    first = preset_summary(name) if name in preset_names() else name
+    return f"# {first}\n\n{as_toml(options)}"
+
+
+def run_report(args: argparse.Namespace) -> int:
+    """Write DIR/report.html."""
+    with shown(REPORT_STAGES, args.quiet) as progress:
+        out = write_report(Path(args.folder), progress)
+    if not args.quiet:
+        print(out)
+    return 0
+
+
+def run_swatch(args: argparse.Namespace) -> int:
+    """Write a picture of a baked pelt, or of a preset's."""
+    out, look = Path(args.out), {"tiles": args.tiles, "size": args.pixels}
+    if args.folder:
+        if args.preset or args.set:
+            raise OptionError(f"swatch: got {args.folder!r} and --preset or --set, expected DIR alone or no DIR")
+        save(Path(args.folder), out, args.light, **look)
+    else:
+        args.preset = args.preset or "paper"
+        options = chosen(args)
+        with TemporaryDirectory(prefix="furbake-") as scratch, shown(STAGES, args.quiet) as progress:
+            bake("plane", Path(scratch) / "plane", options, progress=progress)
+            save(Path(scratch) / "plane", out, args.light, **look)
+    if not args.quiet:
+        print(out)
+    return 0
+
+
+def run_verify(args: argparse.Namespace) -> int:
+    """Compare a bake with a path tracer."""
+    picture = Path(args.out) if args.out else None
+    with shown(VERIFY_STAGES, args.quiet) as progress:
+        figures = verify(Path(args.folder), picture=picture, spp=args.spp, progress=progress)
+    if args.json:
+        print(json.dumps(figures))
+    elif not args.quiet:
+        table(figures)
+    return 0
+
+
+def run_compare(args: argparse.Namespace) -> int:
+    """Print a table of presets and bases, all measured anew."""
+    names = args.names or preset_names()
+    coats = [preset(name) for name in names]
+    rows: list[Row] = []
+    with shown(names, args.quiet) as progress:
+        for name, options in zip(names, coats, strict=True):
+            rows += compare(options, args.lights, partial(progress, name))
+            progress(name, 1.0)
+    print(markdown(rows), end="")
+    return 0
+
+
+def table(found: dict[str, Any]) -> None:
+    """Print names and values, one a line, groups indented."""
+    for name, value in found.items():
+        if isinstance(value, dict):
+            print(f"{name}:")
+            for key, item in value.items():
+                print(f"  {key + ':':<26}{_text(item)}")
+        else:
+            print(f"{name + ':':<28}{_text(value)}")

@@ -1,0 +1,186 @@
+"""The command line: what can be asked for, and what is said where it cannot be understood."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any, NoReturn
+
+from furbake.cli import actions
+from furbake.swatch import FROM_THE_SIDE
+from furbake.verify import SAMPLES
+
+
+class UsageError(ValueError):
+    """A command line that cannot be understood; the message names the argument, what was got and expected."""
+
+
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong in the words of all other errors, instead of printing usage."""
+
+    shape = "furbake bake, inspect, validate, presets, report, swatch, verify or compare"
+
+    def error(self, message: str) -> NoReturn:
+        if match := re.fullmatch(r"the following arguments are required: (.*)", message, re.DOTALL):
+            raise UsageError(f"{match[1].replace('/--out', '')}: missing, expected {self.shape}")
+        if match := re.fullmatch(r"unrecognized arguments: (.*)", message, re.DOTALL):
+            raise UsageError(f"{match[1]}: unknown, expected arguments of '{self.prog} --help'")
+        if match := re.fullmatch(r"argument COMMAND: invalid choice: (.*?) \(choose from (.*)\)", message, re.DOTALL):
+            raise UsageError(f"command: got {match[1]}, expected {match[2].replace(chr(39), '')}")
+        if match := re.fullmatch(r"argument (?:-\w/)?-*([\w-]+): (.*)", message, re.DOTALL):
+            detail = match[2].replace("expected one argument", "got nothing, expected a value")
+            raise UsageError(f"{match[1]}: {detail}")
+        raise UsageError(f"arguments: {message}")
+
+
+def _whole(text: str) -> int:
+    try:
+        return int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"got {text!r}, expected a whole number") from None
+
+
+def _lights(text: str) -> int:
+    count = _whole(text)
+    if not 8 <= count <= 1024:
+        raise argparse.ArgumentTypeError(f"got {text}, expected 8 to 1024")
+    return count
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"got {text!r}, expected a number") from None
+
+
+def _setting(text: str) -> tuple[str, str]:
+    name, equals, value = text.partition("=")
+    if not (name.strip() and equals):
+        raise argparse.ArgumentTypeError(f"got {text!r}, expected KNOB=VALUE such as coat.guard.count=300")
+    return name.strip(), value.strip()
+
+
+def _direction(text: str) -> tuple[float, float, float]:
+    try:
+        x, y, z = (float(part) for part in text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"got {text!r}, expected three numbers X,Y,Z") from None
+    return x, y, z
+
+
+def _guide(text: str) -> str:
+    if text not in ("nose-tail", "down"):
+        hint = " (a file of strokes is not supported yet)" if Path(text).suffix else ""
+        raise argparse.ArgumentTypeError(f"got {text!r}, expected nose-tail or down{hint}")
+    return text
+
+
+def _path(text: str) -> str:
+    if not text or "\0" in text:
+        raise argparse.ArgumentTypeError(f"got {text!r}, expected a path")
+    return text
+
+
+def parser() -> argparse.ArgumentParser:
+    """Of the whole command."""
+    top = _Parser(
+        prog="furbake", description="Bakes fur that can be relit in real time, from any mesh.", allow_abbrev=False
+    )
+    top.add_argument("--version", action="version", version=f"furbake {version('furbake')}")
+    commands = top.add_subparsers(metavar="COMMAND", required=True, dest="COMMAND", parser_class=_Parser)
+
+    def add(name: str, run: Any, shape: str, text: str) -> _Parser:
+        command: _Parser = commands.add_parser(name, help=text, description=text, allow_abbrev=False)
+        command.set_defaults(run=run)
+        command.shape = f"furbake {name} {shape}"
+        return command
+
+    _bake_arguments(add("bake", actions.run_bake, "MODEL -o DIR", "bake a mesh into a folder"))
+    inspect = add("inspect", actions.run_inspect, "DIR", "say what is in a baked folder")
+    inspect.add_argument("folder", metavar="DIR", type=_path)
+    inspect.add_argument("--json", action="store_true", help="as one JSON object")
+    check = add("validate", actions.run_validate, "DIR", "check a baked folder: exit 1 and a list if it is bad")
+    check.add_argument("folder", metavar="DIR", type=_path)
+    presets = add("presets", actions.run_presets, "[NAME]", "list the presets, or all knobs of one as TOML to copy")
+    presets.add_argument("name", metavar="NAME", nargs="?", type=_path, help="a preset or a .toml file")
+    presets.add_argument("--json", action="store_true", help="as one JSON object with all their options")
+    report = add(
+        "report", actions.run_report, "DIR", "write DIR/report.html: how good the bake is, and where it is not"
+    )
+    report.add_argument("folder", metavar="DIR", type=_path)
+    report.add_argument("--quiet", action="store_true", help="no progress, no summary")
+    _swatch_arguments(add("swatch", actions.run_swatch, "DIR -o FILE.png", "picture of a baked pelt, or of a preset's"))
+    _verify_arguments(add("verify", actions.run_verify, "DIR", "compare a bake with a path tracer (Mitsuba 3)"))
+    compare = add(
+        "compare", actions.run_compare, "[NAME ...]", "table of presets and bases, measured anew, as Markdown"
+    )
+    compare.add_argument("names", metavar="NAME", nargs="*", type=_path, help="presets or .toml files (default: all)")
+    compare.add_argument("--lights", type=_lights, default=96, metavar="N", help="lights of the fit (default: 96)")
+    compare.add_argument("--quiet", action="store_true", help="no progress")
+    return top
+
+
+def _bake_arguments(parser: _Parser) -> None:
+    add = parser.add_argument
+    unset: Any = argparse.SUPPRESS
+    add("model", metavar="MODEL", type=_path, help="a mesh file, or sphere, plane, torus, torus:RxC")
+    add("-o", "--out", metavar="DIR", required=True, type=_path, help="folder to write, whole or not at all")
+    _preset_arguments(parser, "paper")
+    add("--layers", type=_whole, default=unset, metavar="K", help="slabs of the tile, 1 to 64")
+    add("--size", type=_whole, default=unset, metavar="N", help="texels per side of a slab, a power of two, 8 to 512")
+    add("--lights", type=_whole, default=unset, metavar="N", help="sampled directions of light, 8 to 1024")
+    add("--basis", default=unset, metavar="ptm|eigen", help="the paper's polynomial, or curves found for this fur")
+    add("--coefficients", type=_whole, default=unset, metavar="C", help="numbers per texel: 6, with eigen 3 to 6")
+    add("--length", type=_number, default=unset, metavar="L", help="longest fur, the model's own units")
+    add("--tile", type=_number, default=unset, metavar="W", help="width of a tile, the model's own units")
+    add("--height", type=_number, default=unset, metavar="H", help="longest fur in tile widths: length / tile")
+    add("--seed", type=_whole, default=unset, metavar="S", help="of all chance")
+    add("--guide", type=_guide, default=unset, metavar="nose-tail|down", help="where the fur is laid")
+    add("--length-by-thickness", action="store_true", default=unset, help="shorter fur where the body is thin")
+    add("--flat", action="store_true", default=unset, help="a flat patch under a point at infinity, for checks")
+    add("--samples", type=_path, metavar="FILE.npz", help="write the sampled physics too, for others to check")
+    add("--force", action="store_true", help="replace DIR if it is a bake")
+    add("--if-stale", action="store_true", help="only if DIR differs in options, input or version; implies --force")
+    add("--json", action="store_true", help="print one JSON object with the record and the seconds of every stage")
+    add("--quiet", action="store_true", help="no progress, no summary")
+
+
+def _preset_arguments(parser: _Parser, default: str | None) -> None:
+    parser.add_argument(
+        "--preset",
+        default=default,
+        metavar="NAME|FILE.toml",
+        type=_path,
+        help="sets what is not given (default: paper)",
+    )
+    parser.add_argument(
+        "--set",
+        default=[],
+        action="append",
+        metavar="KNOB=VALUE",
+        type=_setting,
+        help="change a knob of the preset, such as coat.guard.count=300 (furbake presets NAME lists them); repeatable",
+    )
+
+
+def _swatch_arguments(parser: _Parser) -> None:
+    add = parser.add_argument
+    add("folder", metavar="DIR", nargs="?", type=_path, help="a baked folder; without it a preset is baked for this")
+    _preset_arguments(parser, None)
+    add("-o", "--out", metavar="FILE.png", required=True, type=_path, help="picture to write")
+    add("--light", metavar="X,Y,Z", type=_direction, default=FROM_THE_SIDE, help="towards the lamp: right, up, at you")
+    add("--tiles", metavar="T", type=_whole, default=3, help="repeats of the tile along a side (default: 3)")
+    add("--pixels", metavar="P", type=_whole, default=512, help="side of the picture (default: 512)")
+    add("--quiet", action="store_true", help="no progress, no summary")
+
+
+def _verify_arguments(parser: _Parser) -> None:
+    add = parser.add_argument
+    add("folder", metavar="DIR", type=_path)
+    add("-o", "--out", metavar="FILE.png", type=_path, help="picture with both side by side")
+    add("--spp", metavar="N", type=_whole, default=SAMPLES, help=f"paths per pixel (default: {SAMPLES})")
+    add("--json", action="store_true", help="figures as one JSON object")
+    add("--quiet", action="store_true", help="no progress, no summary")

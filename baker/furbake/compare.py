@@ -1,0 +1,59 @@
+"""Presets and bases side by side: how well few numbers relight each fur, all from the same samples."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+from furbake.bake import fit_pelt, light
+from furbake.options import BakeOptions
+from furbake.pelt.strands import grow
+from furbake.pelt.volume import coarsen, fine_shape, voxelise
+
+VARIANTS: tuple[tuple[str, dict[str, Any]], ...] = (
+    ("ptm, 6 numbers", {"basis": "ptm", "coefficients": 6}),
+    ("eigen, 6 numbers", {"basis": "eigen", "coefficients": 6}),
+    ("eigen, 5 numbers", {"basis": "eigen", "coefficients": 5}),
+    ("eigen, 4 numbers", {"basis": "eigen", "coefficients": 4}),
+    ("eigen, 3 numbers", {"basis": "eigen", "coefficients": 3}),
+)
+
+
+@dataclass(frozen=True)
+class Row:
+    """Figures of one basis for one fur, as in `bake.json`."""
+
+    preset: str
+    variant: str
+    fit: dict[str, Any]
+
+
+def compare(
+    options: BakeOptions, lights: int = 96, step: Callable[[float], None] = lambda fraction: None
+) -> Iterator[Row]:
+    """Sample one fur under `lights` directions and as many held-out ones, then fit it in every basis."""
+    height = options.height if options.height is not None else options.height_share
+    strands = grow(options.coat, height, options.seed)
+    fine = voxelise(strands, height, *fine_shape(options.layers, options.size, height), options.coat.opacity)
+    volume = coarsen(fine, options.layers, options.size)
+    lighting = light(fine, replace(options, lights=lights), step, held_out=lights)
+    for name, basis in VARIANTS:
+        _, figures = fit_pelt(volume, lighting, replace(options, **basis))
+        yield Row(options.preset, name, figures)
+
+
+def markdown(rows: list[Row]) -> str:
+    """A table, dB over held-out lights: layers, worst layer and composite as stored, and what is possible at best."""
+    lines = [
+        "| fur | basis | layers | worst layer | from above | stored | best possible | from above |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
+    for row in rows:
+        fit, bound = row.fit, row.fit["bound"]
+        figures = (
+            fit["psnr"], fit["psnr_worst_layer"], fit["psnr_composite"], fit["psnr_quantised"],
+            bound["psnr"], bound["psnr_composite"],
+        )  # fmt: skip
+        lines.append(f"| {row.preset} | {row.variant} | " + " | ".join(f"{figure:.2f}" for figure in figures) + " |")
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,198 @@
+"""Multiple scattering: light that reaches a hair from other hairs and from the skin, by discrete ordinates.
+
+Light crosses the periodic slabs along 48 directions, order after order. A hair is a Lambertian cylinder also where
+light meets it again: its D is a constant and a cosine around the hair (the first terms of the Fourier series of
+sin φ + (π − φ)·cos φ = 4/π + (π/2)·cos φ + …), so that four numbers of what arrives say all that it scatters:
+
+    φ = ∫ I·sin θ dω   and   F = ∫ I·ω dω   (ω towards where the light comes from)
+    source towards v = ϖ/4π · [ (4/π)·φ + (π/2)·F⊥·v / sin(t, v) ],   extinction σ·sin(t, v)
+
+All is linear in the light that comes in, and in the unit of L, so that it adds to single scattering as it is.
+"""
+
+from __future__ import annotations
+
+import os
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from furbake.pelt.fibre import cylinder, sine
+
+Array = NDArray[np.float64]
+Single = NDArray[np.float32]
+
+ALBEDO = 0.85
+"""Share of the light that a hair scatters."""
+
+SKIN = 0.25
+"""Share of the light that the skin scatters back, evenly."""
+
+MOST_ORDERS = 40
+SPENT = 0.03
+"""The order that adds less than this share to all before it is the last; those after it are a geometric series."""
+
+ELEVATIONS, AZIMUTHS = 3, 8
+"""Directions per hemisphere: Gauss–Legendre in the cosine, even in azimuth."""
+
+LOST = 0.01
+"""Share of the sources' energy, over all lights, that may be left out: what varies so fast is evened out anyhow."""
+
+
+@dataclass(frozen=True)
+class Arriving:
+    """Light that arrives at the hairs and at the skin, B fields of it.
+
+    phi : (K, B, N, N) ∫I·sin θ dω, flux : (3, K, B, N, N) ∫I·ω dω, floor : (B, N, N) irradiance of the skin
+    """
+
+    phi: Single
+    flux: Single
+    floor: Single
+
+
+def scatter(
+    sigma: Single,
+    slab: float,
+    tangent: Single,
+    lights: Array,
+    caught: Single,
+    reaching: Single,
+    floor: Single,
+    *,
+    albedo: float = ALBEDO,
+    skin: float = SKIN,
+) -> Single:
+    """M: light scattered at least twice, the last time to the eye straight above, (n, K, N, N), for n lights.
+
+    sigma : (K, N, N) extinction across the hairs, per tile width; slab : thickness, tile widths
+    tangent : (K, N, N, 3) unit direction of the hairs
+    lights : (n, 3), of irradiance 1
+    reaching, caught : (n, K, N, N) share of each light that reaches a voxel's hairs unscattered, and that times sin θ
+    floor : (n, N, N) irradiance of the skin by unscattered light
+
+    Lights from neighbouring directions come in much the same: the sources are written in as few of their principal
+    components as `LOST` allows, and only those are scattered.
+    """
+    count, layers, size = caught.shape[:3]
+    flux = reaching[:, None] * lights.astype(np.float32)[:, :, None, None, None]
+    sources = np.concatenate([caught.reshape(count, -1), flux.reshape(count, -1), floor.reshape(count, -1)], 1)
+    energy, vectors = np.linalg.eigh((sources @ sources.T).astype(np.float64))
+    left_out = np.cumsum(np.maximum(energy, 0)) / max(energy.sum(), 1e-30)
+    basis = vectors[:, left_out > LOST].astype(np.float32)
+    parts = (basis.T @ sources).reshape(-1, 4 * layers + 1, size, size)
+    arriving = Arriving(
+        phi=np.moveaxis(parts[:, :layers], 0, 1),
+        flux=np.moveaxis(parts[:, layers:-1].reshape(-1, 3, layers, size, size), 0, 2),
+        floor=parts[:, -1],
+    )
+    scattered = np.moveaxis(_Medium(sigma, slab, tangent, skin).all_orders(arriving, albedo), 0, 1)
+    multiple: Single = np.maximum(basis @ scattered.reshape(len(parts), -1), 0)
+    return multiple.reshape(caught.shape)
+
+
+class _Medium:
+    """Periodic slabs of hair over a skin that reflects evenly, and the directions in which light crosses them."""
+
+    def __init__(self, sigma: Single, slab: float, tangent: Single, skin: float) -> None:
+        self.sigma, self.slab, self.tangent, self.skin = sigma, slab, tangent, skin
+        self.directions, self.solid_angles = hemisphere_rule()
+
+    def all_orders(self, arriving: Arriving, albedo: float) -> Single:
+        """Sum over all orders of what the hairs send to the eye, (K, B, N, N)."""
+        seen = np.zeros_like(arriving.phi)
+        before = 0.0
+        for _ in range(MOST_ORDERS):
+            arriving, to_eye = self.scattered(arriving, albedo)
+            seen += to_eye
+            size = float(np.abs(to_eye).sum())
+            if size <= SPENT * np.abs(seen).sum():
+                ratio = min(size / before, 0.95) if before else 0.0
+                seen += to_eye * np.float32(ratio / (1 - ratio))
+                break
+            before = size
+        return seen
+
+    def scattered(self, arriving: Arriving, albedo: float) -> tuple[Arriving, Single]:
+        """What arrives everywhere once light has been scattered again, and ∫I·D dω of it: what goes to the eye.
+
+        A voxel's own light does not count: how a hair lights itself is in D already.
+        """
+        phi, flux = np.zeros_like(arriving.phi), np.zeros_like(arriving.flux)
+        to_eye = np.zeros_like(arriving.phi)
+        floor = np.zeros_like(arriving.floor)
+        irradiance = arriving.floor.copy()
+        across = np.moveaxis(self.tangent, -1, 0)[:, :, None]
+        perpendicular = arriving.flux - across * (arriving.flux * across).sum(0)
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            for travel in (-self.directions, self.directions):
+                upward = travel[0, 2] > 0
+                enters = irradiance * np.float32(self.skin / np.pi) if upward else floor
+                sweep = partial(self.sweep, arriving.phi, perpendicular, np.float32(albedo / (4 * np.pi)), enters)
+                for (light, end), way, solid_angle in zip(
+                    pool.map(sweep, travel), travel, self.solid_angles, strict=True
+                ):
+                    light *= np.float32(solid_angle)  # noqa: PLW2901 — in place, it is large
+                    phi += light * sine(self.tangent, way)[:, None]
+                    to_eye += light * cylinder(self.tangent, -way)[:, None]
+                    for axis in range(3):
+                        flux[axis] -= light * np.float32(way[axis])
+                    if not upward:
+                        irradiance += np.float32(solid_angle * -way[2]) * end
+        return Arriving(phi, flux, floor), to_eye
+
+    def sweep(
+        self, phi: Single, perpendicular: Single, share: np.float32, light: Single, way: Array
+    ) -> tuple[Single, Single]:
+        """Radiance that arrives at the slabs, (K, B, N, N), and at the end, (B, N, N), of light that travels one way.
+
+        `light` enters below when it goes up, above when it goes down.
+        """
+        layers, size = self.sigma.shape[0], self.sigma.shape[1]
+        width = sine(self.tangent, way)
+        source = np.einsum("a,akbrc->kbrc", way.astype(np.float32), perpendicular)
+        source *= np.float32(np.pi / 2) / width[:, None]
+        source += np.float32(4 / np.pi) * phi
+        source *= share
+        passes: Single = np.exp(self.sigma * width * np.float32(-self.slab / abs(way[2])))
+        # The light at x comes from x + shift in the slab before.
+        shift = -way[:2] / abs(way[2]) * self.slab * size
+        columns, rows = (_shift_matrix(part, size) for part in shift)
+        half_columns, half_rows = (_shift_matrix(part / 2, size) for part in shift)
+        arriving = np.empty_like(source)
+        light = np.asarray(half_rows @ light @ half_columns.T)
+        order = range(layers) if way[2] > 0 else range(layers - 1, -1, -1)
+        for step, k in enumerate(order):
+            if step:
+                light = np.asarray(rows @ light @ columns.T)
+            arriving[k] = light
+            light = source[k] + (light - source[k]) * passes[k]
+        return arriving, np.asarray(half_rows @ light @ half_columns.T)
+
+
+def hemisphere_rule() -> tuple[Array, Array]:
+    """Unit directions of the upper hemisphere, (m, 3), and their solid angles, (m,), which sum to 2π.
+
+    Every ring is turned against the one before it.
+    """
+    node, weight = np.polynomial.legendre.leggauss(ELEVATIONS)
+    z = np.repeat((node + 1) / 2, AZIMUTHS)
+    turn = np.repeat(np.arange(ELEVATIONS) / ELEVATIONS, AZIMUTHS)
+    azimuth = 2 * np.pi * (np.tile(np.arange(AZIMUTHS), ELEVATIONS) + turn) / AZIMUTHS
+    across = np.sqrt(1 - z * z)
+    directions = np.stack([across * np.cos(azimuth), across * np.sin(azimuth), z], -1)
+    return directions, np.repeat(weight, AZIMUTHS) * np.pi / AZIMUTHS
+
+
+def _shift_matrix(shift: float, size: int) -> Single:
+    """The matrix, (size, size), that reads a periodic row of texels at x + shift, linearly between two."""
+    whole = int(np.floor(shift))
+    part = np.float32(shift - whole)
+    texel = np.arange(size)
+    matrix = np.zeros((size, size), np.float32)
+    matrix[texel, (texel + whole) % size] = 1 - part
+    matrix[texel, (texel + whole + 1) % size] += part
+    return matrix
