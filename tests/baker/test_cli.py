@@ -346,7 +346,7 @@ def test_a_changed_knob_makes_a_bake_stale(run: Callable[..., Any]) -> None:
 
 def test_swatch_of_a_folder_and_of_a_preset(run: Callable[..., Any]) -> None:
     run("bake", "plane", "-o", "out", *TINY)
-    done = run("swatch", "out", "-o", "a.png", "--light", "1,0,1", "--tiles", "2", "--pixels", "32")
+    done = run("swatch", "out", "-o", "a.png", "--light", "-1,0,1", "--tiles", "2", "--pixels", "32")
     assert (done.status, done.out, done.err) == (0, "a.png\n", "")
     small = [f"--set={knob}" for knob in ("layers=4", "size=8", "lights=8")]
     assert run("swatch", "-o", "b.png", *small, "--pixels", "32", "--quiet").status == 0

@@ -25,7 +25,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")  # a name of a file may hold anything
     try:
-        args = parser().parse_args(argv)
+        args = parser().parse_args(_joined(sys.argv[1:] if argv is None else argv))
         run: Callable[[argparse.Namespace], int] = args.run
         status = run(args)
         sys.stdout.flush()
@@ -43,6 +43,17 @@ def main(argv: Sequence[str] | None = None) -> int:
         print("furbake: interrupted, nothing written", file=sys.stderr)
         return INTERRUPTED
     return status
+
+
+def _joined(argv: Sequence[str]) -> list[str]:
+    """`--light -1,0,1` as `--light=-1,0,1`: argparse takes what begins with a minus for another option."""
+    joined: list[str] = []
+    for argument in argv:
+        if joined and joined[-1] == "--light" and argument[:1] == "-" and argument[1:2].isdigit():
+            joined[-1] += f"={argument}"
+        else:
+            joined.append(argument)
+    return joined
 
 
 def _fail(message: str) -> int:
