@@ -47,7 +47,7 @@ class Scene:
     lamp : irradiance perpendicular to the light; sky, ground : irradiance of a surface that faces up, or down
     """
 
-    lamp: RGB = (3.4 * math.pi, 3.23 * math.pi, 2.958 * math.pi)
+    lamp: RGB = (2.8 * math.pi, 2.66 * math.pi, 2.436 * math.pi)
     sky: RGB = (0.4675 * math.pi, 0.5525 * math.pi, 0.68 * math.pi)
     ground: RGB = (0.238 * math.pi, 0.204 * math.pi, 0.17 * math.pi)
 
@@ -89,16 +89,6 @@ def save(
 ) -> None:
     """Write `render` as a PNG. Raises AssetError, OptionError or PlaneError."""
     write_png(out, render(folder, light, tiles=tiles, size=size, scene=scene), srgb=True)
-
-
-def strip(pelt: Pelt, lights: Sequence[Direction], *, tiles: int = 2, size: int = 256, gap: int = 8) -> Bytes:
-    """Swatches under several lights side by side, (size, n·size + (n − 1)·gap, 4) sRGB bytes and opacity."""
-    images = pictures(pelt, lights, tiles=tiles, size=size)
-    row = np.zeros((size, len(images) * (size + gap) - gap, 4), np.uint8)
-    for i, image in enumerate(images):
-        start = i * (size + gap)
-        row[:, start : start + size] = np.dstack([image, np.full((size, size), 255, np.uint8)])
-    return row
 
 
 def picture(

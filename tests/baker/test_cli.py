@@ -375,12 +375,23 @@ def test_verify_prints_the_figures(run: Callable[..., Any], monkeypatch: pytest.
 
     def compared(folder: Path, **told: Any) -> dict[str, Any]:
         given.update(told, folder=folder)
-        return {"samples": {"r": 0.9}, "spp": told["spp"]}
+        part = {"r": 0.9, "r_worst": 0.8, "r_brightness": 0.99, "ratio": 0.75}
+        return {
+            "samples": part,
+            "fit": part,
+            "coverage": {"pelt": 0.9, "traced": 0.8, "r": 0.7},
+            "met": {"fit.r": {"got": 0.7, "target": 0.74, "met": False}},
+            "spp": told["spp"],
+            "depth": 32,
+            "pixels": 64,
+        }
 
     monkeypatch.setattr(actions, "verify", compared)
-    assert run("verify", "out", "-o", "side.png", "--spp", "9").out.split() == ["samples:", "r:", "0.9", "spp:", "9"]
+    out = run("verify", "out", "-o", "side.png", "--spp", "9").out.splitlines()
+    assert out[0] == "path traced: depth 32, 9 paths per pixel, 64 pixels a side"
+    assert out[-1] == "missed: fit.r 0.700 < 0.74"
     assert (given["folder"], given["picture"], given["spp"]) == (Path("out"), Path("side.png"), 9)
-    assert json.loads(run("verify", "out", "--json").out)["samples"] == {"r": 0.9}
+    assert json.loads(run("verify", "out", "--json").out)["samples"]["r"] == 0.9
 
 
 def test_compare_is_a_table(run: Callable[..., Any]) -> None:

@@ -36,7 +36,6 @@ from furbake.swatch import (
     resample,
     save,
     sky_harmonics,
-    strip,
     unit,
 )
 
@@ -269,16 +268,6 @@ def test_saved_png_is_the_picture(tmp_path: Path, make_pelt: Callable[..., Pelt]
     folder = write(tmp_path / "out", make_pelt())
     save(folder, tmp_path / "swatch.png", (0.3, 0.1, 0.9), tiles=2, size=48)
     np.testing.assert_array_equal(read_png(tmp_path / "swatch.png"), render(folder, (0.3, 0.1, 0.9), tiles=2, size=48))
-
-
-def test_strip_stands_swatches_side_by_side(make_pelt: Callable[..., Pelt]) -> None:
-    pelt = make_pelt()
-    lights = [(0.5, 0.0, 1.0), (-0.5, 0.0, 1.0)]
-    row = strip(pelt, lights, tiles=1, size=32, gap=4)
-    assert row.shape == (32, 68, 4)
-    np.testing.assert_array_equal(row[:, 36:, :3], picture(pelt, lights[1], tiles=1, size=32))
-    assert (row[:, 32:36] == 0).all()
-    assert (row[:, :32, 3] == 255).all()
 
 
 def test_fur_is_dark_in_its_depths_and_follows_the_light(tmp_path: Path) -> None:

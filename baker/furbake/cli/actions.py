@@ -21,7 +21,7 @@ from furbake.options import BakeOptions, OptionError, as_toml, override, preset,
 from furbake.report import STAGES as REPORT_STAGES
 from furbake.report import write as write_report
 from furbake.swatch import save
-from furbake.verify import verify
+from furbake.verify import lines, verify
 
 GIVEN = (
     "layers", "size", "lights", "basis", "coefficients", "length", "tile", "height", "seed", "flat", "guide",
@@ -168,7 +168,7 @@ def run_verify(args: argparse.Namespace) -> int:
     if args.json:
         print(json.dumps(figures))
     elif not args.quiet:
-        table(figures)
+        print("\n".join(lines(figures)))
     return 0
 
 
