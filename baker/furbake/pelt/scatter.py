@@ -25,12 +25,6 @@ from furbake.pelt.fibre import cylinder, sine
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
 
-ALBEDO = 0.85
-"""Share of the light that a hair scatters."""
-
-SKIN = 0.25
-"""Share of the light that the skin scatters back, evenly."""
-
 MOST_ORDERS = 40
 SPENT = 0.03
 """The order that adds less than this share to all before it is the last; those after it are a geometric series."""
@@ -63,8 +57,8 @@ def scatter(
     reaching: Single,
     floor: Single,
     *,
-    albedo: float = ALBEDO,
-    skin: float = SKIN,
+    albedo: float,
+    skin: float,
 ) -> Single:
     """M: light scattered at least twice, the last time to the eye straight above, (n, K, N, N), for n lights.
 
@@ -73,6 +67,7 @@ def scatter(
     lights : (n, 3), of irradiance 1
     reaching, caught : (n, K, N, N) share of each light that reaches a voxel's hairs unscattered, and that times sin θ
     floor : (n, N, N) irradiance of the skin by unscattered light
+    albedo, skin : shares of the light that a hair and the skin scatter, the skin evenly
 
     Lights from neighbouring directions come in much the same: the sources are written in as few of their principal
     components as `LOST` allows, and only those are scattered.
@@ -89,7 +84,10 @@ def scatter(
         flux=np.moveaxis(parts[:, layers:-1].reshape(-1, 3, layers, size, size), 0, 2),
         floor=parts[:, -1],
     )
-    scattered = np.moveaxis(_Medium(sigma, slab, tangent, skin).all_orders(arriving, albedo), 0, 1)
+    medium = _Medium(sigma, slab, tangent, skin)
+    escape = medium.escape()[:, None]
+    arriving = Arriving(arriving.phi / escape, arriving.flux / escape, arriving.floor)
+    scattered = np.moveaxis(medium.all_orders(arriving, albedo), 0, 1)
     multiple: Single = np.maximum(basis @ scattered.reshape(len(parts), -1), 0)
     return multiple.reshape(caught.shape)
 
@@ -100,6 +98,19 @@ class _Medium:
     def __init__(self, sigma: Single, slab: float, tangent: Single, skin: float) -> None:
         self.sigma, self.slab, self.tangent, self.skin = sigma, slab, tangent, skin
         self.directions, self.solid_angles = hemisphere_rule()
+
+    def escape(self) -> Single:
+        """Share of what a voxel's hairs scatter evenly that leaves its slab, (K, N, N).
+
+        The mean of sin θ·(1 − e^−τ)/τ over the sphere, 1 for thin slabs. What arrives is counted where it enters a slab
+        and leaves it thinned by this; what a slab's hairs catch of the lights must be counted alike.
+        """
+        share = np.zeros_like(self.sigma)
+        for way, solid_angle in zip(self.directions, self.solid_angles, strict=True):
+            width = sine(self.tangent, way)
+            depth = np.maximum(self.sigma * width * np.float32(self.slab / abs(way[2])), np.float32(1e-4))
+            share += np.float32(solid_angle * 2 / np.pi**2) * width * -np.expm1(-depth) / depth
+        return np.minimum(share, 1)
 
     def all_orders(self, arriving: Arriving, albedo: float) -> Single:
         """Sum over all orders of what the hairs send to the eye, (K, B, N, N)."""

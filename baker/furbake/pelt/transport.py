@@ -15,7 +15,7 @@ import scipy.fft
 from numpy.typing import NDArray
 
 from furbake.pelt.fibre import cylinder, sine
-from furbake.pelt.scatter import SKIN, scatter
+from furbake.pelt.scatter import scatter
 from furbake.pelt.volume import Volume, average_down, doubled, pool
 
 Array = NDArray[np.float64]
@@ -24,8 +24,12 @@ Single = NDArray[np.float32]
 BODY_RADIUS = 4.0
 """β: radius of the furry body over the length of its fur. It bounds the path of light that arrives near the horizon."""
 
-LOWEST = 0.02
-"""lz of the lowest sampled light. None is below the horizon: zeros there would ruin the fit."""
+LOWEST, LOWEST_FLAT = 0.02, 0.1
+"""lz of the lowest sampled light. None is below the horizon: zeros there would ruin the fit.
+
+Light along a flat patch crosses it without end and leaves it black at once, which no polynomial follows and no body
+shows: its light comes in at lz_eff ≥ 1/√(2β + 1) = 1/3. Flat patches are sampled from a little higher.
+"""
 
 STEPS_PER_TEXEL = 8
 
@@ -39,10 +43,10 @@ SINGLE_SHARE = 0.8
 """Share of the time that single scattering takes, for the progress."""
 
 
-def hemisphere(count: int, turn: float = 0.0) -> Array:
-    """`count` evenly spread directions with lz ≥ `LOWEST`, (count, 3): a Fibonacci spiral turned by `turn` radians."""
+def hemisphere(count: int, turn: float = 0.0, lowest: float = LOWEST) -> Array:
+    """`count` evenly spread directions with lz ≥ `lowest`, (count, 3): a Fibonacci spiral turned by `turn` radians."""
     i = np.arange(count) + 0.5
-    z = LOWEST + (1 - LOWEST) * (1 - i / count)
+    z = lowest + (1 - lowest) * (1 - i / count)
     angle = np.pi * (3 - np.sqrt(5)) * i + turn
     across = np.sqrt(1 - z * z)
     return np.stack([across * np.cos(angle), across * np.sin(angle), z], -1)
@@ -100,6 +104,12 @@ class OpticalDepth:
         return np.maximum(scipy.fft.irfft2(above, s=shape) * path, 0), np.maximum(own, 0)
 
 
+def passing(depth: Single) -> Single:
+    """Mean over a slab of what is left of light that crosses it, (1 − e^−τ)/τ."""
+    thick: Single = np.maximum(depth, np.float32(1e-4))
+    return np.asarray(-np.expm1(-thick) / thick, np.float32)
+
+
 def lamp_cone(light: Array, turn: float) -> Array:
     """Directions over the disc of a lamp `LAMP` radians in radius, none below the horizon, (`LAMP_RAYS`, 3)."""
     across = np.cross(light, [0.0, 0.0, 1.0] if abs(light[2]) < 0.99 else [1.0, 0.0, 0.0])
@@ -119,12 +129,15 @@ def sample(
     size: int,
     lights: Array,
     *,
+    albedo: float = 0.85,
+    skin: float = 0.25,
     flat: bool = False,
     progress: Callable[[float], None] = lambda fraction: None,
 ) -> Single:
     """L of every stored texel under every light, (n, layers, size, size) float32: once scattered, T·D, and the rest, M.
 
-    `fine` is the oversampled volume; what is returned is averaged down. `flat` leaves out the curve of the body and the
+    `fine` is the oversampled volume; what is returned is averaged down. `albedo` and `skin` are the shares of the light
+    that hairs and skin scatter on; L is in units of the former. `flat` leaves out the curve of the body and the
     size of the lamp, and makes the skin black: a patch that other renderers can check.
     """
     half = (layers, size // 2, size // 2)
@@ -139,9 +152,8 @@ def sample(
     tangent = np.stack([beam.stored(beam.sigma * beam.tangent[..., axis]) for axis in range(3)], -1)
     tangent[..., 2] += 1e-9  # upright where there is no hair
     tangent /= np.linalg.norm(tangent, axis=-1, keepdims=True)
-    skin = 0.0 if flat else SKIN
-    slab = fine.height / layers
-    multiple = scatter(beam.stored(beam.sigma), slab, tangent, lights, caught, reaching, floor, skin=skin)
+    slab, sigma = fine.height / layers, beam.stored(beam.sigma)
+    multiple = scatter(sigma, slab, tangent, lights, caught, reaching, floor, albedo=albedo, skin=0.0 if flat else skin)
     progress(1.0)
     return single + doubled(multiple)
 
@@ -178,7 +190,7 @@ class _Beam:
             above, own = depth(np.array([ray[0], ray[1], elevation]))
             clear = np.exp(-above)
             passed += clear
-            hairs += np.exp(-above - own / 2)
+            hairs += clear * passing(own)
             skin += clear[0] * np.exp(-own[0]) * np.float32(ray[2])
         share = np.float32(1 / len(rays))
         single = average_down(passed * share * cylinder(self.tangent, light), self.shares, self.size)
