@@ -25,7 +25,7 @@ from furbake.pelt.fit import Judge, fit, relight
 from furbake.pelt.pelt import Pelt, Ramp
 from furbake.pelt.quantise import byte_range, dequantise, quantise, srgb_bytes, unit_bytes
 from furbake.pelt.strands import Strands, grow
-from furbake.pelt.transport import hemisphere, sample
+from furbake.pelt.transport import LOWEST, LOWEST_FLAT, hemisphere, sample
 from furbake.pelt.volume import Volume, coarsen, fine_shape, voxelise
 from furbake.surface.mesh import Surface, load_mesh
 from furbake.surface.projection import project
@@ -140,12 +140,20 @@ def light(
     held_out: int | None = None,
 ) -> Lighting:
     """Sample the oversampled volume under the lights of the fit and others between them, by default half as many."""
-    fitted = hemisphere(options.lights)
-    others = hemisphere(held_out or max(8, options.lights // 2), turn=1.0)
+    lowest = LOWEST_FLAT if options.flat else LOWEST
+    fitted = hemisphere(options.lights, lowest=lowest)
+    others = hemisphere(held_out or max(8, options.lights // 2), turn=1.0, lowest=lowest)
     lights = np.concatenate([fitted, others])
     apart = np.arange(len(lights)) >= len(fitted)
-    samples = sample(fine, options.layers, options.size, lights, flat=options.flat, progress=step)
-    return Lighting(lights, apart, samples)
+    return Lighting(lights, apart, under(lights, fine, options, step))
+
+
+def under(
+    lights: Floats, fine: Volume, options: BakeOptions, step: Callable[[float], None] = lambda fraction: None
+) -> Single:
+    """L of the stored texels under `lights` (n, 3), (n, K, N, N), as these options have it sampled."""
+    coat, layers, size = options.coat, options.layers, options.size
+    return sample(fine, layers, size, lights, albedo=coat.albedo, skin=coat.skin, flat=options.flat, progress=step)
 
 
 def fit_pelt(volume: Volume, lighting: Lighting, options: BakeOptions) -> tuple[Pelt, dict[str, Any]]:

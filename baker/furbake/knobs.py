@@ -103,6 +103,9 @@ COAT = {
     "patches": _whole(1, 16),
     "shade": _number(0, 0.5),
     "opacity": _number(0.05, 50),
+    "albedo": _number(0, 0.99),
+    "skin": _number(0, 1),
+    "even": _number(0, 1),
 }
 
 RAMP = {

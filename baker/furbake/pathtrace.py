@@ -18,9 +18,6 @@ from furbake.pelt.strands import Strands
 
 Array = NDArray[np.float64]
 
-ALBEDO = 0.85
-"""Diffuse reflectance of the hairs."""
-
 DEPTH = 32
 """Vertices of the longest path: 2 is direct light only."""
 
@@ -91,12 +88,14 @@ class Tracer:
 
     pixels : per side; row r of every image is v = (r + ½)/pixels, column c is u = (c + ½)/pixels, as in the planes
     samples : paths per pixel
+    albedo : share of the light that a hair reflects
     """
 
     curves: Path
     around: int
     pixels: int
     samples: int
+    albedo: float
 
     def lit(self, light: Array, depth: int = DEPTH, seed: int = 0) -> Array:
         """Radiance under a distant light of irradiance 1 towards `light`, a unit vector: (pixels, pixels)."""
@@ -126,7 +125,7 @@ class Tracer:
             "fur": {
                 "type": "bsplinecurve",
                 "filename": str(self.curves),
-                "bsdf": {"type": "diffuse", "reflectance": _grey(ALBEDO)},
+                "bsdf": {"type": "diffuse", "reflectance": _grey(self.albedo)},
             },
             "eye": {
                 "type": "orthographic",

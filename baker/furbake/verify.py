@@ -18,14 +18,14 @@ from numpy.typing import NDArray
 from furbake.asset.planes import write_png
 from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt
+from furbake.bake import under
 from furbake.options import BakeOptions, OptionError
-from furbake.pathtrace import ALBEDO, DEPTH, Tracer, VerifyError, control_points, load, tiles_around, write_curves
+from furbake.pathtrace import DEPTH, Tracer, VerifyError, control_points, load, tiles_around, write_curves
 from furbake.pelt.basis import Basis
 from furbake.pelt.fit import Judge, relight
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.quantise import dequantise, srgb_bytes
 from furbake.pelt.strands import grow
-from furbake.pelt.transport import sample
 from furbake.pelt.volume import coarsen, fine_shape, pool, voxelise
 
 Array = NDArray[np.float64]
@@ -36,9 +36,6 @@ ELEVATIONS = (75, 60, 50, 40, 35, 30, 25, 20)
 """Degrees of the lights above the plane. Their azimuths follow each other by the golden angle, near enough."""
 
 TURN = 0.382
-
-UNIT = 4 * np.pi / ALBEDO
-"""Radiance under an irradiance of 1 → L, whose unit is 4π·radiance/(albedo·irradiance)."""
 
 SAMPLES = 512
 """Paths per pixel. Noise alone holds r of the darkest image of `paper` below 0.92 with 128, below 0.98 with 512."""
@@ -130,21 +127,20 @@ def look(pelt: Pelt, options: BakeOptions, spp: int, depth: int, progress: Progr
     alpha = coarsen(fine, pelt.layers, pelt.size).coverage
     if float(np.abs(alpha - pelt.alpha / 255).mean()) > OTHER_STRANDS:
         raise VerifyError("bake.json: its options do not grow this bake's strands, bake it again with this furbake")
-    light = sample(
-        fine, pelt.layers, pelt.size, towards, flat=True, progress=lambda fraction: progress("light", fraction)
-    )
+    light = under(towards, fine, options, lambda fraction: progress("light", fraction))
     stored = relight(dequantise(pelt.codes, pelt.scale, pelt.bias), Basis(pelt.kind, pelt.degree, pelt.matrix), towards)
     pixels = min(pelt.size, MOST_PIXELS)
     with TemporaryDirectory(prefix="furbake-") as scratch:
         curves = Path(scratch) / "strands.txt"
         around = tiles_around(strands, float(towards[:, 2].min()))
         write_curves(curves, control_points(strands), around)
-        tracer = Tracer(curves, around, pixels, spp)
+        tracer = Tracer(curves, around, pixels, spp, options.coat.albedo)
+        unit = 4 * np.pi / options.coat.albedo  # of L: 4π·radiance/(albedo·irradiance)
         covered = tracer.covered()
         traced = []
         for number, direction in enumerate(towards):
             progress("trace", number / len(towards))
-            traced.append(UNIT * tracer.lit(direction, depth, seed=number + 1))
+            traced.append(unit * tracer.lit(direction, depth, seed=number + 1))
     progress("trace", 1.0)
     return Views(
         traced=np.stack(traced),

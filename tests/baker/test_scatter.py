@@ -6,6 +6,7 @@ import pytest
 from furbake.pelt import scatter as module
 from furbake.pelt.fibre import cylinder, sine
 from furbake.pelt.scatter import Arriving, _Medium, hemisphere_rule, scatter
+from furbake.pelt.transport import passing
 
 UPRIGHT = np.array([0.0, 0.0, 1.0], np.float32)
 RNG = np.random.default_rng(0)
@@ -82,6 +83,26 @@ def test_white_hairs_lose_no_light() -> None:
     assert caught(again.phi) + leaves == pytest.approx(caught(arriving.phi), rel=0.05)
 
 
+def test_thick_slabs_scatter_as_much_as_thin_ones() -> None:
+    """The same fur cut coarser: what a slab takes of its own light must not get lost."""
+
+    def glow(layers: int) -> float:
+        shape = (layers, 2, 2)
+        sigma, slab = np.full(shape, 20.0, np.float32), 1.0 / layers
+        light, tangent = np.array([[0.0, 0.0, 1.0]]), hairs(shape, np.array([0.8, 0.0, 0.6]))
+        depth = sigma * sine(tangent, light[0]) * slab
+        above = np.cumsum(depth[::-1], 0)[::-1] - depth
+        reaching = (np.exp(-above) * passing(depth))[None]
+        none = np.zeros((1, 2, 2), np.float32)
+        seen = scatter(sigma, slab, tangent, light, 0.8 * reaching, reaching, none, albedo=0.85, skin=0.0)[0]
+        clear = np.exp(-sigma * slab)
+        above = np.cumprod(clear[::-1], 0)[::-1] / clear
+        return float((above * (1 - clear) * seen).sum(0).mean())
+
+    assert glow(32) == pytest.approx(glow(128), rel=0.15)
+    assert glow(64) == pytest.approx(glow(128), rel=0.02)
+
+
 def test_light_moves_to_the_side_the_way_it_goes() -> None:
     """One lit column: its neighbours get the same on both sides, the farther the less."""
     reaching = np.zeros((6, 16, 16))
@@ -102,7 +123,7 @@ def test_a_bright_skin_lights_the_roots() -> None:
     light = np.array([[0.0, 0.0, 1.0]])
     medium = (np.full((6, 8, 8), 2.0, np.float32), 0.1, hairs((6, 8, 8), np.array([0.8, 0, 0.6])), light)
     given = fields(light, (6, 8, 8))
-    black, white = (scatter(*medium, *given, skin=skin)[0].mean((1, 2)) for skin in (0.0, 0.8))
+    black, white = (scatter(*medium, *given, albedo=0.85, skin=skin)[0].mean((1, 2)) for skin in (0.0, 0.8))
     assert (white > black).all()
     assert (white - black)[0] > (white - black)[-1]
 
@@ -115,10 +136,10 @@ def test_many_lights_at_once_equal_each_alone() -> None:
     hair /= np.linalg.norm(hair, axis=-1, keepdims=True)
     medium = (RNG.uniform(0, 4, shape).astype(np.float32), 0.1, hair)
     caught, reaching, floor = fields(lights, shape)
-    together = scatter(*medium, lights, caught, reaching, floor)
+    together = scatter(*medium, lights, caught, reaching, floor, albedo=0.85, skin=0.25)
     for i in range(5):
         one = slice(i, i + 1)
-        alone = scatter(*medium, lights[one], caught[one], reaching[one], floor[one])
+        alone = scatter(*medium, lights[one], caught[one], reaching[one], floor[one], albedo=0.85, skin=0.25)
         np.testing.assert_allclose(together[one], alone, rtol=0.03, atol=1e-3)
 
 
@@ -137,7 +158,7 @@ def test_light_from_behind_a_lying_hair_hardly_reaches_the_eye() -> None:
     medium = (np.full(shape, 1e-3, np.float32), 0.1)
     skin = np.ones((1, 4, 4), np.float32)
     lying, upright = (
-        scatter(*medium, hairs(shape, way), light, none, none, skin, skin=1.0).mean()
+        scatter(*medium, hairs(shape, way), light, none, none, skin, albedo=0.85, skin=1.0).mean()
         for way in (np.array([1.0, 0, 0]), UPRIGHT)
     )
     assert lying < 0.4 * upright

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.ndimage import gaussian_filter
 
 from furbake.options import preset, preset_names
 from furbake.pelt.strands import Coat, Hairs, Strands, grow, nearest, scatter, shuffle, tile_noise
@@ -13,7 +14,7 @@ PLAIN = Hairs(stray=0.0, curl=0.0, clump=0.0, length=(1.0, 1.0))
 
 def alone(hairs: Hairs, **coat: object) -> Strands:
     """Only guard hairs, upright unless told otherwise, 0.5 high."""
-    told = {"lean": (0.0, 0.0), "tufts": 0.0, **coat}
+    told = {"lean": (0.0, 0.0), "tufts": 0.0, "even": 0.0, **coat}
     return grow(Coat(guard=hairs, under=replace(hairs, count=0), **told), 0.5, 0)  # type: ignore[arg-type]
 
 
@@ -43,7 +44,7 @@ def test_roots_leave_no_bald_spot() -> None:
 
 def test_hairs_lean_as_told() -> None:
     straight = Hairs(stray=0.0, curl=0.0, clump=0.0, length=(1.0, 1.0))
-    strands = grow(Coat(guard=straight, under=replace(straight, count=0), lean=(0.1, -0.2), clumps=1), 0.5, 0)
+    strands = grow(Coat(guard=straight, under=replace(straight, count=0), lean=(0.1, -0.2), clumps=1, even=0), 0.5, 0)
     sideways = strands.points[:, -1, :2] - strands.points[:, 0, :2]
     np.testing.assert_allclose(sideways, np.broadcast_to([0.1, -0.2], sideways.shape), atol=1e-12)
 
@@ -51,7 +52,7 @@ def test_hairs_lean_as_told() -> None:
 def test_clumped_tips_are_nearer_to_each_other_than_roots_are() -> None:
     def spread(clump: float) -> float:
         hairs = Hairs(stray=0.0, curl=0.0, clump=clump)
-        tips = grow(Coat(guard=hairs, under=replace(hairs, count=0), lean=(0, 0)), 0.5, 0).points[:, -1, :2]
+        tips = grow(Coat(guard=hairs, under=replace(hairs, count=0), lean=(0, 0), even=0.0), 0.5, 0).points[:, -1, :2]
         apart = tips[:, None] - tips[None]
         apart -= np.round(apart)
         return float(np.sort(np.linalg.norm(apart, axis=-1), axis=1)[:, 1].mean())
@@ -196,3 +197,17 @@ def test_nearest_centre_is_found_across_the_borders() -> None:
     index, way = nearest(np.array([[0.02, 0.5], [0.6, 0.5]]), np.array([[0.95, 0.5], [0.5, 0.5]]))
     assert index.tolist() == [0, 1]
     np.testing.assert_allclose(way, [[-0.07, 0.0], [-0.1, 0.0]], atol=1e-12)
+
+
+def test_hairs_bend_to_where_the_skin_would_show() -> None:
+    def thinnest(even: float) -> float:
+        points = grow(Coat(even=even), 0.5, 7).points
+        column, row = np.floor(points[points[..., 2] > 0.25, :2].T * 64).astype(int) % 64
+        density = np.bincount(row * 64 + column, minlength=64 * 64).reshape(64, 64)
+        density = gaussian_filter(density.astype(float), 3, mode="wrap")
+        return float(density.min() / density.mean())
+
+    assert thinnest(1.0) > thinnest(0.0) + 0.2
+    assert thinnest(0.0) < thinnest(0.5) < thinnest(1.0)
+    roots = [grow(Coat(even=even), 0.5, 7).points[:, 0] for even in (0.0, 1.0)]
+    np.testing.assert_array_equal(*roots)

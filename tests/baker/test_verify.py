@@ -153,7 +153,7 @@ class TestWithMitsuba:
     def test_row_is_v_and_column_is_u(self, tmp_path: Path) -> None:
         strands = hair((0.2, 0.7, 0.1), (0.2, 0.7, 0.11), (0.45, 0.7, 0.12))
         write_curves(tmp_path / "c.txt", control_points(strands), 1)
-        covered = Tracer(tmp_path / "c.txt", 1, 32, 32).covered()
+        covered = Tracer(tmp_path / "c.txt", 1, 32, 32, 0.85).covered()
         rows, columns = np.nonzero(covered > 0.5)
         assert (rows.mean() + 0.5) / 32 == pytest.approx(0.7, abs=0.02)
         assert (columns.min() / 32, (columns.max() + 1) / 32) == pytest.approx((0.2, 0.45), abs=0.05)
@@ -162,7 +162,7 @@ class TestWithMitsuba:
         strands = hair((0.1, 0.5, 0.3), (0.5, 0.5, 0.300001), (0.9, 0.5, 0.300002), radius=0.05)
         write_curves(tmp_path / "c.txt", control_points(strands), 0)
         light = np.array([0.0, 0.6, 0.8])
-        tracer = Tracer(tmp_path / "c.txt", 0, 64, 64)
+        tracer = Tracer(tmp_path / "c.txt", 0, 64, 64, 0.85)
         seen = tracer.lit(light, depth=2)[:, 24:40]
         covered = tracer.covered()[:, 24:40]
         phi = np.arccos(0.8)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter, map_coordinates
 from scipy.spatial import cKDTree
 
 Array = NDArray[np.float64]
@@ -77,6 +78,12 @@ class Coat:
     """Spread of tint from hair to hair, 0 to 0.5."""
     opacity: float = 6.0
     """Optical depth of 1/16 of the fur's height filled with hair, 0.05 to 50."""
+    albedo: float = 0.85
+    """Share of the light that a hair scatters on, 0 to 0.99: pale fur glows from within."""
+    skin: float = 0.25
+    """Share of the light that the skin below scatters back, 0 to 1."""
+    even: float = 1.0
+    """How far hairs bend from where they crowd to where the skin would show, 0 to 1."""
     tufts: float = 0.18
     """How much shorter than the others a whole clump's guard hairs may be, 0 to 0.9."""
     patchiness: float = 0.0
@@ -111,6 +118,10 @@ POINTS = 25
 POINTS_PER_TURN = 8
 
 MOST_POINTS = 161
+
+EVENING_ROUNDS = 12
+EVENING_GRID = 64
+"""Cells per side on which the density of the hairs' upper halves is evened out, and how many times."""
 
 FLOW_WAVES = 2
 """Changes of the lean's direction along a side of the tile."""
@@ -225,6 +236,7 @@ def grow(coat: Coat, height: float, seed: int) -> Strands:
 
     thin = s ** column(each("taper"))
     radius = column(rng.uniform(0.8, 1.2, count)) * between("radius", thin)
+    points = spread_out(points, radius, coat.even * s**coat.bend, 0.5 / np.sqrt(coat.clumps))
     tint = np.clip(each("tint") + coat.shade * (tuft_shade + rng.normal(0.0, 1.0, count)), 0.35 * each("tint"), 1.0)
     hue = between("hue", np.clip(0.6 * tuft_hue + 0.4 * rng.random(count), 0.0, 1.0))
     ticked = np.clip((s - column(each("ticked"))) / (1 - column(each("ticked"))), 0.0, 1.0)
@@ -235,6 +247,25 @@ def grow(coat: Coat, height: float, seed: int) -> Strands:
         tint=np.clip(column(tint) * between("fade", np.broadcast_to(s, radius.shape)), 0.0, 1.0),
         hue=column(hue) + (1 - column(hue)) * ticked,
     )
+
+
+def spread_out(points: Array, radius: Array, bend: Array, reach: float) -> Array:
+    """Hairs bent a little from where they crowd to where the skin would show, (S, P, 3) → (S, P, 3).
+
+    A pit is what the eye sees first of a tile that repeats. bend : (P,) share of a tip's displacement along the hair;
+    reach : how far crowding is felt, tile widths; tufts are smaller and stay.
+    """
+    n, points = EVENING_GRID, points.copy()
+    upper = radius * (points[..., 2] > 0.45 * points[..., 2].max())
+    for _ in range(EVENING_ROUNDS):
+        column, row = np.moveaxis(np.floor(points[..., :2] * n).astype(np.int64) % n, -1, 0)
+        density = np.bincount((row * n + column).ravel(), upper.ravel(), n * n).reshape(n, n)
+        density = gaussian_filter(density, reach * n, mode="wrap") / density.mean()
+        near_tip = points[:, int(0.8 * len(bend)), 1::-1].T * n - 0.5
+        slope = [(np.roll(density, -1, axis) - np.roll(density, 1, axis)) * n / 2 for axis in (1, 0)]
+        uphill = np.stack([map_coordinates(way, near_tip, order=1, mode="grid-wrap") for way in slope], -1)
+        points[..., :2] -= 0.5 * reach**2 * uphill[:, None] * bend[:, None]
+    return points
 
 
 def settle(centre: Array, root: Array) -> Array:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from furbake.asset.inspect import summary
 from furbake.asset.read import Asset, AssetError, read_asset
 from furbake.asset.stored import read_pelt
-from furbake.bake import Lighting, choose_basis, light
+from furbake.bake import Lighting, choose_basis, light, under
 from furbake.options import BakeOptions, OptionError
 from furbake.pelt.basis import Basis
 from furbake.pelt.fill import fill
@@ -22,7 +22,6 @@ from furbake.pelt.fit import VISIBLE, Judge, decibels, fit, relight
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.quantise import dequantise, unit_bytes
 from furbake.pelt.strands import grow
-from furbake.pelt.transport import sample
 from furbake.pelt.volume import Volume, coarsen, fine_shape, voxelise
 
 Array = NDArray[np.float64]
@@ -127,14 +126,7 @@ def measure(folder: Path, progress: Progress = lambda stage, fraction: None) -> 
     lighting = light(fine, options, lambda fraction: progress("light", fraction))
     angles, sweep, leaning = sweep_lights(pelt)
     shown = spiral_lights()
-    extra = sample(
-        fine,
-        options.layers,
-        options.size,
-        np.concatenate([shown, sweep]),
-        flat=options.flat,
-        progress=lambda fraction: progress("lamps", fraction),
-    )
+    extra = under(np.concatenate([shown, sweep]), fine, options, lambda fraction: progress("lamps", fraction))
     progress("judge", 0.0)
     basis = Basis(pelt.kind, pelt.degree, pelt.matrix)
     stored = dequantise(pelt.codes, pelt.scale, pelt.bias)
