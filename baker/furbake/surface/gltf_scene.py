@@ -15,6 +15,9 @@ TRIANGLES, STRIP, FAN = 4, 5, 6
 
 STANDARD = ("POSITION", "NORMAL", "TANGENT", "TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_")
 
+DIRECTIONS = ("_COMB", "_DIRECTION")
+"""Attributes that are vectors in the node's space and turn with it."""
+
 
 def read_gltf(path: Path) -> tuple[Soup | None, tuple[Material, ...], list[str]]:
     """Soup, materials and what was left out, one clause each; no soup where the scene has no triangle.
@@ -118,11 +121,7 @@ def _primitive(data: GltfData, record: Record, place: Floats, joints: Floats | N
         part=np.full(len(faces), record.get("material", default), dtype=np.int64),
         uv=_coordinates(data, record, arrays, faces),
         paint=_paint(arrays, faces),
-        attributes={
-            name.lstrip("_").lower(): values[faces]
-            for name, values in arrays.items()
-            if not name.startswith(STANDARD) and np.isfinite(values).all()
-        },
+        attributes=_numbers(arrays, faces, place),
     )
     mirrored = joints is None and np.linalg.det(place[:3, :3]) < 0.0
     return soup.turn(np.full(len(faces), mirrored)) if mirrored else soup
@@ -147,6 +146,18 @@ def _moved(vertices: Floats, arrays: dict[str, Floats], place: Floats, joints: F
     share = share / np.maximum(share.sum(axis=1, keepdims=True), 1e-12)
     blend = np.einsum("vj,vjab->vab", share, joints[np.clip(which, 0, len(joints) - 1)])
     return np.asarray(np.einsum("vab,vb->va", blend[:, :3, :3], vertices) + blend[:, :3, 3])
+
+
+def _numbers(arrays: dict[str, Floats], faces: Ints, place: Floats) -> dict[str, Floats]:
+    """What else the corners have, by lower-case name; the vertex colours as they are are `color`."""
+    numbers = {
+        name.lstrip("_").lower(): values @ place[:3, :3].T if name in DIRECTIONS and values.shape[1] == 3 else values
+        for name, values in arrays.items()
+        if not name.startswith(STANDARD)
+    }
+    if "COLOR_0" in arrays:
+        numbers["color"] = arrays["COLOR_0"]
+    return {name: values[faces] for name, values in numbers.items() if np.isfinite(values).all()}
 
 
 def _paint(arrays: dict[str, Floats], faces: Ints) -> Floats | None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from furbake.surface.seams import unique_rows
 from furbake.surface.soup import Floats, Ints, Soup
 
 REPEAT, CLAMP, MIRROR = 10497, 33071, 33648
@@ -80,13 +81,3 @@ def dress(soup: Soup, materials: tuple[Material, ...]) -> tuple[Skin, ...]:
             )
         )
     return tuple(pieces)
-
-
-def unique_rows(*columns: Floats | Ints) -> tuple[Ints, Ints]:
-    """Where each different row of these (n,) columns comes first, and (n,) which of those it is."""
-    key = np.zeros(len(columns[0]), dtype=np.int64)
-    for column in columns:
-        _, code = np.unique(column, return_inverse=True)
-        _, key = np.unique(key * np.int64(code.max(initial=0) + 1) + code, return_inverse=True)
-    _, first = np.unique(key, return_index=True)
-    return first, key

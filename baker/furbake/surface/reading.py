@@ -78,7 +78,8 @@ def _read_other(path: Path) -> tuple[Soup | None, tuple[Material, ...], list[str
     materials: list[Material] = []
     soups: list[Soup] = []
     for part in parts:
-        material = _material(path, part.visual)
+        visual: Any = part.visual
+        material = _material(path, visual)
         if material not in materials:
             materials.append(material)
         faces = np.asarray(part.faces, dtype=np.int64).reshape(-1, 3)
@@ -88,14 +89,16 @@ def _read_other(path: Path) -> tuple[Soup | None, tuple[Material, ...], list[str
             for name, values in part.vertex_attributes.items()
             if np.asarray(values).dtype.kind in "iuf" and np.shape(values)[:1] == (len(vertices),)
         }
+        if visual.kind == "vertex" and len(visual.vertex_colors) == len(vertices):
+            numbers["color"] = np.asarray(visual.vertex_colors, dtype=np.float64) / 255.0
         inside = faces.min() >= 0 and faces.max() < len(vertices)
         soups.append(
             Soup(
                 vertices=vertices,
                 faces=faces,
                 part=np.full(len(faces), materials.index(material)),
-                uv=_coordinates(part.visual, faces) if inside else None,
-                paint=_paint(part.visual, faces) if inside else None,
+                uv=_coordinates(visual, faces) if inside else None,
+                paint=_paint(visual, faces) if inside else None,
                 attributes={name: values[faces] for name, values in numbers.items()} if inside else {},
             )
         )

@@ -9,12 +9,10 @@ from dataclasses import replace
 
 import fast_simplification
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+from furbake.surface.seams import islands
 from furbake.surface.soup import Floats, Ints, Soup
-from furbake.surface.topology import half_edges
 
 NEAREST = 8
 """Points of the old surface around each new one, on whose faces it may lie."""
@@ -100,7 +98,7 @@ def _carried(old: Soup, vertices: Floats, faces: Ints) -> Soup:
     corners = vertices[faces]
     middle = corners.mean(axis=1)
     home = finder.face(middle)
-    chart = _charts(old)
+    chart = islands(old)
     inset = (0.9 * corners + 0.1 * middle[:, None]).reshape(-1, 3)
     on = finder.face(inset, chart, np.repeat(chart[home], 3), np.repeat(home, 3))
     bary = np.clip(barycentric(old.vertices[old.faces[on]], corners.reshape(-1, 3)), -BEYOND, 1.0 + BEYOND)
@@ -118,25 +116,6 @@ def _carried(old: Soup, vertices: Floats, faces: Ints) -> Soup:
         paint=None if old.paint is None else read(old.paint, inner),
         attributes={name: read(values, inner) for name, values in old.attributes.items()},
     )
-
-
-def _charts(soup: Soup) -> Ints:
-    """(F,) which faces hang together with the same material and texture coordinates along their edges."""
-    order, where, uses = half_edges(soup.faces)
-    two = where[uses == 2]
-    one, other = order[two], order[two + 1]
-    a, b = one // 3, other // 3
-    together = soup.part[a] == soup.part[b]
-    if soup.uv is not None:
-        first, second = one % 3, other % 3
-        crossed = soup.faces[a, first] != soup.faces[b, second]
-        for i in range(2):
-            mine = soup.uv[a, (first + i) % 3]
-            theirs = soup.uv[b, (second + np.where(crossed, 1 - i, i)) % 3]
-            together &= np.isclose(mine, theirs, rtol=0.0, atol=1e-5, equal_nan=True).all(axis=1)
-    count = len(soup.faces)
-    links = coo_array((np.ones(int(together.sum())), (a[together], b[together])), shape=(count, count))
-    return connected_components(links, directed=False)[1].astype(np.int64)
 
 
 class _Finder:
