@@ -32,6 +32,10 @@ def own_charts(surface: Surface, tile: float, name: str) -> Charts:
     soup = Soup(surface.vertices, surface.faces, kind, uv)
     island = islands(soup)
     uv = uv * _tiles(soup, island)[island][:, None, None] / tile
+    # By whole tiles, so that the numbers stay small.
+    low = np.full((island.max() + 1, 2), np.inf)
+    np.minimum.at(low, island, uv.min(axis=1))
+    uv = uv - np.floor(low)[island][:, None]
 
     flat = uv.reshape(-1, 2)
     corners = surface.faces.reshape(-1)
