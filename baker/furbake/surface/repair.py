@@ -14,7 +14,7 @@ from furbake.surface.topology import duplicates, face_vectors, orient, weld
 SMALLEST, LARGEST = 1e-9, 1e9
 """Largest side of a mesh that 32-bit floats can still carry with its fur, model units."""
 
-MOST = 4_000_000
+MOST = 2_000_000
 """Faces that are repaired and decimated within a minute."""
 
 WELD = 1e-6
