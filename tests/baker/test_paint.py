@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from furbake.surface.mesh import MeshError, Surface, clean
-from furbake.surface.paint import brought, vertex_map, vertex_numbers
+from furbake.surface.paint import brought, uncover, vertex_map, vertex_numbers
 from furbake.surface.shapes import builtin
 
 
@@ -81,3 +81,19 @@ def test_channels_and_attributes(sheet: Surface) -> None:
         vertex_numbers(sheet, "red", "--mask")
     assert list(brought(surface)) == ["length"]
     assert brought(sheet) == {}
+
+
+def test_bare_faces_carry_no_fur() -> None:
+    torus = builtin("torus:16x16")
+    mask = np.clip(torus.vertices[:, 0], 0.0, 1.0)
+    covered, kept = uncover(torus, mask, "mask.png")
+    assert len(covered.faces) < len(torus.faces)
+    np.testing.assert_array_equal(covered.vertices, torus.vertices[kept])
+    np.testing.assert_array_equal(covered.normals, torus.normals[kept])
+    assert (mask[kept][covered.faces].max(axis=1) > 0.0).all()
+    assert covered.natural
+    charts = covered.natural.charts(0.2)
+    np.testing.assert_array_equal(charts.source[charts.faces], covered.faces)
+    np.testing.assert_array_equal(uncover(torus, np.ones_like(mask), "x")[0].faces, torus.faces)
+    with pytest.raises(MeshError, match=r"^mask\.png: every face is bare, expected some fur"):
+        uncover(torus, np.zeros_like(mask), "mask.png")

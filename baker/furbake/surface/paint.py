@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from furbake.surface.charts import Natural
 from furbake.surface.colours import luminance, sample
-from furbake.surface.mesh import Floats, MeshError, Surface
+from furbake.surface.mesh import Floats, Ints, MeshError, Surface
 
 CHANNELS = ("red", "green", "blue", "alpha")
 """Of the vertex colours."""
@@ -18,6 +20,9 @@ COLOUR = "color"
 
 FUR = ("length", "density", "mask")
 """What fur takes from a file that brings it, each 0..1: an attribute of that name, as _LENGTH in glTF."""
+
+BARE = 0.5 / 255.0
+"""A mask that a byte cannot tell from black."""
 
 
 def vertex_map(surface: Surface, pixels: NDArray[Any], name: str) -> Floats:
@@ -72,3 +77,40 @@ def brought(surface: Surface) -> dict[str, Floats]:
         for name, values in found.items()
         if values is not None and values.shape[1] == 1
     }
+
+
+def uncover(surface: Surface, mask: Floats, name: str) -> tuple[Surface, Ints]:
+    """The part of a surface that carries fur, for shells and fins to stand on, and (V',) which vertices it keeps.
+
+    Faces that are bare at all three corners go; normals stay as they were.
+
+    mask : (V,) 0..1; name : of its picture, for the message. Raises MeshError where nothing is left.
+    """
+    keep = (mask[surface.faces] > BARE).any(axis=1)
+    if not keep.any():
+        raise MeshError(f"{name}: every face is bare, expected some fur (white)")
+    used, index = np.unique(surface.faces[keep], return_inverse=True)
+    covered = replace(
+        surface,
+        vertices=surface.vertices[used],
+        faces=index.reshape(-1, 3),
+        normals=surface.normals[used],
+        natural=None if surface.natural is None else _part(surface.natural, keep, used),
+        colours=None if surface.colours is None else surface.colours[used],
+        uv=None if surface.uv is None else surface.uv[keep],
+        attributes={key: values[used] for key, values in surface.attributes.items()},
+        skin=(),
+    )
+    return covered, used
+
+
+def _part(natural: Natural, keep: NDArray[np.bool_], used: Ints) -> Natural:
+    """These faces of a shape's own coordinates, above the vertices in `used` (ascending)."""
+    copies, index = np.unique(natural.faces[keep], return_inverse=True)
+    return replace(
+        natural,
+        source=np.searchsorted(used, natural.source[copies]),
+        faces=index.reshape(-1, 3),
+        tangents=natural.tangents[copies],
+        uv=natural.uv[copies],
+    )
