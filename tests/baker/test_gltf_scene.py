@@ -193,11 +193,23 @@ def test_broken_picture_is_a_notice(document: Document, tmp_path: Path) -> None:
     document.primitive(TEXCOORD_0=document.accessor(np.zeros((4, 2), np.float32)))["material"] = 0
     textured(document, png(np.zeros((2, 2, 3)))[:30])
     path = document.write(tmp_path)
-    assert load_mesh(path).notices == (f"{path}: the picture of material 'coat' cannot be read and is left out",)
+    surface = load_mesh(path)
+    assert surface.notices == (f"{path}: 1 picture left out that cannot be read",)
+    assert surface.skin[0].material.picture is None
     document.json["images"] = [{"uri": "nowhere.png"}]
-    assert load_mesh(document.write(tmp_path)).notices == (
-        f"{path}: the picture of material 'coat' cannot be read and is left out",
-    )
+    assert load_mesh(document.write(tmp_path)).notices == surface.notices
+
+
+def test_webp_becomes_png(document: Document, tmp_path: Path) -> None:
+    stream = io.BytesIO()
+    Image.fromarray(np.full((4, 4, 3), 99, dtype=np.uint8)).save(stream, "WEBP")
+    document.primitive(TEXCOORD_0=document.accessor(np.zeros((4, 2), np.float32)))["material"] = 0
+    textured(document, stream.getvalue())
+    document.json["textures"] = [{"extensions": {"EXT_texture_webp": {"source": 0}}}]
+    picture = load_mesh(document.write(tmp_path)).skin[0].material.picture
+    assert picture
+    assert picture.kind == "image/png"
+    assert picture.data.startswith(b"\x89PNG")
 
 
 def test_attributes_of_its_own(document: Document, tmp_path: Path) -> None:

@@ -28,14 +28,14 @@ LINEAR: Floats = from_srgb(np.arange(256) / 255.0)
 """Of every sRGB byte."""
 
 
-def base_colours(soup: Soup, materials: tuple[Material, ...]) -> tuple[Floats, list[str]]:
-    """(V, 3) linear base colour of every vertex, and the pictures that could not be read, one clause each.
+def base_colours(soup: Soup, materials: tuple[Material, ...]) -> tuple[Floats, set[int]]:
+    """(V, 3) linear base colour of every vertex, and the materials whose pictures are broken.
 
     As glTF says: factor × picture × vertex colour. The picture is averaged over the part of each face that is
     nearest to the vertex, so that one fine line in it does not colour a whole vertex.
     """
     total, share = np.zeros((len(soup.vertices), 3)), np.zeros(len(soup.vertices))
-    broken = []
+    broken = set()
     decoded: dict[Picture, Bytes | None] = {}
     for i in np.unique(soup.part):
         mine, material = soup.take(soup.part == i), materials[i]
@@ -47,7 +47,7 @@ def base_colours(soup: Soup, materials: tuple[Material, ...]) -> tuple[Floats, l
                 decoded[material.picture] = decode(material.picture)
             pixels = decoded[material.picture]
             if pixels is None:
-                broken.append(f"the picture of material '{material.name}'")
+                broken.add(int(i))
             else:
                 colour = colour * _corner_means(pixels, np.nan_to_num(mine.uv), material.wrap)
         a, b, c = (mine.vertices[mine.faces[:, j]] for j in range(3))
@@ -68,6 +68,18 @@ def decode(picture: Picture) -> Bytes | None:
                 return np.asarray(image.convert("RGBA"), dtype=np.uint8)
     except Exception:  # noqa: BLE001 — image plug-ins raise anything on a broken file
         return None
+
+
+def portable(picture: Picture) -> Picture | None:
+    """The picture in a format that every glTF viewer reads: WebP becomes PNG; None where it is broken."""
+    if picture.kind != "image/webp":
+        return picture
+    pixels = decode(picture)
+    if pixels is None:
+        return None
+    stream = io.BytesIO()
+    Image.fromarray(pixels).save(stream, "PNG")
+    return Picture(stream.getvalue(), "image/png")
 
 
 def sample(pixels: Bytes, uv: Floats, wrap: tuple[int, int] = (REPEAT, REPEAT), table: Floats | None = None) -> Floats:

@@ -19,14 +19,14 @@ DIRECTIONS = ("_COMB", "_DIRECTION")
 """Attributes that are vectors in the node's space and turn with it."""
 
 
-def read_gltf(path: Path) -> tuple[Soup | None, tuple[Material, ...], list[str]]:
-    """Soup, materials and what was left out, one clause each; no soup where the scene has no triangle.
+def read_gltf(path: Path) -> tuple[Soup | None, tuple[Material, ...], int]:
+    """Soup, materials and how many of their pictures are not to be had; no soup where the scene has no triangle.
 
     Raises UndecodableError, and whatever a broken file makes of itself.
     """
     data = GltfData(path)
-    missing: list[str] = []
-    materials = tuple(_material(data, record, missing) for record in data.list_of("materials"))
+    found = [_material(data, record) for record in data.list_of("materials")]
+    materials, missing = tuple(material for material, _ in found), sum(lost for _, lost in found)
     places = _places(data)
     soups = []
     for index, place in places.items():
@@ -161,9 +161,9 @@ def _numbers(arrays: dict[str, Floats], faces: Ints, place: Floats) -> dict[str,
 
 
 def _paint(arrays: dict[str, Floats], faces: Ints) -> Floats | None:
-    if "COLOR_0" not in arrays:
+    rgb = arrays.get("COLOR_0")
+    if rgb is None or rgb.shape[1] not in (3, 4):
         return None
-    rgb = arrays["COLOR_0"]
     alpha = rgb[:, 3:4] if rgb.shape[1] == 4 else np.ones((len(rgb), 1))
     rgba = np.nan_to_num(np.concatenate([rgb[:, :3], alpha], axis=1), nan=1.0)
     return np.asarray(np.clip(rgba, 0.0, 1.0)[faces])
@@ -186,28 +186,38 @@ def _coordinates(data: GltfData, record: Record, arrays: dict[str, Floats], face
     return np.asarray(values[faces], dtype=np.float64)
 
 
-def _material(data: GltfData, record: Record, missing: list[str]) -> Material:
+def _material(data: GltfData, record: Record) -> tuple[Material, bool]:
+    """A material, and whether its picture is missing."""
     base = record.get("pbrMetallicRoughness", {})
-    red, green, blue, alpha = (float(value) for value in base.get("baseColorFactor", (1, 1, 1, 1)))
-    picture, wrap = None, (REPEAT, REPEAT)
+    red, green, blue, alpha = (_share(value) for value in base.get("baseColorFactor", (1, 1, 1, 1)))
+    picture, wrap, lost = None, (REPEAT, REPEAT), False
     if "baseColorTexture" in base:
         try:
             picture, wrap = _picture(data, base["baseColorTexture"])
         except (ValueError, KeyError, IndexError, TypeError, OSError):
-            missing.append(f"the picture of material '{record.get('name', '')}'")
+            lost = True
     # Where a picture says what is metal, and that picture is not kept, nothing is.
     shiny = "metallicRoughnessTexture" not in base
-    return Material(
+    material = Material(
         name=str(record.get("name", "")),
         factor=(red, green, blue, alpha),
-        metallic=float(base.get("metallicFactor", 1.0)) if shiny else 0.0,
-        roughness=float(base.get("roughnessFactor", 1.0)) if shiny else 1.0,
+        metallic=_share(base.get("metallicFactor", 1.0)) if shiny else 0.0,
+        roughness=_share(base.get("roughnessFactor", 1.0)) if shiny else 1.0,
         double_sided=bool(record.get("doubleSided", False)),
         alpha=record["alphaMode"] if record.get("alphaMode") in ("MASK", "BLEND") else "OPAQUE",
-        cutoff=float(record.get("alphaCutoff", 0.5)),
+        cutoff=_share(record.get("alphaCutoff", 0.5)),
         picture=picture,
         wrap=wrap,
     )
+    return material, lost
+
+
+def _share(value: Any) -> float:
+    """A factor, 0..1. Raises ValueError where it is no number."""
+    number = float(value)
+    if not np.isfinite(number):
+        raise ValueError(f"a factor of {number}")
+    return min(max(number, 0.0), 1.0)
 
 
 def _picture(data: GltfData, info: Record) -> tuple[Picture, tuple[int, int]]:

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.surface.colours import base_colours
+from furbake.surface.colours import base_colours, portable
 from furbake.surface.material import Material, Skin, dress
 from furbake.surface.reading import read
-from furbake.surface.repair import LARGEST, SMALLEST, check, straighten, tidy
+from furbake.surface.repair import LARGEST, SMALLEST, check, count, straighten, tidy
 from furbake.surface.simplify import decimate
 from furbake.surface.soup import MeshError, Soup, plain
 from furbake.surface.topology import angle_normals
@@ -125,19 +125,17 @@ def simplify(surface: Surface, faces: int) -> Surface:
     )
 
 
-def _finish(
-    name: str, soup: Soup, materials: tuple[Material, ...], max_faces: int, missing: tuple[str, ...] = ()
-) -> Surface:
+def _finish(name: str, soup: Soup, materials: tuple[Material, ...], max_faces: int, missing: int = 0) -> Surface:
     check(name, soup)
-    told = [f"{thing} cannot be read and is left out" for thing in missing]
-    soup, repaired = tidy(name, soup)
-    told += repaired
+    soup, told = tidy(name, soup)
     if len(soup.faces) > max_faces:
         soup = _fewer(name, soup, max(max_faces, FEWEST), told)
     soup, repaired = straighten(soup)
     told += repaired
     colours, broken = base_colours(soup, materials)
-    told += [f"{thing} cannot be read and is left out" for thing in broken if thing not in missing]
+    materials = tuple(_wearable(material, i in broken) for i, material in enumerate(materials))
+    if missing + len(broken):
+        told.append(f"{count(missing + len(broken), 'picture')} left out that cannot be read")
     same = bool((np.ptp(colours, axis=0) < ALIKE).all())
     return Surface(
         vertices=soup.vertices,
@@ -150,6 +148,13 @@ def _finish(
         skin=dress(soup, materials) if soup.paint is not None or any(m != Material() for m in materials) else (),
         notices=tuple(f"{name}: {line}" for line in told),
     )
+
+
+def _wearable(material: Material, broken: bool) -> Material:
+    """A material as the skin can wear it."""
+    if material.picture is None:
+        return material
+    return replace(material, picture=None if broken else portable(material.picture))
 
 
 def _fewer(name: str, soup: Soup, max_faces: int, told: list[str]) -> Soup:

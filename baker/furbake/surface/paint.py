@@ -86,7 +86,7 @@ def uncover(surface: Surface, mask: Floats, name: str) -> tuple[Surface, Ints]:
 
     mask : (V,) 0..1; name : of its picture, for the message. Raises MeshError where nothing is left.
     """
-    keep = (mask[surface.faces] > BARE).any(axis=1)
+    keep = np.asarray((mask[surface.faces] > BARE).any(axis=1))
     if not keep.any():
         raise MeshError(f"{name}: every face is bare, expected some fur (white)")
     used, index = np.unique(surface.faces[keep], return_inverse=True)

@@ -24,11 +24,11 @@ from furbake.surface.soup import Floats, Ints, MeshError, Soup, join
 
 @dataclass(frozen=True)
 class Reading:
-    """What a file holds: its triangles, the materials that `soup.part` counts, and what could not be read."""
+    """What a file holds: triangles, the materials that `soup.part` counts, and how many pictures are not to be had."""
 
     soup: Soup
     materials: tuple[Material, ...]
-    missing: tuple[str, ...] = ()
+    missing: int = 0
 
 
 def read(path: Path) -> Reading:
@@ -64,15 +64,15 @@ def read(path: Path) -> Reading:
             raise _undecodable(name, " ".join(re.findall(r"[A-Z]+_[a-z]+_[a-z_]+", line)) or "its compression")
     if soup is None:
         raise MeshError(f"{name}: no faces, expected a surface of triangles")
-    return Reading(soup, materials, tuple(missing))
+    return Reading(soup, materials, missing)
 
 
 def _undecodable(name: str, codec: str) -> MeshError:
     return MeshError(f"{name}: geometry that cannot be decoded ({codec}), expected intact Draco or plain data")
 
 
-def _read_other(path: Path) -> tuple[Soup | None, tuple[Material, ...], list[str]]:
-    """Soup, materials and nothing missing; no soup where there is no triangle."""
+def _read_other(path: Path) -> tuple[Soup | None, tuple[Material, ...], int]:
+    """Soup, materials and no missing picture; no soup where there is no triangle."""
     scene = trimesh.load_scene(str(path), process=False)
     parts = [part for part in scene.dump() if isinstance(part, trimesh.Trimesh) and len(part.faces)]
     materials: list[Material] = []
@@ -102,7 +102,7 @@ def _read_other(path: Path) -> tuple[Soup | None, tuple[Material, ...], list[str
                 attributes={name: values[faces] for name, values in numbers.items()} if inside else {},
             )
         )
-    return (join(soups) if soups else None), tuple(materials), []
+    return (join(soups) if soups else None), tuple(materials), 0
 
 
 def _coordinates(visual: Any, faces: Ints) -> Floats | None:
