@@ -10,7 +10,7 @@ import pytest
 import trimesh
 
 from furbake.surface.charts import Charts
-from furbake.surface.mesh import MeshError, Surface, clean
+from furbake.surface.mesh import MeshError, Surface, clean, simplify
 from furbake.surface.own import own_charts
 from furbake.surface.shapes import builtin
 from furbake.surface.topology import face_vectors
@@ -78,6 +78,11 @@ def test_built_in_shape_has_its_own() -> None:
     torus = builtin("torus:12x12")
     assert torus.natural
     np.testing.assert_array_equal(own_charts(torus, 0.2, "torus").uv, torus.natural.charts(0.2).uv)
+
+
+def test_simplified_shape_keeps_its_own() -> None:
+    few = simplify(builtin("torus:48x48"), 1000)
+    assert_fits(own_charts(few, 0.2, "torus"), few)
 
 
 def test_model_without_coordinates_is_one_sentence(cube: tuple[Any, Any]) -> None:

@@ -110,7 +110,9 @@ def simplify(surface: Surface, faces: int) -> Surface:
     numbers = {name: values[surface.faces] for name, values in surface.attributes.items()}
     if surface.colours is not None:
         numbers[_COLOUR] = surface.colours[surface.faces]
-    soup = replace(plain(surface.vertices, surface.faces), uv=surface.uv, attributes=numbers)
+    natural = surface.natural
+    uv = surface.uv if natural is None else natural.uv[natural.faces]
+    soup = replace(plain(surface.vertices, surface.faces), uv=uv, attributes=numbers)
     soup, _ = tidy("simplified surface", decimate(soup, faces))
     soup, _ = straighten(soup)
     attributes = _at_vertices(soup)

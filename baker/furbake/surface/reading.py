@@ -19,6 +19,7 @@ from furbake.surface.colours import from_srgb
 from furbake.surface.gltf_data import UndecodableError
 from furbake.surface.gltf_scene import media_type, read_gltf
 from furbake.surface.material import Material, Picture
+from furbake.surface.polygons import recut
 from furbake.surface.soup import Floats, Ints, MeshError, Soup, join
 
 
@@ -92,6 +93,8 @@ def _read_other(path: Path) -> tuple[Soup | None, tuple[Material, ...], int]:
         if visual.kind == "vertex" and len(visual.vertex_colors) == len(vertices):
             numbers["color"] = np.asarray(visual.vertex_colors, dtype=np.float64) / 255.0
         inside = faces.min() >= 0 and faces.max() < len(vertices)
+        if inside:
+            faces = recut(vertices, faces)
         soups.append(
             Soup(
                 vertices=vertices,

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from furbake.surface.folds import unfold
 from furbake.surface.manifold import separate
 from furbake.surface.slivers import mend
 from furbake.surface.soup import MeshError, Soup
@@ -88,6 +89,12 @@ def straighten(soup: Soup) -> tuple[Soup, list[str]]:
     if turned.any():
         told.append(f"{count(int(turned.sum()), 'face')} turned over")
         soup = soup.turn(turned)
+    soup, folds = unfold(soup)
+    if folds:
+        told.append(f"{count(folds, 'fold')} of hollow polygons undone")
+        soup, _ = mend(soup)
+        soup = soup.take(~duplicates(soup.faces)).compact()
+        shape = (soup.vertices - soup.vertices.min(axis=0)) / extent
     apart = separate(shape, soup.faces)
     if apart.crowded:
         told.append(f"{count(apart.crowded, 'edge')} of more than two faces cut")

@@ -53,7 +53,7 @@ def _measure(vertices: Floats, faces: Ints) -> tuple[Floats, Floats]:
     return sides, np.linalg.norm(face_vectors(vertices, faces) / longest[:, None], axis=1) / longest
 
 
-def _first_claim(things: NDArray[np.int64], count: int) -> Flags:
+def first_claim(things: NDArray[np.int64], count: int) -> Flags:
     """(n,) which rows of (n, m) things come before every other row that wants one of the same things."""
     rank = np.arange(len(things))
     owner = np.full(count, len(things))
@@ -69,7 +69,7 @@ def _collapse(soup: Soup, sides: Floats, needle: Flags) -> tuple[Soup, int]:
     which = which[np.argsort(sides[which].min(axis=1), kind="stable")]
     corner = np.argmin(sides[which], axis=1)
     ends = np.stack([soup.faces[which, corner], soup.faces[which, (corner + 1) % 3]], axis=1)
-    ends = ends[_first_claim(ends, len(soup.vertices))]
+    ends = ends[first_claim(ends, len(soup.vertices))]
     into = np.arange(len(soup.vertices))
     into[ends.max(axis=1)] = ends.min(axis=1)
     faces = into[soup.faces]
@@ -113,7 +113,7 @@ def _flip(soup: Soup) -> tuple[Soup, int]:
         & ~np.isin(crossing, present)
     )
     cap, other, j, apex, halves = (values[fine] for values in (cap, other, j, apex, halves))
-    free = _first_claim(np.stack([cap, other], axis=1), len(faces))
+    free = first_claim(np.stack([cap, other], axis=1), len(faces))
     cap, other, j, apex, halves = (values[free] for values in (cap, other, j, apex, halves))
     return _replaced(soup, cap, other, j, apex, halves), len(cap)
 
