@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import base64
+import contextlib
+import io
 import re
+import shutil
 from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
@@ -15,6 +18,7 @@ import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 
+from furbake import cli, validate
 from furbake.surface.manifold import separate
 from furbake.surface.mesh import MAX_FACES, MeshError, Surface, clean, load_mesh
 from furbake.surface.repair import MOST
@@ -23,6 +27,10 @@ from furbake.surface.topology import face_vectors
 Mesh = tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]
 
 PACKAGES = Path(__file__).parents[2] / "node_modules"
+TINY = ("--layers", "4", "--size", "8", "--lights", "8", "--quiet")
+SMALL = 2_000_000
+"""Bytes of a file that is baked here too."""
+
 SUFFIXES = {".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".3mf", ".dae"}
 
 
@@ -354,13 +362,20 @@ def shipped() -> list[Path]:
     return sorted(found | set(PACKAGES.glob("@pmndrs/assets/models/*.glb.js")))
 
 
+def unpacked(path: Path, folder: Path) -> Path:
+    """The mesh file itself."""
+    if path.suffix != ".js":
+        return path
+    data = re.search(r"base64,([A-Za-z0-9+/=]+)", path.read_text())
+    assert data
+    inner = folder / path.name.removesuffix(".js")
+    inner.write_bytes(base64.b64decode(data[1]))
+    return inner
+
+
 @pytest.mark.parametrize("path", shipped(), ids=lambda path: path.name)
 def test_shipped_meshes(tmp_path: Path, path: Path) -> None:
-    if path.suffix == ".js":
-        data = re.search(r"base64,([A-Za-z0-9+/=]+)", path.read_text())
-        assert data
-        path = tmp_path / path.name.removesuffix(".js")
-        path.write_bytes(base64.b64decode(data[1]))
+    path = unpacked(path, tmp_path)
     try:
         surface = load_mesh(path)
     except MeshError as error:
@@ -368,3 +383,31 @@ def test_shipped_meshes(tmp_path: Path, path: Path) -> None:
         return
     assert_sound(surface)
     assert len(surface.faces) <= 1.05 * MAX_FACES
+
+
+def assert_baked_or_refused(path: Path, folder: Path) -> None:
+    """Exit 0 with a valid asset, or exit 2 with one line and nothing written."""
+    shutil.rmtree(folder, ignore_errors=True)
+    errors = io.StringIO()
+    with contextlib.redirect_stderr(errors):
+        status = cli.main(["bake", str(path), "-o", str(folder), *TINY])
+    if status == 0:
+        assert validate(folder) == []
+    else:
+        assert status == 2
+        assert re.fullmatch(r"furbake: error: [^\n]+\n", errors.getvalue())
+        assert not folder.exists()
+
+
+@pytest.mark.parametrize("path", [p for p in shipped() if p.stat().st_size < SMALL], ids=lambda path: path.name)
+def test_shipped_meshes_are_baked(tmp_path: Path, path: Path) -> None:
+    assert_baked_or_refused(unpacked(path, tmp_path), tmp_path / "out")
+
+
+@given(st.one_of(soups(), strips(), fans(), slivers(), nests()), scales)
+def test_any_mesh_is_baked_or_refused(tmp_path_factory: pytest.TempPathFactory, mesh: Mesh, scale: float) -> None:
+    folder = tmp_path_factory.mktemp("any")
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in (scale * mesh[0]).tolist()]
+    lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in mesh[1].tolist()]
+    (folder / "mesh.obj").write_text("\n".join(lines))
+    assert_baked_or_refused(folder / "mesh.obj", folder / "out")
