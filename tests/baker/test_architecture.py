@@ -32,6 +32,9 @@ FLOORS = {
 ONLY_IN = {
     "OpenImageIO": "asset/planes.py",
     "embreex": "surface/thickness.py",
+    "DracoPy": "surface/gltf_data.py",
+    "PIL": "surface/colours.py",
+    "fast_simplification": "surface/simplify.py",
     "rich": "cli/progress.py",
     "argparse": "cli",
 }

@@ -1,62 +1,81 @@
-"""Read a mesh, clean it, orient it: whatever comes in, a `Surface` or a `MeshError` of one sentence goes out.
+"""Read a mesh, repair it, dress it: whatever comes in, a `Surface` or a `MeshError` of one sentence goes out.
 
 The surface is welded by position: seams of texture or normal would otherwise split patches and grow fins.
 """
 
 from __future__ import annotations
 
-import logging
-import re
-import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-import trimesh
 from numpy.typing import NDArray
 
-from furbake.surface.topology import angle_normals, duplicates, face_vectors, orient, weld
+from furbake.surface.colours import base_colours, portable
+from furbake.surface.material import Material, Skin, dress
+from furbake.surface.reading import read
+from furbake.surface.repair import LARGEST, SMALLEST, check, count, straighten, tidy
+from furbake.surface.simplify import decimate
+from furbake.surface.soup import MeshError, Soup, plain
+from furbake.surface.topology import angle_normals
 
 if TYPE_CHECKING:
     from furbake.surface.charts import Natural
 
+__all__ = ["LARGEST", "MAX_FACES", "SMALLEST", "MeshError", "Surface", "clean", "load_mesh", "simplify"]
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 RGB = tuple[float, float, float]
+WHITE: RGB = (1.0, 1.0, 1.0)
 
-SMALLEST, LARGEST = 1e-9, 1e9
-"""Largest side of a mesh that 32-bit floats can still carry with its fur, model units."""
+MAX_FACES = 60_000
+"""Faces of a model that are kept, unless more are asked for."""
 
-WELD = 1e-6
-"""Vertices nearer than this share of the largest side become one."""
+FEWEST = 4
+"""Faces that a model may be decimated to."""
 
-SLIVER = 1e-12
-"""Faces whose area is below this share of the largest side squared are dropped."""
+RAGGED = 1.05
+"""Faces above `max_faces` at which decimation has failed."""
 
+ALIKE = 1.5 / 255.0
+"""Colours nearer than this are one."""
 
-class MeshError(ValueError):
-    """A mesh that cannot carry fur; the message starts with its name and says what was got and expected."""
+_COLOUR = "COLOUR"
+"""Name of the base colour among the numbers of a simplified surface; those of files are lower-case."""
 
 
 @dataclass(frozen=True)
 class Surface:
     """A welded, consistently wound triangle mesh, right-handed, y up, in the model's own units.
 
+    Every edge has one or two faces, every vertex one fan or disc of them. Where a model was cut to make it so, copies
+    of a vertex have bit-equal places.
+
     vertices : (V, 3) float, each used by a face
     faces : (F, 3) int, counter-clockwise seen from outside
     normals : (V, 3) float, unit, outward
     natural : texture coordinates that a built-in shape has by itself
-    colour : linear base colour of the model's own material, white where it has none
+    colour : linear base colour of the model's own material, white where it has none or where `colours` says it
+    colours : (V, 3) float, linear base colour of every vertex where it is not the same everywhere
+    uv : (F, 3, 2) float, the model's own texture coordinates at the corners of its faces, v down the image as in glTF;
+        NaN on faces that have none
+    attributes : (V, n) further numbers that the file gives its vertices, by lower-case name without underscore
+    skin : what the model wears under its fur, one piece per material; () where the file has none
+    notices : what was repaired, one sentence each, beginning with the model's name
     """
 
     vertices: Floats
     faces: Ints
     normals: Floats
     natural: Natural | None = None
-    colour: RGB = (1.0, 1.0, 1.0)
+    colour: RGB = WHITE
+    colours: Floats | None = None
+    uv: Floats | None = None
+    attributes: dict[str, Floats] = field(default_factory=dict)
+    skin: tuple[Skin, ...] = ()
+    notices: tuple[str, ...] = ()
 
     @property
     def extent(self) -> float:
@@ -64,134 +83,107 @@ class Surface:
         return float(np.ptp(self.vertices, axis=0).max())
 
 
-def load_mesh(path: Path) -> Surface:
-    """Surface of a file that trimesh reads; the parts of a scene are joined where their transforms put them.
+def load_mesh(path: Path, max_faces: int = MAX_FACES) -> Surface:
+    """Surface of a file; the parts of a scene are joined where their transforms put them.
 
     Raises MeshError for every file that does not give one.
     """
-    name = str(path)
-    try:
-        if path.is_dir():
-            raise MeshError(f"{name}: is a folder, expected a mesh file")
-        if not path.exists():
-            raise MeshError(f"{name}: no such file, expected a mesh file or sphere, plane, torus, torus:RxC")
-        if path.stat().st_size == 0:
-            raise MeshError(f"{name}: 0 bytes, expected a mesh file")
-        with path.open("rb"):
-            pass
-    except (OSError, ValueError) as error:
-        if isinstance(error, MeshError):
-            raise
-        raise MeshError(f"{name}: {_reason(error)}, expected a readable mesh file") from error
-    vertices, faces, colour = _read(path)
-    return clean(name, vertices, faces, colour)
+    reading = read(path)
+    return _finish(str(path), reading.soup, reading.materials, max_faces, reading.missing)
 
 
-def clean(name: str, vertices: Floats, faces: Ints, colour: RGB = (1.0, 1.0, 1.0)) -> Surface:
-    """Surface of triangles: welded, without degenerate, repeated and unused parts, wound outward.
+def clean(name: str, vertices: Floats, faces: Ints, colour: RGB = WHITE, max_faces: int = MAX_FACES) -> Surface:
+    """Surface of bare triangles: welded, repaired, wound outward.
 
     vertices : (V, 3) float, model units; faces : (F, 3) int. Raises MeshError, starting with `name`.
     """
-    if len(faces) == 0:
-        raise MeshError(f"{name}: no faces, expected a surface of triangles")
-    if faces.min() < 0 or faces.max() >= len(vertices):
-        got = faces.min() if faces.min() < 0 else faces.max()
-        raise MeshError(f"{name}: a face uses vertex {got}, expected 0 to {len(vertices) - 1}")
-    used = np.unique(faces)
-    bad = int((~np.isfinite(vertices[used]).all(axis=1)).sum())
-    if bad:
-        raise MeshError(f"{name}: {bad} of {len(used)} vertices are not finite, expected numbers (no NaN, no infinity)")
-    with np.errstate(over="ignore"):
-        extent = float(np.ptp(vertices[used], axis=0).max())
-    if extent == 0.0:
-        raise MeshError(f"{name}: all faces have zero area, expected a surface")
-    if not SMALLEST <= extent <= LARGEST:
-        raise MeshError(f"{name}: largest side is {extent:.3g} units, expected {SMALLEST:g} to {LARGEST:g}")
-
-    vertices, faces = weld(vertices, faces, WELD * extent)
-    area = 0.5 * np.linalg.norm(face_vectors(vertices / extent, faces), axis=1)
-    faces = faces[(area > SLIVER) & ~duplicates(faces)]
-    if len(faces) == 0:
-        raise MeshError(f"{name}: all faces have zero area, expected a surface")
-    used, index = np.unique(faces, return_inverse=True)
-    vertices, faces = vertices[used], orient(vertices[used] / extent, index.reshape(-1, 3))
-    return Surface(vertices, faces, angle_normals(vertices, faces), colour=colour)
+    return _finish(name, plain(vertices, faces), (Material(factor=(*colour, 1.0)),), max_faces)
 
 
-def _read(path: Path) -> tuple[Floats, Ints, RGB]:
-    """Triangles of a file as trimesh reads it, unprocessed. Raises MeshError."""
-    name = str(path)
-    known = sorted(trimesh.exchange.load.mesh_formats() | set(trimesh.exchange.load.compressed_loaders))
-    kind = trimesh.util.split_extension(path.name).lower()
-    if kind not in known:
-        raise MeshError(f"{name}: file type is '{kind}', expected one of {', '.join(known)}")
-    with _trimesh_warnings() as told:
-        try:
-            scene = trimesh.load_scene(str(path), process=False)
-            parts = [part for part in scene.dump() if isinstance(part, trimesh.Trimesh) and len(part.faces)]
-            places = [np.asarray(part.vertices, dtype=np.float64).reshape(-1, 3) for part in parts]
-            corners = [np.asarray(part.faces, dtype=np.int64).reshape(-1, 3) for part in parts]
-            colour = _base_colour(parts)
-        except Exception as error:  # readers raise anything on a broken file: struct.error, KeyError, MemoryError, ...
-            raise MeshError(f"{name}: cannot be read as {kind} ({_reason(error)}), expected a valid file") from error
-    for line in told:
-        # Compressed geometry that trimesh cannot decode is left as zeros, with nothing but a log line.
-        if "placeholder zeros" in line:
-            codec = " ".join(re.findall(r"[A-Z]+_[a-z]+_[a-z_]+", line)) or "its compression"
-            raise MeshError(f"{name}: geometry that cannot be decoded ({codec}), expected intact Draco or plain data")
-    if not parts:
-        raise MeshError(f"{name}: no faces, expected a surface of triangles")
-    starts = np.cumsum([0] + [len(place) for place in places])
-    faces = [corner + start for corner, start in zip(corners, starts, strict=False)]
-    return np.concatenate(places), np.concatenate(faces), colour
+def simplify(surface: Surface, faces: int) -> Surface:
+    """A copy with about `faces` faces, for shells and fins to stand on; the surface itself where it has no more.
+
+    It keeps colours, texture coordinates and attributes, but no skin: that is the whole surface's.
+    """
+    if len(surface.faces) <= faces:
+        return surface
+    numbers = {name: values[surface.faces] for name, values in surface.attributes.items()}
+    if surface.colours is not None:
+        numbers[_COLOUR] = surface.colours[surface.faces]
+    natural = surface.natural
+    uv = surface.uv if natural is None else natural.uv[natural.faces]
+    soup = replace(plain(surface.vertices, surface.faces), uv=uv, attributes=numbers)
+    soup, _ = tidy("simplified surface", decimate(soup, faces))
+    soup, _ = straighten(soup)
+    attributes = _at_vertices(soup)
+    return Surface(
+        vertices=soup.vertices,
+        faces=soup.faces,
+        normals=angle_normals(soup.vertices, soup.faces),
+        colour=surface.colour,
+        colours=attributes.pop(_COLOUR, None),
+        uv=soup.uv,
+        attributes=attributes,
+    )
 
 
-def _base_colour(parts: list[trimesh.Trimesh]) -> RGB:
-    """Linear base colour that all parts share. Grey is what exporters write by default and counts as white."""
-    factors: set[RGB] = set()
-    for part in parts:
-        factor = getattr(getattr(part.visual, "material", None), "baseColorFactor", None)
-        rgb = np.ones(3) if factor is None else np.asarray(factor, dtype=np.float64)[:3]
-        if factor is not None and np.asarray(factor).dtype.kind in "ui":
-            rgb = rgb / 255.0
-        factors.add((float(rgb[0]), float(rgb[1]), float(rgb[2])))
-    if len(factors) != 1:
-        return (1.0, 1.0, 1.0)
-    colour = factors.pop()
-    hueless = max(colour) - min(colour) < 1.5 / 255.0
-    return (1.0, 1.0, 1.0) if hueless else colour
+def _finish(name: str, soup: Soup, materials: tuple[Material, ...], max_faces: int, missing: int = 0) -> Surface:
+    check(name, soup)
+    soup, told = tidy(name, soup)
+    if len(soup.faces) > max_faces:
+        soup = _fewer(name, soup, max(max_faces, FEWEST), told)
+    soup, repaired = straighten(soup)
+    told += repaired
+    colours, broken = base_colours(soup, materials)
+    materials = tuple(_wearable(material, i in broken) for i, material in enumerate(materials))
+    if missing + len(broken):
+        told.append(f"{count(missing + len(broken), 'picture')} left out that cannot be read")
+    same = bool((np.ptp(colours, axis=0) < ALIKE).all())
+    return Surface(
+        vertices=soup.vertices,
+        faces=soup.faces,
+        normals=angle_normals(soup.vertices, soup.faces),
+        colour=_one_colour(colours) if same else WHITE,
+        colours=None if same else colours,
+        uv=soup.uv if soup.uv is not None and bool(np.isfinite(soup.uv).any()) else None,
+        attributes=_at_vertices(soup),
+        skin=dress(soup, materials) if soup.paint is not None or any(m != Material() for m in materials) else (),
+        notices=tuple(f"{name}: {line}" for line in told),
+    )
 
 
-@contextmanager
-def _trimesh_warnings() -> Iterator[list[str]]:
-    """Collects what trimesh logs as a warning, and keeps it and Python's own warnings off the terminal."""
-    told: list[str] = []
-
-    class Collect(logging.Handler):
-        def emit(self, record: logging.LogRecord) -> None:
-            told.append(record.getMessage())
-
-    logger, handler = logging.getLogger("trimesh"), Collect(logging.WARNING)
-    propagate = logger.propagate
-    logger.addHandler(handler)
-    logger.propagate = False
-    try:
-        with warnings.catch_warnings(), np.errstate(all="ignore"):
-            warnings.simplefilter("ignore")
-            yield told
-    finally:
-        logger.removeHandler(handler)
-        logger.propagate = propagate
+def _wearable(material: Material, broken: bool) -> Material:
+    """A material as the skin can wear it."""
+    if material.picture is None:
+        return material
+    return replace(material, picture=None if broken else portable(material.picture))
 
 
-def _one_line(text: str, longest: int = 160) -> str:
-    """Printable text without line breaks, shortened."""
-    line = " ".join("".join(c if c.isprintable() else " " for c in text).split())
-    return line if len(line) <= longest else line[: longest - 3] + "..."
+def _fewer(name: str, soup: Soup, max_faces: int, told: list[str]) -> Soup:
+    before = len(soup.faces)
+    fewer, _ = tidy(name, decimate(soup, max_faces))
+    if len(fewer.faces) > RAGGED * max_faces:
+        raise MeshError(
+            f"{name}: {before} faces in pieces too small to simplify, expected at most {max_faces} or larger pieces"
+        )
+    told.append(f"{before} faces decimated to {len(fewer.faces)}")
+    return fewer
 
 
-def _reason(error: BaseException) -> str:
-    """What an exception says, in one line."""
-    if isinstance(error, OSError) and error.strerror:
-        return error.strerror[:1].lower() + error.strerror[1:]
-    return _one_line(f"{type(error).__name__}: {error}" if str(error) else type(error).__name__)
+def _one_colour(colours: Floats) -> RGB:
+    """The colour of a model that has one. Grey is what exporters write by default and counts as white."""
+    red, green, blue = (float(value) for value in colours.mean(axis=0))
+    return WHITE if max(red, green, blue) - min(red, green, blue) < ALIKE else (red, green, blue)
+
+
+def _at_vertices(soup: Soup) -> dict[str, Floats]:
+    """(V, n) mean over the corners at each vertex; where a part lacks them, scalars are 1 and vectors 0."""
+    corners, count = soup.faces.reshape(-1), len(soup.vertices)
+    uses = np.bincount(corners, minlength=count)
+    found = {}
+    for name, values in soup.attributes.items():
+        flat = values.reshape(len(corners), -1)
+        flat = np.where(np.isfinite(flat), flat, 1.0 if flat.shape[1] == 1 else 0.0)
+        sums = [np.bincount(corners, flat[:, i], count) for i in range(flat.shape[1])]
+        found[name] = np.stack(sums, axis=1) / uses[:, None]
+    return found

@@ -11,6 +11,12 @@ from scipy.spatial import cKDTree
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+SHEET = 0.25
+"""Share of a piece's area that its faces' vectors add up to, above which it is a sheet with two free sides."""
+
+FLATTEST = 1e-4
+"""Six volumes over the area (doubled) to the power 1.5: 0.2 for a ball; below it a piece encloses nothing."""
+
 
 def face_vectors(vertices: Floats, faces: Ints) -> Floats:
     """(F, 3) normals of the faces, twice their area long."""
@@ -50,37 +56,54 @@ def duplicates(faces: Ints) -> NDArray[np.bool_]:
     return np.asarray(again | (ordered[:, 0] == ordered[:, 1]) | (ordered[:, 1] == ordered[:, 2]))
 
 
-def orient(vertices: Floats, faces: Ints) -> Ints:
-    """Faces wound alike over each piece of surface, closed pieces outward, open ones as most of their area was.
+def half_edges(faces: Ints) -> tuple[Ints, Ints, Ints]:
+    """Edges as runs of half-edges: order, where and uses; edge e is order[where[e] : where[e] + uses[e]].
 
-    Winding is carried over edges of exactly two faces: a parity along the breadth-first tree of each piece.
+    Half-edge 3f + i runs from corner i of face f to the next corner.
+    """
+    start = faces.reshape(-1)
+    end = np.roll(faces, -1, axis=1).reshape(-1)
+    key = np.minimum(start, end) * np.int64(faces.max(initial=0) + 1) + np.maximum(start, end)
+    order = np.argsort(key, kind="stable")
+    _, where, uses = np.unique(key[order], return_index=True, return_counts=True)
+    return order, where, uses
+
+
+def orient(vertices: Floats, faces: Ints) -> Ints:
+    """Faces wound alike over each piece of surface, closed pieces outward, sheets as most of their area was.
+
+    Winding is carried over edges of exactly two faces: a parity along the breadth-first tree of each piece. A piece
+    with a few holes counts as closed: its faces' vectors almost cancel.
     """
     count = len(faces)
     start = faces.reshape(-1)
-    end = np.roll(faces, -1, axis=1).reshape(-1)
-    owner = np.repeat(np.arange(count), 3)
-    key = np.minimum(start, end) * np.int64(len(vertices)) + np.maximum(start, end)
-    order = np.argsort(key, kind="stable")
-    _, where, uses = np.unique(key[order], return_index=True, return_counts=True)
+    order, where, uses = half_edges(faces)
     pair = where[uses == 2]
     one, two = order[pair], order[pair + 1]
-    a, b, clash = owner[one], owner[two], (start[one] == start[two]).astype(np.int64)
+    a, b, clash = one // 3, two // 3, (start[one] == start[two]).astype(np.int64)
 
     links = csr_array((np.ones(2 * len(a)), (np.r_[a, b], np.r_[b, a])), shape=(count, count))
     pieces, piece = connected_components(links, directed=False)
     flip = _parity(links, piece, a, b, clash)
     turned = np.where(flip[:, None] == 1, faces[:, ::-1], faces)
 
-    areas = np.linalg.norm(face_vectors(vertices, turned), axis=1)
-    edges_open = np.bincount(piece[owner[order[where[uses == 1]]]], minlength=pieces) > 0
-    centre = np.zeros((pieces, 3))
-    np.add.at(centre, piece, areas[:, None] * vertices[turned].mean(axis=1))
-    centre /= np.maximum(np.bincount(piece, areas, pieces), 1e-300)[:, None]
-    p, q, r = (vertices[turned[:, i]] - centre[piece] for i in range(3))
+    vectors = face_vectors(vertices, turned)
+    areas = np.linalg.norm(vectors, axis=1)
+    total = np.maximum(np.bincount(piece, areas, pieces), 1e-300)
+    middle = _sums(piece, areas[:, None] * vertices[turned].mean(axis=1), pieces) / total[:, None]
+    hollow = np.linalg.norm(_sums(piece, vectors, pieces), axis=1) / total < SHEET
+    p, q, r = (vertices[turned[:, i]] - middle[piece] for i in range(3))
     volume = np.bincount(piece, np.einsum("ij,ij->i", p, np.cross(q, r)), pieces)
+    # A crumpled sheet may cancel too, but it encloses nothing.
+    solid = hollow & (np.abs(volume) > FLATTEST * total**1.5)
     kept = np.bincount(piece, areas * np.where(flip == 1, -1.0, 1.0), pieces)
-    inside_out = np.where(edges_open, kept < 0.0, volume < 0.0)
+    inside_out = np.where(solid, volume < 0.0, kept < 0.0)
     return np.where(inside_out[piece][:, None], turned[:, ::-1], turned)
+
+
+def _sums(index: NDArray[np.int32], vectors: Floats, count: int) -> Floats:
+    """(count, 3) sum of the vectors of each index."""
+    return np.stack([np.bincount(index, vectors[:, i], count) for i in range(3)], axis=1)
 
 
 def _parity(links: csr_array, piece: NDArray[np.int32], a: Ints, b: Ints, clash: Ints) -> Ints:
