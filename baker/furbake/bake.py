@@ -7,7 +7,7 @@ import json
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -21,19 +21,27 @@ from furbake.options import BakeOptions
 from furbake.pelt import basis as bases
 from furbake.pelt.basis import Basis, environment
 from furbake.pelt.fill import fill
+from furbake.pelt.fin import FIN_FRAME, fit_fin, side_view
 from furbake.pelt.fit import Judge, fit, relight
-from furbake.pelt.pelt import Pelt, Ramp
+from furbake.pelt.pelt import FinPelt, Pelt
 from furbake.pelt.quantise import byte_range, dequantise, quantise, srgb_bytes, unit_bytes
 from furbake.pelt.strands import Strands, grow
 from furbake.pelt.transport import LOWEST, LOWEST_FLAT, hemisphere, sample
 from furbake.pelt.volume import Volume, coarsen, fine_shape, voxelise
+from furbake.surface.charts import laid
+from furbake.surface.coat import VertexFur
+from furbake.surface.fins import build_fins
 from furbake.surface.mesh import Surface, load_mesh
 from furbake.surface.projection import project
 from furbake.surface.shapes import builtin, is_builtin
 from furbake.surface.thickness import length_by_thickness
 
 LIBRARIES = ("numpy", "scipy", "OpenImageIO", "trimesh", "embreex", "DracoPy")
-STAGES = ("mesh", "strands", "volume", "light", "fit", "write")
+STAGES = ("mesh", "strands", "volume", "light", "fit", "fins", "write")
+
+FIN_LIGHTS, FIN_HELD_OUT = 64, 16
+"""Lights of a fin's fit, and others that it does not see: enough for six numbers."""
+
 
 Progress = Callable[[str, float], None]
 Floats = NDArray[np.float64]
@@ -101,7 +109,9 @@ def bake(
             surface = load_surface(model)
             tile, length = options.dimensions(surface.extent)
             charts = project(surface, tile, options.guide)
-            lengths = length_by_thickness(surface) if options.length_by_thickness else np.ones(len(surface.vertices))
+            fur = VertexFur.even(len(surface.vertices))
+            if options.length_by_thickness:
+                fur = replace(fur, lengths=length_by_thickness(surface))
         height = length / tile
         with clock.stage("strands"):
             strands = grow(options.coat, height, options.seed)
@@ -112,6 +122,16 @@ def bake(
             lighting = light(fine, options, step)
         with clock.stage("fit"):
             pelt, figures = fit_pelt(volume, lighting, options)
+        with clock.stage("fins"):
+            fins = None
+            if options.fins:
+                direction, lean = laid(charts, surface.normals), float(volume.drift[-1, 1])
+                fins = build_fins(surface, direction, tile, lean, options.seed, length)
+            if fins is not None and len(fins.faces):
+                fin, figures["fin"] = fit_side(strands, fine, options)
+                pelt = replace(pelt, fin=fin)
+            else:  # a body that is all creases
+                fins = None
         with clock.stage("write"):
             record = {
                 "furbake": version("furbake"),
@@ -121,7 +141,7 @@ def bake(
                 "key": bake_key(model, options),
                 "fit": figures,
             }
-            record["asset"] = write_gltf(folder, surface, charts, lengths, pelt, length)
+            record["asset"] = write_gltf(folder, surface, charts, fur, pelt, length, fins)
             (folder / "bake.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
             if archive is not None:
                 write_samples(archive, volume, lighting, strands)
@@ -172,7 +192,7 @@ def fit_pelt(volume: Volume, lighting: Lighting, options: BakeOptions) -> tuple[
         codes=codes,
         alpha=coverage,
         tint=tint,
-        colour=srgb_bytes(fill(original_colour(volume, options.ramp), alpha)) if options.colour_plane else None,
+        colour=srgb_bytes(fill(options.ramp.colour(volume.tint, volume.hue), alpha)) if options.colour_plane else None,
         scale=scale,
         bias=bias,
         kind=basis.kind,
@@ -202,14 +222,18 @@ def choose_basis(samples: Single, alpha: Floats, lights: Floats, options: BakeOp
     return bases.eigen(samples.reshape(len(samples), -1), alpha.ravel(), lights, options.coefficients)
 
 
-def original_colour(volume: Volume, ramp: Ramp) -> Floats:
-    """The paper's (Rn, Gn, Bn): colour of every texel's hairs in plain light, linear, (K, N, N, 3)."""
-    layers = volume.sigma.shape[0]
-    s = ((np.arange(layers) + 0.5) / layers).reshape(-1, 1, 1, 1)
-    hue = volume.hue[..., None]
-    tip = (1 - hue) * np.array(ramp.tip) + hue * np.array(ramp.tip2)
-    colour = np.array(ramp.root) + (tip - np.array(ramp.root)) * s**ramp.power
-    return np.asarray(colour * volume.tint[..., None])
+def fit_side(strands: Strands, fine: Volume, options: BakeOptions) -> tuple[FinPelt, dict[str, float]]:
+    """The fins' texture, and how good it is: `psnr` and `r2` over lights that its fit did not see."""
+    fitted = hemisphere(min(options.lights, FIN_LIGHTS))
+    unseen = hemisphere(FIN_HELD_OUT, turn=1.0)
+    lights = np.concatenate([fitted, unseen])
+    view = side_view(strands, fine, options.layers, options.size, lights, options.coat, flat=options.flat)
+    colour = options.ramp.colour(view.tint, view.hue) if options.colour_plane else None
+    fin = fit_fin(replace(view, light=view.light[: len(fitted)]), fitted, colour)
+    judge = Judge(view.light[len(fitted) :, :, None].astype(np.float32), view.alpha[:, None], view.tint[:, None])
+    stored = relight(dequantise(fin.codes, fin.scale, fin.bias), bases.PTM, unseen[:, FIN_FRAME])
+    figures = judge.figures(stored[:, :, None])
+    return fin, {name: figures[name] for name in ("psnr", "r2")}
 
 
 def write_samples(archive: BinaryIO, volume: Volume, lighting: Lighting, strands: Strands) -> None:

@@ -126,6 +126,7 @@ BAKE = {
     "colour_plane": Knob("switch"),
     "guide": Knob("word", words=("nose-tail", "down")),
     "length_by_thickness": Knob("switch"),
+    "fins": Knob("switch"),
     "seed": _whole(0, 2**63 - 1),
 }
 

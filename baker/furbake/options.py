@@ -52,6 +52,8 @@ class BakeOptions:
     """Direction in which the fur is laid."""
     length_by_thickness: bool = False
     """Shorter fur where the body is thin (ears, feet)."""
+    fins: bool = True
+    """Quads on the edges that show the fur from the side, where shells are seen edge-on."""
     coat: Coat = field(default_factory=Coat)
     ramp: Ramp = field(default_factory=Ramp)
     colour_plane: bool = True

@@ -3,11 +3,12 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
-from furbake import BakeOptions, bake
+from furbake import BakeOptions, bake, validate
 from furbake.asset.planes import Planes, read_png, unpack
 from furbake.bake import STAGES
 from furbake.pelt.basis import Basis
@@ -75,3 +76,19 @@ def test_samples_hold_the_strands_and_lights_of_the_bake(tmp_path: Path) -> None
     assert (~samples["held_out"]).sum() == 32
     assert samples["tangent"].shape == (6, 32, 32, 3)
     np.testing.assert_allclose(np.linalg.norm(samples["tangent"], axis=-1), 1)
+
+
+def test_fins_can_be_left_out_and_creases_have_none(tmp_path: Path, write_obj: Any, cube: Any) -> None:
+    options = replace(SMALL, size=8)
+    with_fins = bake("plane", tmp_path / "plane", options)
+    assert with_fins.record["fit"]["fin"]["psnr"] > 12
+    assert with_fins.record["asset"]["fins"]["faces"] > 0
+    plain = bake("plane", tmp_path / "plain", replace(options, fins=False))
+    corners, _ = cube
+    tetrahedron = write_obj(corners[[0, 3, 5, 6]], np.array([(0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 3, 2)]))
+    creased = bake(str(tetrahedron), tmp_path / "creased", options)
+    for result in (plain, creased):
+        assert "fin" not in result.record["fit"]
+        assert "fins" not in result.record["asset"]
+        assert not list(result.folder.glob("fin*"))
+        assert validate(result.folder) == []

@@ -50,8 +50,9 @@ def test_bake_inspect_validate(run: Callable[..., Any]) -> None:
     assert done.status == 0
     assert re.fullmatch(r"out: torus:8x12 in 4 layers of 8 x 8, [\d.]+ dB, [\d.]+ MB, [\d.]+ s\n", done.out)
     stages = re.findall(r"furbake: (\w+) [\d.]+ s\n", done.err)
-    assert stages == ["mesh", "strands", "volume", "light", "fit", "write"]
-    assert set(files(Path("out"))) == {"model.gltf", "model.bin", "plane0.png", "plane1.png", "colour.png", "bake.json"}
+    assert stages == ["mesh", "strands", "volume", "light", "fit", "fins", "write"]
+    images = {"plane0.png", "plane1.png", "colour.png", "fin0.png", "fin1.png", "fin-colour.png"}
+    assert set(files(Path("out"))) == {"model.gltf", "model.bin", "bake.json", *images}
     checked = run("validate", "out")
     assert (checked.status, checked.out, checked.err) == (0, "out: valid\n", "")
     told = run("inspect", "out")
@@ -63,7 +64,7 @@ def test_json_is_all_there_is_on_standard_output(run: Callable[..., Any]) -> Non
     done = run("bake", "plane", "-o", "out", *TINY, "--json")
     told = json.loads(done.out)
     assert told["baked"] is True
-    assert set(told["seconds"]) == {"mesh", "strands", "volume", "light", "fit", "write"}
+    assert set(told["seconds"]) == {"mesh", "strands", "volume", "light", "fit", "fins", "write"}
     record = json.loads(Path("out/bake.json").read_text())
     assert {key: told[key] for key in record} == record
     assert "seconds" not in record

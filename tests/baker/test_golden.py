@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 from furbake.asset.planes import Planes, read_png, unpack
+from furbake.asset.read import read_asset
+from furbake.asset.stored import read_pelt
 from furbake.asset.validate import validate
-from furbake.pelt.basis import Basis
+from furbake.pelt.basis import PTM, Basis
 from furbake.pelt.fit import relight
 from furbake.pelt.quantise import dequantise
 
@@ -41,3 +43,16 @@ def test_stored_bytes_give_the_expected_light(name: str) -> None:
 def test_golden_assets_are_valid_but_for_the_record_of_a_bake(name: str) -> None:
     problems = validate(GOLDEN / name)
     assert [problem for problem in problems if not problem.startswith("bake.json")] == []
+
+
+def test_stored_bytes_of_the_fin_give_the_expected_light() -> None:
+    folder = GOLDEN / "ptm-6"
+    fin = read_pelt(read_asset(folder)).fin
+    assert fin is not None
+    t, w, n = np.array(json.loads((folder / "lights.json").read_text("utf-8"))).T
+    expected = np.fromfile(folder / "fin.f32", "<f4").reshape(len(t), *fin.alpha.shape)
+    lights = np.stack([t, n, w], axis=1)[n >= 0]
+    light = relight(dequantise(fin.codes, fin.scale, fin.bias), PTM, lights)
+    np.testing.assert_allclose(light, expected[n >= 0], atol=1e-4)
+    assert expected.max() > 1
+    assert (fin.alpha[:, 0] == np.arange(255, 0, -32)).all()

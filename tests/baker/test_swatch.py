@@ -22,6 +22,7 @@ from furbake.bake import bake
 from furbake.options import OptionError, preset
 from furbake.pelt.basis import PTM, environment
 from furbake.pelt.pelt import Pelt, Ramp
+from furbake.surface.coat import VertexFur
 from furbake.surface.shapes import builtin
 from furbake.swatch import (
     SKIN,
@@ -71,7 +72,7 @@ def write(folder: Path, pelt: Pelt) -> Path:
     folder.mkdir()
     surface = builtin("plane")
     assert surface.natural is not None
-    write_gltf(folder, surface, surface.natural.charts(1.0), np.ones(len(surface.vertices)), pelt, 0.5)
+    write_gltf(folder, surface, surface.natural.charts(1.0), VertexFur.even(len(surface.vertices)), pelt, 0.5)
     return folder
 
 

@@ -50,6 +50,14 @@ def fur(document: dict[str, Any]) -> Any:
     return document["extensions"]["FUR_ptm_shells"]
 
 
+def side(document: dict[str, Any]) -> Any:
+    return fur(document)["pelts"][0]["fin"]
+
+
+def shells(document: dict[str, Any]) -> Any:
+    return document["meshes"][1]["primitives"][0]["attributes"]
+
+
 def put(target: Any, key: Any, value: Any) -> None:
     target[key] = value
 
@@ -74,9 +82,9 @@ EDITS = {
     "short scale": (lambda d: fur(d)["pelts"][0]["scale"].pop(), "pelts[0].scale has 5 rows, expected 6"),
     "no planes": (lambda d: put(fur(d)["pelts"][0], "planes", []), "FUR_ptm_shells: pelts[0].planes: [] should be"),
     "one plane": (lambda d: fur(d)["pelts"][0]["planes"].pop(), "pelts[0].planes has 1 rows, expected 2"),
-    "image 9": (lambda d: put(fur(d)["pelts"][0], "planes", [0, 9]), "a pelt uses image 9, expected one of 3"),
+    "image 9": (lambda d: put(fur(d)["pelts"][0], "planes", [0, 9]), "a pelt uses image 9, expected one of 6"),
     "skin is shells": (lambda d: put(fur(d), "skin", 1), "skin is node 1, expected in the scene"),
-    "no such node": (lambda d: put(fur(d), "shells", 7), "shells is node 7, expected one of 2 nodes"),
+    "no such node": (lambda d: put(fur(d), "shells", 7), "shells is node 7, expected one of 3 nodes"),
     "shells drawn": (lambda d: put(d["scenes"][0], "nodes", [0, 1]), "shells is node 1, expected in no scene"),
     "no tangents": (lambda d: d["meshes"][1]["primitives"][0]["attributes"].pop("TANGENT"), "shells: no TANGENT"),
     "not required": (lambda d: d.pop("extensionsRequired"), "KHR_mesh_quantization is not in extensionsRequired"),
@@ -88,6 +96,19 @@ EDITS = {
     "far accessor": (lambda d: put(d["accessors"][0], "count", 10**9), "accessor 0 leaves its buffer"),
     "negative": (lambda d: put(d["accessors"][0], "byteOffset", -4), "got -4, expected a number 0, 1, 2"),
     "wrong bounds": (lambda d: put(d["accessors"][0], "max", [1, 2, 3]), "skin: POSITION says"),
+    "no fin": (lambda d: fur(d)["pelts"][0].pop("fin"), "pelts[0] has no fin, expected one where there are fins"),
+    "no fins": (lambda d: fur(d).pop("fins"), "pelts[0] has a fin, expected one where there are fins"),
+    "fins drawn": (lambda d: put(d["scenes"][0], "nodes", [0, 2]), "fins is node 2, expected in no scene"),
+    "no edges": (lambda d: d["meshes"][2]["primitives"][0]["attributes"].pop("_EDGE"), "fins: no _EDGE, expected"),
+    "wide fin": (lambda d: put(side(d), "width", 16), "fin0.png: 8 × 8 texels with 4 channels, expected 16 × 8"),
+    "short fin": (lambda d: side(d)["scale"].pop(), "FUR_ptm_shells: fin.scale has 5 rows, expected 6"),
+    "one fin plane": (lambda d: side(d)["planes"].pop(), "FUR_ptm_shells: fin.planes has 1 rows, expected 2"),
+    "fin image 9": (lambda d: put(side(d), "colour", 9), "a pelt uses image 9, expected one of 6"),
+    "no tile": (lambda d: put(fur(d), "tiles", 0), "FUR_ptm_shells: tiles: 0 is less than the minimum of 1"),
+    "old attribute": (
+        lambda d: put(shells(d), "_WEIGHT", shells(d).pop("_FUR")),
+        "shells: _WEIGHT, expected only COLOR_0, NORMAL",
+    ),
     "old glTF": (lambda d: put(d["asset"], "version", "1.0"), "model.gltf: glTF 1.0, expected 2.0"),
 }
 
@@ -111,8 +132,8 @@ def change_bytes(folder: Path, accessor: int, value: bytes, count: int = 4) -> N
 def test_weights_that_do_not_sum_to_one(spoil: Callable[..., Path]) -> None:
     folder = spoil()
     attributes = read_asset(folder).primitive(1)["attributes"]
-    change_bytes(folder, attributes["_WEIGHT"], b"\x11")
-    assert any("shells: _WEIGHT sums to" in problem for problem in validate(folder))
+    change_bytes(folder, attributes["_FUR"], b"\x11")
+    assert any("shells: weights of _FUR sum to" in problem for problem in validate(folder))
 
 
 def test_normals_that_are_not_unit(spoil: Callable[..., Path]) -> None:
@@ -122,7 +143,12 @@ def test_normals_that_are_not_unit(spoil: Callable[..., Path]) -> None:
 
 
 def test_texture_coordinates_that_are_not_finite(spoil: Callable[..., Path]) -> None:
-    folder = spoil()
+    def as_floats(document: dict[str, Any]) -> None:
+        accessor = document["accessors"][document["meshes"][1]["primitives"][0]["attributes"]["TEXCOORD_0"]]
+        accessor |= {"componentType": 5126, "normalized": False, "count": accessor["count"] // 2}
+        document["bufferViews"][accessor["bufferView"]]["byteStride"] = 8
+
+    folder = spoil(as_floats)
     change_bytes(folder, read_asset(folder).primitive(1)["attributes"]["TEXCOORD_0"], b"\xff")
     assert "shells: TEXCOORD_0 is not finite, expected numbers" in validate(folder)
 
@@ -202,5 +228,7 @@ def test_summary(good: Path) -> None:
     found = summary(read_asset(good))
     assert found["fur"]["layers"] == 4
     assert found["skin"] == {"vertices": 2562, "faces": 5120, "attributes": ["POSITION", "NORMAL"]}
-    assert found["fur"]["texture bytes"] == 3 * 4 * 4 * 64
+    assert found["fur"]["texture bytes"] == 4 * 3 * (4 * 64 + 8 * 8)
+    assert found["fins"]["attributes"] == ["POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "_EDGE"]
+    assert 2 * 5120 < found["fins"]["faces"] < 2 * 7680
     assert found["files"]["model.bin"] == (good / "model.bin").stat().st_size

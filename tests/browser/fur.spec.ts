@@ -1,41 +1,16 @@
 /** The library on the GPU: what is uploaded, what the shader makes of it, what it refuses. */
 
 import { readFile } from 'node:fs/promises';
-import { fileURLToPath } from 'node:url';
-import type { Page } from '@playwright/test';
 import { decode } from 'fast-png';
 import type { FurAsset } from '../../web/fur/format.ts';
 import { evaluateBasis } from '../../web/fur/moments.ts';
-import { expect, site, test } from './harness.ts';
+import { expect, test } from './harness.ts';
+import { floats, openStage, readAsset, readFloats, repository, served } from './library.ts';
 import type { Stage } from './stage.ts';
 
 declare const stage: Stage;
 
-const repository = fileURLToPath(new URL('../..', import.meta.url));
-const served = (path: string) =>
-	path.startsWith('public/') ? path.slice('public'.length) : `/@fs${repository}${path}`;
 const GOLDEN = ['ptm-6', 'eigen-6', 'eigen-3'];
-
-/** A page with nothing on it but the library. */
-async function openStage(page: Page): Promise<void> {
-	const body = `<!doctype html><title>stage</title><link rel="icon" href="data:,">
-		<script type="module" src="${served('tests/browser/stage.ts')}"></script>`;
-	await page.route('**/stage.html', (route) => route.fulfill({ contentType: 'text/html', body }));
-	await page.goto(`${site}stage.html`);
-	await page.waitForFunction(() => 'stage' in window);
-}
-
-async function readAsset(folder: string): Promise<{ fur: FurAsset; images: { uri: string }[] }> {
-	const gltf = JSON.parse(await readFile(`${repository}${folder}/model.gltf`, 'utf8'));
-	return { fur: gltf.extensions.FUR_ptm_shells, images: gltf.images };
-}
-
-async function readFloats(path: string): Promise<Float32Array> {
-	const bytes = await readFile(`${repository}${path}`);
-	return new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
-}
-
-const floats = (base64: string) => new Float32Array(Uint8Array.from(Buffer.from(base64, 'base64')).buffer);
 
 for (const model of ['public/models/bunny', 'public/models/torus', 'tests/golden/eigen-3']) {
 	test(`every byte of ${model}'s planes is on the GPU`, async ({ page }) => {

@@ -2,13 +2,17 @@
 
 import {
 	AmbientLight,
+	BufferAttribute,
+	type Camera,
 	DirectionalLight,
 	FloatType,
 	HemisphereLight,
 	LightProbe,
 	NoBlending,
 	OrthographicCamera,
+	PerspectiveCamera,
 	Scene,
+	Sphere,
 	type Texture,
 	Vector3,
 	WebGLRenderer,
@@ -48,6 +52,26 @@ function readArray(texture: Texture, size: number, layers: number): Uint8Array {
 	gl.deleteFramebuffer(framebuffer);
 	renderer.resetState();
 	return bytes;
+}
+
+/** Renders as floats, rgba, premultiplied, over nothing; row by row from the bottom. */
+function renderFloats(scene: Scene, camera: Camera, target: WebGLRenderTarget): Float32Array {
+	renderer.setRenderTarget(target);
+	renderer.setClearColor(0, 0);
+	renderer.clear();
+	renderer.render(scene, camera);
+	const pixels = new Float32Array(target.width * target.height * 4);
+	renderer.readRenderTargetPixels(target, 0, 0, target.width, target.height, pixels);
+	return pixels;
+}
+
+const channel = (pixels: Float32Array, c: number) =>
+	Float32Array.from({ length: pixels.length / 4 }, (_, i) => pixels[i * 4 + c] ?? 0);
+
+/** What the pixels show, without their coverage. */
+function uncovered(pixels: Float32Array): Float32Array {
+	const alpha = channel(pixels, 3);
+	return channel(pixels, 0).map((red, i) => red / (alpha[i] ?? 0));
 }
 
 /** A golden asset laid flat: one pixel per texel, seen from straight above. */
@@ -92,19 +116,26 @@ class Flat {
 		this.#scene.add(...lights);
 	}
 
-	/** L of one layer's texels, the red channel's, [row, column]. */
+	/** Gives every vertex this value. */
+	attribute(name: string, value: number[]): void {
+		const { geometry } = this.fur.shells;
+		const { count } = geometry.getAttribute('position');
+		const values = Float32Array.from({ length: count * value.length }, (_, i) => value[i % value.length] ?? 0);
+		geometry.setAttribute(name, new BufferAttribute(values, value.length));
+	}
+
+	/** One layer's texels, [row, column]. */
 	render(layer: number): Float32Array {
 		const { asset, shells } = this.fur;
 		const parameters = shells.geometry.getAttribute('shell');
 		(parameters.array as Float32Array).set(shellParameters(layer, asset.layers, asset.drift));
 		parameters.needsUpdate = true;
-		renderer.setRenderTarget(this.#target);
-		renderer.setClearColor(0, 0);
-		renderer.clear();
-		renderer.render(this.#scene, this.#camera);
-		const pixels = new Float32Array(asset.size * asset.size * 4);
-		renderer.readRenderTargetPixels(this.#target, 0, 0, asset.size, asset.size, pixels);
-		return Float32Array.from({ length: pixels.length / 4 }, (_, i) => (pixels[i * 4] ?? 0) / (pixels[i * 4 + 3] ?? 0));
+		return renderFloats(this.#scene, this.#camera, this.#target);
+	}
+
+	/** L of one layer's texels, [row, column], under a light like those of the golden lights. */
+	light(layer: number): Float32Array {
+		return uncovered(this.render(layer));
 	}
 }
 
@@ -127,7 +158,7 @@ const stage = {
 		const all = new Float32Array(lights.length * layers * size * size);
 		lights.forEach((light, i) => {
 			lamp.position.copy(flat.world(light)).multiplyScalar(10);
-			for (let k = 0; k < layers; k++) all.set(flat.render(k), (i * layers + k) * size * size);
+			for (let k = 0; k < layers; k++) all.set(flat.light(k), (i * layers + k) * size * size);
 		});
 		flat.fur.dispose();
 		return toBase64(new Uint8Array(all.buffer));
@@ -148,7 +179,7 @@ const stage = {
 		dome.groundColor.setScalar(hemisphere.ground);
 		dome.position.fromArray(hemisphere.up);
 		flat.add(harmonics, new AmbientLight(0xffffff, ambient), dome);
-		const light = Array.from(flat.render(0), (radiance) => radiance * 4 * Math.PI);
+		const light = Array.from(flat.light(0), (radiance) => radiance * 4 * Math.PI);
 		const frame = [
 			[1, 0, 0],
 			[0, 1, 0],
@@ -170,6 +201,107 @@ const stage = {
 		}
 		for (const fur of drawn) fur.dispose();
 		return counts;
+	},
+
+	/** One layer of a golden asset whose vertices all have these attributes: red channel and coverage per texel. */
+	async vertices(
+		url: string,
+		layer: number,
+		attributes: Record<string, number[]>,
+		{ lamp, ambient = 0, tip2 = [1, 1, 1] }: { lamp?: number[]; ambient?: number; tip2?: [number, number, number] },
+	): Promise<{ light: number[]; alpha: number[] }> {
+		const flat = new Flat(await load(url));
+		for (const [name, value] of Object.entries(attributes)) flat.attribute(name, value);
+		flat.fur.shells.material.tip2.setRGB(...tip2);
+		flat.add(new AmbientLight(0xffffff, ambient));
+		if (lamp) {
+			const light = new DirectionalLight(0xffffff, 4 * Math.PI);
+			light.position.copy(flat.world(lamp));
+			flat.add(light);
+		}
+		const pixels = flat.render(layer);
+		flat.fur.dispose();
+		return { light: [...uncovered(pixels)], alpha: [...channel(pixels, 3)] };
+	},
+
+	/**
+	 * The only fin of an asset, one tile wide over the origin in the plane z = 0, under each of the lights.
+	 *
+	 * @returns L and coverage, [light, row, column], rows from root to tip
+	 */
+	async fin(url: string, lights: number[][]): Promise<{ light: string; alpha: string }> {
+		const fur = await load(url);
+		const { fins, asset } = fur;
+		const fin = asset.pelts[0]?.fin;
+		if (!fins || !fin) throw new Error('no fins');
+		const scene = new Scene();
+		const lamp = new DirectionalLight(0xffffff, 4 * Math.PI);
+		scene.add(fins, lamp);
+		fins.material.blending = NoBlending;
+		fins.material.finLength = 1;
+		const camera = new OrthographicCamera(-0.5, 0.5, asset.length, 0, 0.1, 10);
+		camera.position.z = 5;
+		const target = new WebGLRenderTarget(fin.width, fin.height, { type: FloatType });
+		const count = fin.width * fin.height;
+		const light = new Float32Array(lights.length * count);
+		const alpha = new Float32Array(lights.length * count);
+		lights.forEach((direction, i) => {
+			lamp.position.fromArray(direction);
+			const pixels = renderFloats(scene, camera, target);
+			light.set(uncovered(pixels), i * count);
+			alpha.set(channel(pixels, 3), i * count);
+		});
+		fur.dispose();
+		return { light: toBase64(new Uint8Array(light.buffer)), alpha: toBase64(new Uint8Array(alpha.buffer)) };
+	},
+
+	/**
+	 * A whole model from the front, centred and filling a square picture, lit from the left and by the sky.
+	 *
+	 * @param wanted 0 shells: none
+	 * @returns per drawing its pixels (rgba as floats, premultiplied, base64) and what was drawn of fins and shells in
+	 * which order; how many pixels a unit of the model is wide at its centre
+	 */
+	async drawings(
+		url: string,
+		size: number,
+		wanted: { shells: number; fins: boolean; azimuth?: number }[],
+	): Promise<{ pictures: string[]; orders: string[][]; scale: number; radius: number; length: number }> {
+		const fur = await load(url);
+		const scene = new Scene();
+		const model = fur.skin.parent ?? fur.skin;
+		const lamp = new DirectionalLight(0xffffff, 6);
+		lamp.position.set(-1, 0.6, 0.6);
+		scene.add(model, lamp, new HemisphereLight(0xffffff, 0x808080, 2));
+		scene.updateMatrixWorld(true);
+		fur.skin.geometry.computeBoundingSphere();
+		const sphere = fur.skin.geometry.boundingSphere ?? new Sphere();
+		const { center, radius } = sphere.clone().applyMatrix4(fur.skin.matrixWorld);
+		const camera = new PerspectiveCamera(20, 1, 0.1 * radius, 20 * radius);
+		const distance = (1.25 * radius) / Math.tan((10 * Math.PI) / 180);
+		const target = new WebGLRenderTarget(size, size, { type: FloatType });
+		let order: string[] = [];
+		for (const part of [fur.fins, fur.shells]) if (part) part.onBeforeRender = () => order.push(part.name);
+		const pictures: string[] = [];
+		const orders: string[][] = [];
+		for (const { shells, fins, azimuth = 0 } of wanted) {
+			fur.shells.visible = shells > 0;
+			if (shells > 0) fur.shells.shellCount = shells;
+			if (fur.fins) fur.fins.visible = fins;
+			camera.position.setFromSphericalCoords(distance, Math.PI / 2, azimuth).add(center);
+			camera.lookAt(center);
+			order = [];
+			pictures.push(toBase64(new Uint8Array(renderFloats(scene, camera, target).buffer)));
+			orders.push(order);
+		}
+		fur.dispose();
+		return {
+			pictures,
+			orders,
+			scale: size / (2 * distance * Math.tan((10 * Math.PI) / 180)),
+			radius,
+			length: fur.asset.length,
+		};
 	},
 
 	/** The message with which an asset is refused, or 'loaded'. */

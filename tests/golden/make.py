@@ -6,19 +6,27 @@ Each folder is an asset as the baker writes it, over a flat unit square of one t
 random coefficients, all of them covered. Beside it `lights.json` holds 64 unit vectors (a quarter of them below the
 horizon) and `light.f32` the L of every texel, little-endian float32 [light, layer, row, column]. L is computed here in
 plain loops over lights from the formulas of the format, sharing no code with either wing's evaluation.
+
+`ptm-6` has fins, too: a quad on every edge and a side view of 16 × 8 random texels. `fin.f32` holds its L under the
+same 64 vectors taken in the fin's frame as (l·t, l·w, l·n): [light, row, column].
 """
 
 from __future__ import annotations
 
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from furbake.asset.gltf import write_gltf
 from furbake.pelt.basis import Basis, environment
-from furbake.pelt.pelt import Pelt, Ramp
+from furbake.pelt.fin import fin_environment
+from furbake.pelt.pelt import FinPelt, Pelt, Ramp
+from furbake.surface.charts import laid
+from furbake.surface.coat import VertexFur
+from furbake.surface.fins import build_fins
 from furbake.surface.shapes import builtin
 
 HERE = Path(__file__).parent
@@ -50,6 +58,37 @@ def expected(pelt: Pelt, lights: np.ndarray) -> np.ndarray:
                 seen = np.array([*(light[:2] / np.hypot(*light[:2])), 0.0])
             out[n, k] = np.maximum(coefficients[k] @ phi(pelt.kind, pelt.matrix, seen) * fade, 0)
     return out
+
+
+def expected_fin(fin: FinPelt, lights: np.ndarray) -> np.ndarray:
+    """L, (n, H, W): the same law with n for N; below the skin l·n is 0 and (l·t, l·w) a unit vector."""
+    coefficients = fin.scale * (fin.codes.astype(float) - fin.bias)
+    rows = len(coefficients)
+    out = np.zeros((len(lights), *fin.alpha.shape))
+    for i, (t, w, n) in enumerate(lights):
+        for row in range(rows):
+            fade, lu, lv = 1.0, t, n
+            if n < 0:
+                dip = np.sqrt(1 - (BODY_RADIUS / (BODY_RADIUS + (row + 0.5) / rows)) ** 2)
+                fade, lu, lv = np.sqrt(max(0.0, 1 + n / dip)), t / np.hypot(t, w), 0.0
+            value = coefficients[row] @ np.array([lu * lu, lv * lv, lu * lv, lu, lv, 1.0])
+            out[i, row] = np.maximum(value * fade, 0)
+    return out
+
+
+def golden_fin() -> FinPelt:
+    """A side view of random bytes, covered less and less from root to tip."""
+    rng = np.random.default_rng(8)
+    shape = (8, 16)
+    return FinPelt(
+        codes=rng.integers(0, 256, (*shape, 6), dtype=np.uint8),
+        alpha=np.repeat(np.arange(255, 0, -32, dtype=np.uint8)[:, None], 16, axis=1),
+        tint=np.full(shape, 255, np.uint8),
+        colour=None,
+        scale=rng.uniform(0.004, 0.012, 6),
+        bias=rng.uniform(60, 130, 6),
+        environment=fin_environment(),
+    )
 
 
 def golden_pelt(kind: str, count: int) -> Pelt:
@@ -94,7 +133,12 @@ def main() -> None:
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
         pelt = golden_pelt(kind, count)
-        write_gltf(folder, surface, charts, np.ones(len(surface.vertices)), pelt, 0.5)
+        fur, fins = VertexFur.even(len(surface.vertices)), None
+        if kind == "ptm":
+            pelt = replace(pelt, fin=golden_fin())
+            fins = build_fins(surface, laid(charts, surface.normals), 1.0, 0.2)
+            expected_fin(pelt.fin, lights).astype("<f4").tofile(folder / "fin.f32")
+        write_gltf(folder, surface, charts, fur, pelt, 0.5, fins)
         (folder / "lights.json").write_text(json.dumps(lights.tolist()) + "\n", "utf-8")
         expected(pelt, lights).astype("<f4").tofile(folder / "light.f32")
 

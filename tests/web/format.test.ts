@@ -2,6 +2,25 @@ import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { alphaChannel, channelOf, type FurAsset, parseFur } from '../../web/fur/format.ts';
 
+/** A golden extension with the side view that fins need. */
+const withFins = (name = 'ptm-6'): FurAsset & Record<string, unknown> => {
+	const gltf = JSON.parse(readFileSync(new URL(`../golden/${name}/model.gltf`, import.meta.url), 'utf8'));
+	const fur = gltf.extensions.FUR_ptm_shells;
+	const row = new Array(9).fill(0.1);
+	const six = [1, 2, 3, 4, 5, 6];
+	fur.fins = 2;
+	fur.pelts[0].fin = {
+		width: 64,
+		height: 16,
+		planes: [3, 4],
+		scale: six,
+		bias: six,
+		basis: { kind: 'ptm' },
+		environment: six.map(() => row),
+	};
+	return fur;
+};
+
 const golden = (): FurAsset & Record<string, unknown> =>
 	JSON.parse(readFileSync(new URL('../golden/ptm-6/model.gltf', import.meta.url), 'utf8')).extensions.FUR_ptm_shells;
 
@@ -9,6 +28,22 @@ describe('parseFur', () => {
 	it.each(['ptm-6', 'eigen-6', 'eigen-3'])('takes what the baker writes: %s', (name) => {
 		const gltf = JSON.parse(readFileSync(new URL(`../golden/${name}/model.gltf`, import.meta.url), 'utf8'));
 		expect(parseFur(gltf.extensions.FUR_ptm_shells)).toEqual(gltf.extensions.FUR_ptm_shells);
+	});
+
+	it.each(['ptm-6', 'eigen-6', 'eigen-3'])('takes fins of six coefficients, whatever the pelt has: %s', (name) => {
+		expect(parseFur(withFins(name))?.pelts[0]?.fin?.scale).toHaveLength(6);
+	});
+
+	it.each<[string, (fur: FurAsset) => void, RegExp]>([
+		['a side view without a width', (fur) => Reflect.deleteProperty(fur.pelts[0]?.fin ?? {}, 'width'), /fin/],
+		['a scale too few', (fur) => fur.pelts[0]?.fin?.scale.pop(), /fin.scale: got 5 entries, expected 6/],
+		['an environment too short', (fur) => fur.pelts[0]?.fin?.environment.pop(), /fin.environment: got 5 entries/],
+		['a plane too few', (fur) => fur.pelts[0]?.fin?.planes.pop(), /fin.planes: got 1 entries, expected 2/],
+		['tiles below one', (fur) => Object.assign(fur, { tiles: 0.5 }), /tiles/],
+	])('refuses %s of fins in one sentence', (_, breakIt, message) => {
+		const fur = withFins();
+		breakIt(fur);
+		expect(() => parseFur(fur)).toThrow(message);
 	});
 
 	it('leaves a newer major version alone and takes a newer minor one', () => {

@@ -13,11 +13,11 @@ describe('decodePlane', () => {
 	it('keeps every byte, those of empty texels too', () => {
 		const texels = noise(8 * 16 * 4);
 		for (let i = 3; i < texels.length; i += 8) texels[i] = 0;
-		expect(decodePlane('p', encode({ width: 8, height: 16, channels: 4, data: texels }), 8, 2)).toEqual(texels);
+		expect(decodePlane('p', encode({ width: 8, height: 16, channels: 4, data: texels }), 8, 16)).toEqual(texels);
 	});
 
 	it('makes RGB opaque', () => {
-		const texels = decodePlane('colour', png(4, 8, 3), 4, 2);
+		const texels = decodePlane('colour', png(4, 8, 3), 4, 8);
 		expect([...texels.subarray(0, 8)]).toEqual([...noise(3), 255, ...noise(6).subarray(3), 255]);
 	});
 
@@ -28,7 +28,7 @@ describe('decodePlane', () => {
 		['no PNG', new TextEncoder().encode('hello'), /^plane0\.png: not a readable PNG/],
 		['cut off', png(8, 16, 4).subarray(0, 60), /^plane0\.png: not a readable PNG/],
 	])('refuses %s', (_, bytes, message) => {
-		expect(() => decodePlane('plane0.png', bytes, 8, 2)).toThrow(message);
+		expect(() => decodePlane('plane0.png', bytes, 8, 16)).toThrow(message);
 	});
 });
 
@@ -41,18 +41,19 @@ function planesOf(alpha: number[], value: number): Texels[] {
 
 describe('mipLevels', () => {
 	const size = 16;
+	const extent = { width: size, height: size, layers: 1 };
 	const random = noise(size * size);
 	const alpha = Array.from(random, (x) => (x < 64 ? 30 + x : 0)); // a quarter of the texels is covered a little
 
 	it('go down to one texel and leave level 0 as it is', () => {
 		const planes = planesOf(alpha, 200);
-		const levels = mipLevels(planes, size, 1, 6, 0.1);
+		const levels = mipLevels(planes, extent, 6, 0.1);
 		expect(levels.map(([plane]) => plane?.length)).toEqual([16, 8, 4, 2, 1].map((n) => n * n * 4));
 		expect(levels[0]).toEqual(planes);
 	});
 
 	it('average coefficients by coverage: empty texels do not count', () => {
-		for (const [plane] of mipLevels(planesOf(alpha, 200), size, 1, 6, 0.1).slice(1, 4)) {
+		for (const [plane] of mipLevels(planesOf(alpha, 200), extent, 6, 0.1).slice(1, 4)) {
 			const values = Array.from(plane ?? []).filter((_, i) => i % 4 === 0);
 			expect(values.filter((value) => value > 0 && value < 190)).toEqual([]);
 			expect(Math.max(...values)).toBe(200);
@@ -61,23 +62,41 @@ describe('mipLevels', () => {
 
 	it('keep the share that the alpha cut lets through', () => {
 		const share = (values: number[]) => values.filter((value) => value > 0.1 * 255).length / values.length;
-		const levels = mipLevels(planesOf(alpha, 200), size, 1, 6, 0.1);
+		const levels = mipLevels(planesOf(alpha, 200), extent, 6, 0.1);
 		const shares = levels.map(([, plane]) => share(Array.from(plane ?? []).filter((_, i) => i % 4 === 2)));
 		for (const passed of shares.slice(1, 4)) expect(Math.abs(passed - (shares[0] ?? 0))).toBeLessThan(0.13);
 	});
 
 	it('find coverage in the alpha of the only plane with three coefficients', () => {
 		const plane = Uint8Array.from(alpha.flatMap((a) => [a ? 90 : 0, 0, 0, a]));
-		const [, half] = mipLevels([plane], size, 1, 3, 0.1);
+		const [, half] = mipLevels([plane], extent, 3, 0.1);
 		const values = Array.from(half?.[0] ?? []).filter((_, i) => i % 4 === 0);
 		expect(Math.max(...values)).toBe(90);
+	});
+
+	it('halve width and height by themselves, down to one texel', () => {
+		const alpha = noise(8 * 3);
+		const planes = planesOf([...alpha], 77);
+		const levels = mipLevels(planes, { width: 8, height: 3, layers: 1 }, 6, 0);
+		expect(levels.map(([plane]) => (plane?.length ?? 0) / 4)).toEqual([8 * 3, 4 * 1, 2 * 1, 1]);
+		const quad = [0, 1, 8, 9].reduce((sum, i) => sum + (alpha[i] ?? 0), 0) / 4;
+		expect(levels[1]?.[1]?.[2]).toBe(Math.round(quad));
+	});
+
+	it('with a cut of 0 keep the mean coverage', () => {
+		const mean = (plane: Texels | undefined) => {
+			const values = Array.from(plane ?? []).filter((_, i) => i % 4 === 2);
+			return values.reduce((sum, value) => sum + value, 0) / values.length;
+		};
+		const levels = mipLevels(planesOf(alpha, 200), extent, 6, 0);
+		for (const [, plane] of levels) expect(Math.abs(mean(plane) - mean(levels[0]?.[1]))).toBeLessThan(0.6);
 	});
 
 	it('never mix layers', () => {
 		const first = planesOf(new Array(16).fill(255), 100);
 		const second = planesOf(new Array(16).fill(255), 200);
 		const both = first.map((plane, p) => Uint8Array.from([...plane, ...(second[p] as Texels)]));
-		for (const [plane] of mipLevels(both, 4, 2, 6, 0.1)) {
+		for (const [plane] of mipLevels(both, { width: 4, height: 4, layers: 2 }, 6, 0.1)) {
 			const half = (plane?.length ?? 0) / 2;
 			expect(new Set(plane?.subarray(0, half))).toEqual(new Set([100]));
 			expect(new Set(plane?.subarray(half))).toEqual(new Set([200]));
@@ -87,8 +106,9 @@ describe('mipLevels', () => {
 
 describe('textureArray', () => {
 	it('is unflipped, not premultiplied, and sRGB for colours only', () => {
-		const mips = mipLevels(planesOf(new Array(16).fill(255), 9), 4, 1, 6, 0.1).map(([plane]) => plane as Texels);
-		const [data, colour] = [textureArray('a', mips, 4, 1), textureArray('b', mips, 4, 1, true)];
+		const extent = { width: 4, height: 4, layers: 1 };
+		const mips = mipLevels(planesOf(new Array(16).fill(255), 9), extent, 6, 0.1).map(([plane]) => plane as Texels);
+		const [data, colour] = [textureArray('a', mips, extent), textureArray('b', mips, extent, true)];
 		expect([data.flipY, data.premultiplyAlpha, data.colorSpace, colour.colorSpace]).toEqual([false, false, '', 'srgb']);
 		expect(data.mipmaps).toHaveLength(3);
 	});

@@ -1,13 +1,13 @@
 /**
  * The view as a link: what the page shows, and how it stands in the address.
  *
- *     ?model=bunny&light=0.3,0.8,0.5&camera=30,12,1&shells=48&still=1&ui=0
+ *     ?model=bunny&light=0.3,0.8,0.5&camera=30,12,1&shells=48&fins=0&still=1&ui=0
  *
  * - model: a name from models/models.json, or a path or address of a baked folder
  * - light: direction from the model to the lamp, world axes (x right, y up, z towards the first camera); any length
  * - camera: azimuth and elevation in degrees, distance in units of the distance at which the model fits the window.
  *   So a link shows the same view in a window of any shape. 0,0,1 looks along -z.
- * - shells: number of drawn shells
+ * - shells: number of drawn shells; fins=0: none
  * - still=1: nothing moves by itself; ui=0: the picture alone
  */
 
@@ -22,6 +22,7 @@ export interface View {
 	camera?: Triple;
 	/** 1..256 */
 	shells?: number;
+	fins?: boolean;
 	still: boolean;
 	ui: boolean;
 }
@@ -80,6 +81,13 @@ const parameters: Record<keyof View, [expected: string, read: Reader]> = {
 			return true;
 		},
 	],
+	fins: [
+		'0 or 1',
+		(text, view) =>
+			flag(text, (value) => {
+				view.fins = value;
+			}),
+	],
 	still: [
 		'0 or 1',
 		(text, view) =>
@@ -134,6 +142,7 @@ export function formatAddress(view: View): string {
 		parts.push(`camera=${short(azimuth, 1)},${short(elevation, 1)},${short(distance, 3)}`);
 	}
 	if (view.shells !== undefined) parts.push(`shells=${view.shells}`);
+	if (view.fins !== undefined) parts.push(`fins=${Number(view.fins)}`);
 	if (view.still) parts.push('still=1');
 	if (!view.ui) parts.push('ui=0');
 	return parts.length ? `?${parts.join('&')}` : '';

@@ -119,6 +119,7 @@ function start(): void {
 			if (!camera.chosen) camera.orbit = view.camera ?? preferred.camera ?? defaultCamera;
 			if (first || light.drifting) light.put(view.light ?? preferred.light ?? defaultLight, !view.light);
 			if (model.fur && view.shells) model.fur.shells.shellCount = view.shells;
+			if (model.fur?.fins) model.fur.fins.visible = view.fins ?? true;
 			if (!model.fur) notice(`${entry?.title ?? name}: this model has no fur that this page can grow`);
 			if (shown) {
 				view.model = name;

@@ -1,8 +1,11 @@
-import { Color, FileLoader, LoaderUtils, Material, Mesh, type MeshStandardMaterial, type Texture } from 'three';
+import { ClampToEdgeWrapping, Color, FileLoader, LoaderUtils, Material, Mesh, type MeshStandardMaterial } from 'three';
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
+import { FinMaterial } from './FinMaterial.ts';
 import { ALPHA_CUT, FurMaterial } from './FurMaterial.ts';
-import { EXTENSION, type FurAsset, type Pelt, parseFur, VERSION } from './format.ts';
-import { decodePlane, mipLevels, textureArray } from './planes.ts';
+import { FurFins } from './fins.ts';
+import { EXTENSION, type Fin, type FurAsset, type Pelt, parseFur, VERSION } from './format.ts';
+import type { FurTextures } from './PeltMaterial.ts';
+import { decodePlane, type Extent, mipLevels, textureArray } from './planes.ts';
 import { FurShells } from './shells.ts';
 
 /** How much of the roots' colour the skin shows: it lies in the shadow of all the fur above it. */
@@ -13,6 +16,8 @@ export interface Fur {
 	asset: FurAsset;
 	/** Drawn in the scene beside the skin. */
 	shells: FurShells;
+	/** What makes the outline, drawn before the shells; the shells show without it, too: `fins.visible = false`. */
+	fins: FurFins | undefined;
 	skin: Mesh;
 	/** Frees geometry, material and textures. */
 	dispose(): void;
@@ -49,70 +54,96 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 
 	async #grow(asset: FurAsset): Promise<Fur> {
 		const pelt = asset.pelts[0] as Pelt;
-		const [surface, skin, textures] = await Promise.all([
+		const [surface, skin, textures, quads, finTextures] = await Promise.all([
 			this.#mesh(asset.shells, 'shells'),
 			this.#mesh(asset.skin, 'skin'),
-			this.#textures(asset, pelt),
+			this.#peltTextures(asset, pelt),
+			asset.fins !== undefined && pelt.fin ? this.#mesh(asset.fins, 'fins') : undefined,
+			asset.fins !== undefined && pelt.fin ? this.#finTextures(pelt.fin) : undefined,
 		]);
-		for (const name of ['normal', 'tangent', 'uv']) {
-			if (!surface.geometry.hasAttribute(name)) throw new Error(`${EXTENSION}/shells: the mesh has no ${name}s`);
-		}
 		const own = skin.material as MeshStandardMaterial;
 		const base = own.color ?? new Color(1, 1, 1);
-		const [plane0, plane1] = textures.planes;
-		if (!plane0) throw new Error(`${EXTENSION}/pelts: ${pelt.name} has no planes`);
-		const material = new FurMaterial(asset, { plane0, plane1, colour: textures.colour }, { skinColour: base.clone() });
+		const material = new FurMaterial(asset, textures, { skinColour: base.clone() });
+		const fins =
+			pelt.fin && quads && finTextures
+				? new FurFins(quads.geometry, new FinMaterial(pelt.fin, finTextures, material))
+				: undefined;
 		const shells = new FurShells(surface.geometry, surface, asset, material);
+		if (fins && quads) fins.join(shells, quads);
 
 		const dark = own.clone();
 		dark.color?.copy(base).multiply(new Color(...asset.ramp.root).multiplyScalar(SKIN_SHADE));
 		skin.material = dark;
-		skin.parent?.add(shells);
+		for (const part of [fins, shells]) if (part) skin.parent?.add(part);
 
 		return {
 			asset,
 			shells,
+			fins,
 			skin,
 			dispose() {
-				shells.removeFromParent();
-				shells.dispose();
-				material.dispose();
+				for (const part of [fins, shells]) {
+					part?.removeFromParent();
+					part?.dispose();
+					part?.material.dispose();
+				}
 				dark.dispose();
 				skin.geometry.dispose();
-				for (const texture of [...textures.planes, textures.colour]) texture?.dispose();
+				for (const texture of Object.values({ ...textures })) texture?.dispose();
+				for (const texture of Object.values({ ...finTextures })) texture?.dispose();
 			},
 		};
 	}
 
-	async #mesh(node: number, role: string): Promise<Mesh> {
+	/** The node's mesh; that of shells or fins has to have what their shaders can't do without. */
+	async #mesh(node: number, role: 'skin' | 'shells' | 'fins'): Promise<Mesh> {
 		const object = this.#parser.json.nodes?.[node] && (await this.#parser.getDependency('node', node));
 		if (!(object instanceof Mesh) || !(object.material instanceof Material)) {
 			throw new Error(`${EXTENSION}/${role}: node ${node} is no mesh with one primitive`);
 		}
+		for (const name of role === 'skin' ? [] : ['normal', 'tangent', 'uv']) {
+			if (!object.geometry.hasAttribute(name)) throw new Error(`${EXTENSION}/${role}: the mesh has no ${name}s`);
+		}
 		return object;
 	}
 
-	async #textures(asset: FurAsset, pelt: Pelt): Promise<{ planes: Texture[]; colour: Texture | undefined }> {
-		const { size, layers, coefficients } = asset;
-		const images = pelt.colour === undefined ? pelt.planes : [...pelt.planes, pelt.colour];
-		const planes = await Promise.all(
-			images.map(async (index) => {
+	async #peltTextures({ size, layers, coefficients }: FurAsset, pelt: Pelt): Promise<FurTextures> {
+		const extent = { width: size, height: size, layers };
+		return this.#textures(pelt.planes, pelt.colour, extent, coefficients, ALPHA_CUT);
+	}
+
+	/** Fins drop nothing by its coverage, and end at their tips. */
+	async #finTextures({ planes, colour, scale, width, height }: Fin): Promise<FurTextures> {
+		const textures = await this.#textures(planes, colour, { width, height, layers: 1 }, scale.length, 0);
+		for (const texture of Object.values(textures)) if (texture) texture.wrapT = ClampToEdgeWrapping;
+		return textures;
+	}
+
+	async #textures(
+		planes: number[],
+		colour: number | undefined,
+		extent: Extent,
+		coefficients: number,
+		cut: number,
+	): Promise<FurTextures> {
+		const images = await Promise.all(
+			[...planes, ...(colour === undefined ? [] : [colour])].map(async (index) => {
 				const { name, bytes } = await this.#image(index);
-				return { name, texels: decodePlane(name, bytes, size, layers) };
+				return { name, texels: decodePlane(name, bytes, extent.width, extent.height * extent.layers) };
 			}),
 		);
 		const mips = mipLevels(
-			planes.map(({ texels }) => texels),
-			size,
-			layers,
+			images.map(({ texels }) => texels),
+			extent,
 			coefficients,
-			ALPHA_CUT,
+			cut,
 		);
-		const textures = planes.map(({ name }, p) => {
+		const [plane0, ...others] = images.map(({ name }, p) => {
 			const levels = mips.flatMap((level) => level[p] ?? []);
-			return textureArray(name, levels, size, layers, p >= pelt.planes.length);
+			return textureArray(name, levels, extent, p >= planes.length);
 		});
-		return { planes: textures.slice(0, pelt.planes.length), colour: textures[pelt.planes.length] };
+		if (!plane0) throw new Error(`${EXTENSION}/pelts: got no planes, expected at least one`);
+		return { plane0, plane1: planes.length > 1 ? others[0] : undefined, colour: others[planes.length - 1] };
 	}
 
 	/** The file of an image as it is: what the loader would make of it has gone through the browser's own decoder. */

@@ -13,6 +13,23 @@ export type Basis = { kind: 'ptm' } | { kind: 'eigen'; degree: number; matrix: n
 
 export type RGB = [number, number, number];
 
+/** The same fur cut from the side, for the fins. Its frame is (edge, normal, across): φ takes (l·edge, l·normal). */
+export interface Fin {
+	/** Texels along the edge, one tile. */
+	width: number;
+	/** Texels from skin to tip. */
+	height: number;
+	/** As of the pelt: two images of `width` × `height`, root on top. */
+	planes: number[];
+	/** As of the pelt, there where the pelt has one. */
+	colour?: number;
+	scale: number[];
+	bias: number[];
+	basis: Basis;
+	/** Harmonics in the fin's frame, over the half sphere around the normal. */
+	environment: number[][];
+}
+
 /** One state of the fur. */
 export interface Pelt {
 	name: string;
@@ -24,6 +41,7 @@ export interface Pelt {
 	scale: number[];
 	/** The paper's Ω. */
 	bias: number[];
+	fin?: Fin;
 }
 
 export interface FurAsset {
@@ -31,6 +49,9 @@ export interface FurAsset {
 	/** Indices of nodes. */
 	skin: number;
 	shells: number;
+	fins?: number;
+	/** What TEXCOORD_0 is multiplied by to be in tiles; 1 where absent. */
+	tiles?: number;
 	/** Slabs of the tile. */
 	layers: number;
 	/** Texels per side of the tile. */
@@ -69,18 +90,43 @@ export function parseFur(extension: unknown): FurAsset | undefined {
 	}
 	const asset = extension as FurAsset;
 	for (const [name, rows, wanted] of [
-		['drift', asset.drift.length, asset.layers],
-		['environment', asset.environment.length, asset.coefficients],
-		['basis.matrix', asset.basis.kind === 'eigen' ? asset.basis.matrix.length : 6, asset.coefficients],
-		...asset.pelts.flatMap((pelt): [string, number, number][] => [
-			[`${pelt.name}.scale`, pelt.scale.length, asset.coefficients],
-			[`${pelt.name}.bias`, pelt.bias.length, asset.coefficients],
-			[`${pelt.name}.planes`, pelt.planes.length, asset.coefficients > 3 ? 2 : 1],
+		['drift', asset.drift.length, asset.layers] satisfies Count,
+		...lightCounts('', asset, asset.coefficients),
+		...asset.pelts.flatMap((pelt) => [
+			...texelCounts(pelt.name, pelt, asset.coefficients),
+			...(pelt.fin ? finCounts(`${pelt.name}.fin`, pelt.fin) : []),
 		]),
-	] as [string, number, number][]) {
+	]) {
 		if (rows !== wanted) throw new Error(`${EXTENSION}/${name}: got ${rows} entries, expected ${wanted}`);
 	}
 	return asset;
+}
+
+/** What is counted, how many there are, how many there have to be. */
+type Count = [name: string, rows: number, wanted: number];
+
+function lightCounts(
+	prefix: string,
+	{ basis, environment }: Pick<Fin, 'basis' | 'environment'>,
+	wanted: number,
+): Count[] {
+	return [
+		[`${prefix}environment`, environment.length, wanted],
+		[`${prefix}basis.matrix`, basis.kind === 'eigen' ? basis.matrix.length : 6, wanted],
+	];
+}
+
+function texelCounts(name: string, { scale, bias, planes }: Omit<Pelt, 'name'>, coefficients: number): Count[] {
+	return [
+		[`${name}.scale`, scale.length, coefficients],
+		[`${name}.bias`, bias.length, coefficients],
+		[`${name}.planes`, planes.length, coefficients > 3 ? 2 : 1],
+	];
+}
+
+/** A fin has six coefficients, of whatever number the pelt's own basis is. */
+function finCounts(name: string, fin: Fin): Count[] {
+	return [...lightCounts(`${name}.`, fin, 6), ...texelCounts(name, fin, 6)];
 }
 
 /** Where coefficient `i` is stored: plane and channel. */

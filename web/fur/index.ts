@@ -1,7 +1,10 @@
 /** furbake for three.js: load baked fur, light it with three's own lights. */
 
+export { FinMaterial, type FinMaterialParameters } from './FinMaterial.ts';
 export { type Fur, FurLoaderPlugin } from './FurLoaderPlugin.ts';
-export { FurMaterial, type FurMaterialParameters, type FurTextures } from './FurMaterial.ts';
-export { type Basis, EXTENSION, type FurAsset, type Pelt, VERSION } from './format.ts';
+export { FurMaterial, type FurMaterialParameters } from './FurMaterial.ts';
+export { FurFins } from './fins.ts';
+export { type Basis, EXTENSION, type Fin, type FurAsset, type Pelt, VERSION } from './format.ts';
 export { BODY_RADIUS, type Direction, evaluateBasis, lightMoments, relight, smoothFunctions } from './moments.ts';
+export type { FurTextures } from './PeltMaterial.ts';
 export { FurShells, MAX_SHELLS } from './shells.ts';

@@ -14,25 +14,25 @@ import {
 } from 'three';
 import { alphaChannel } from './format.ts';
 
-/** Texels of `layers` squares of `size` × `size`, RGBA, layer after layer. */
+/** Texels of `layers` pictures of `width` × `height`, RGBA, layer after layer. */
 export type Texels = Uint8Array<ArrayBuffer>;
 
 /**
  * The texels of a plane. The decoder is our own dependency, not the browser's: an image element multiplies RGB by A on
  * some of its ways to the GPU, and texels with α = 0 would lose their coefficients.
  *
- * @throws Error where the picture is not `size` wide, `size · layers` high, 8 bits, RGB or RGBA
+ * @throws Error where the picture is not `width` × `height`, 8 bits, RGB or RGBA
  */
-export function decodePlane(name: string, png: Uint8Array, size: number, layers: number): Texels {
+export function decodePlane(name: string, png: Uint8Array, width: number, height: number): Texels {
 	let image: ReturnType<typeof decode>;
 	try {
 		image = decode(png);
 	} catch (error) {
 		throw new Error(`${name}: not a readable PNG (${(error as Error).message})`);
 	}
-	const { width, height, channels, depth, data } = image;
-	if (width !== size || height !== size * layers) {
-		throw new Error(`${name}: got ${width} × ${height} pixels, expected ${size} × ${size * layers}`);
+	const { channels, depth, data } = image;
+	if (image.width !== width || image.height !== height) {
+		throw new Error(`${name}: got ${image.width} × ${image.height} pixels, expected ${width} × ${height}`);
 	}
 	if (depth !== 8 || channels < 3) {
 		throw new Error(`${name}: got ${channels} channels of ${depth} bits, expected RGB or RGBA of 8`);
@@ -44,8 +44,17 @@ export function decodePlane(name: string, png: Uint8Array, size: number, layers:
 	return texels;
 }
 
+/** Texels of one layer, and layers. */
+export interface Extent {
+	width: number;
+	height: number;
+	layers: number;
+}
+
 interface Level {
-	size: number;
+	/** Texels of one layer. */
+	width: number;
+	height: number;
 	/** Values 0..255, as floats so that errors don't add up from level to level. */
 	planes: Float32Array[];
 	/** Coverage 0..1 per texel. */
@@ -56,12 +65,12 @@ interface Level {
  * Mip levels of all planes of a pelt together, level 0 first, as bytes.
  *
  * What belongs to hairs is averaged by coverage. Coverage itself is averaged, then scaled per layer so that the alpha
- * cut passes the same share of texels as at level 0: fur neither thins out nor fills up with distance.
+ * cut passes the same share of texels as at level 0: fur neither thins out nor fills up with distance. A cut of 0 lets
+ * everything through and scales nothing.
  */
 export function mipLevels(
 	planes: Texels[],
-	size: number,
-	layers: number,
+	{ width, height, layers }: Extent,
 	coefficients: number,
 	cut: number,
 ): Texels[][] {
@@ -70,9 +79,9 @@ export function mipLevels(
 	const alpha = Float32Array.from({ length: base.length / 4 }, (_, i) => (base[i * 4 + channel] as number) / 255);
 	const shares = Array.from({ length: layers }, (_, k) => shareAbove(layerOf(alpha, k, layers), cut));
 
-	let level: Level = { size, planes: planes.map((plane) => Float32Array.from(plane)), alpha };
+	let level: Level = { width, height, planes: planes.map((plane) => Float32Array.from(plane)), alpha };
 	const levels = [planes];
-	while (level.size > 1) {
+	while (level.width > 1 || level.height > 1) {
 		level = halve(level, layers);
 		const kept = level.alpha.slice();
 		for (let k = 0; k < layers; k++) keepShare(layerOf(kept, k, layers), shares[k] as number, cut);
@@ -105,19 +114,23 @@ function keepShare(values: Float32Array, share: number, cut: number): void {
 	for (let i = 0; i < values.length; i++) values[i] = Math.min((values[i] as number) * factor, 1);
 }
 
-function halve({ size, planes, alpha }: Level, layers: number): Level {
-	const half = size / 2;
-	const count = half * half * layers;
+/** The next level: half as wide and half as high, rounded down, at least one texel. */
+function halve({ width, height, planes, alpha }: Level, layers: number): Level {
+	const [columns, rows] = [Math.max(width >> 1, 1), Math.max(height >> 1, 1)];
+	const count = columns * rows * layers;
 	const coarse: Level = {
-		size: half,
+		width: columns,
+		height: rows,
 		planes: planes.map(() => new Float32Array(count * 4)),
 		alpha: new Float32Array(count),
 	};
-	const four = [0, 1, size, size + 1];
+	const [right, down] = [width > 1 ? 1 : 0, height > 1 ? width : 0];
+	const four = [0, right, down, right + down];
 	for (let i = 0; i < count; i++) {
-		const column = i % half;
-		const row = (i - column) / half; // counts through all layers: their rows follow each other
-		const first = row * 2 * size + column * 2;
+		const column = i % columns;
+		const row = Math.floor(i / columns) % rows;
+		const layer = Math.floor(i / (columns * rows));
+		const first = (layer * height + row * 2) * width + column * 2;
 		let total = 0;
 		for (const step of four) {
 			const weight = (alpha[first + step] as number) + 1e-4;
@@ -140,14 +153,13 @@ function halve({ size, planes, alpha }: Level, layers: number): Level {
 export function textureArray(
 	name: string,
 	mips: Texels[],
-	size: number,
-	layers: number,
+	{ width, height, layers }: Extent,
 	colour = false,
 ): CompressedArrayTexture {
 	const colorSpace: ColorSpace = colour ? SRGBColorSpace : NoColorSpace;
-	const levels = mips.map((data, i) => ({ data, width: size >> i, height: size >> i }));
+	const levels = mips.map((data, i) => ({ data, width: Math.max(width >> i, 1), height: Math.max(height >> i, 1) }));
 	// Of three's array textures only this one takes mip levels that were made beforehand. Nothing is compressed.
-	const texture = new CompressedArrayTexture(levels, size, size, layers, RGBAFormat as never, UnsignedByteType);
+	const texture = new CompressedArrayTexture(levels, width, height, layers, RGBAFormat as never, UnsignedByteType);
 	texture.name = name;
 	texture.colorSpace = colorSpace;
 	texture.wrapS = texture.wrapT = RepeatWrapping;

@@ -50,7 +50,7 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 	#shellCount = 0;
 
 	/**
-	 * @param surface the skin's vertices with normal, tangent, uv (tiles), _weight and _length
+	 * @param surface the skin's vertices with normal, tangent, uv (tiles), _fur, _comb and color
 	 * @param placement the node whose transform takes the surface's units to the model's; uniform scale
 	 */
 	constructor(surface: BufferGeometry, placement: Object3D, asset: FurAsset, material: FurMaterial) {

@@ -22,7 +22,9 @@ def _summary(asset: Asset) -> dict[str, Any]:
     states = fur["pelts"]
     images = sum(len(state["planes"]) for state in states)
     colours = sum("colour" in state for state in states)
-    texels = fur["layers"] * fur["size"] ** 2
+    texels = fur["layers"] * fur["size"] ** 2 * (images + colours)
+    for fin in (state["fin"] for state in states if "fin" in state):
+        texels += fin["width"] * fin["height"] * (len(fin["planes"]) + ("colour" in fin))
     names = [asset.document["buffers"][0]["uri"], *(image["uri"] for image in asset.document.get("images", []))]
     files = {name: (asset.folder / name).stat().st_size for name in ["model.gltf", *names] if _exists(asset, name)}
     return {
@@ -40,10 +42,11 @@ def _summary(asset: Asset) -> dict[str, Any]:
             "tile": fur["length"] / fur["height"],
             "pelts": [state["name"] for state in states],
             "colour plane": colours > 0,
-            "texture bytes": 4 * texels * (images + colours),
+            "texture bytes": 4 * texels,
         },
         "skin": _mesh(asset, "skin"),
         "shells": _mesh(asset, "shells"),
+        **({"fins": _mesh(asset, "fins")} if "fins" in fur else {}),
         "fit": record.get("fit", {}),
         "files": files,
     }

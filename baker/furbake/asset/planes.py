@@ -2,6 +2,7 @@
 
 plane0 = (a0, a1, a2, a5), plane1 = (a3, a4, α, tint). Three coefficients take one plane: (a0, a1, a2, α), tint 1.
 With four or five the channels that are left over are 0. An optional third image has the original colour, sRGB.
+A fin's images are its side view, row 0 at the roots.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import numpy as np
 import OpenImageIO as oiio  # noqa: N813 — as its own documentation spells it
 from numpy.typing import NDArray
 
-from furbake.pelt.pelt import Pelt
+from furbake.pelt.pelt import FinPelt, Pelt
 
 Bytes = NDArray[np.uint8]
 
@@ -49,18 +50,29 @@ class Texels:
 
 def pack(pelt: Pelt) -> Planes:
     """The images of a pelt. Raises ValueError for fewer than 3 or more than 6 coefficients."""
-    layers, size, count = pelt.layers, pelt.size, pelt.coefficients
+    count = pelt.coefficients
     if not 3 <= count <= 6:
         raise ValueError(f"coefficients: got {count}, expected 3 to 6")
     colour = None if pelt.colour is None else _column(pelt.colour)
     if count == 3:
         return Planes((_column(np.concatenate([pelt.codes, pelt.alpha[..., None]], axis=-1)),), colour)
-    planes = np.zeros((2, layers, size, size, 4), dtype=np.uint8)
-    for i, (plane, channel) in enumerate(SLOTS[:count]):
-        planes[plane, ..., channel] = pelt.codes[..., i]
-    planes[1, ..., 2] = pelt.alpha
-    planes[1, ..., 3] = pelt.tint
-    return Planes((_column(planes[0]), _column(planes[1])), colour)
+    first, second = _two_planes(pelt.codes, pelt.alpha, pelt.tint)
+    return Planes((_column(first), _column(second)), colour)
+
+
+def pack_fin(fin: FinPelt) -> Planes:
+    """The images of the fur's side view: (height, width, channels), row 0 at the roots."""
+    return Planes(tuple(_two_planes(fin.codes, fin.alpha, fin.tint)), fin.colour)
+
+
+def unpack_fin(planes: Planes, coefficients: int = 6) -> Texels:
+    """What a fin's images hold, (height, width, ...). Raises ValueError where they are not two of one size."""
+    shapes = {plane.shape for plane in planes.coefficients}
+    if len(planes.coefficients) != 2 or len(shapes) != 1 or next(iter(shapes))[2] != 4:
+        raise ValueError(f"fin: got planes {[p.shape for p in planes.coefficients]}, expected two of 4 channels")
+    second = planes.coefficients[1]
+    codes = np.stack([planes.coefficients[plane][..., channel] for plane, channel in SLOTS[:coefficients]], axis=-1)
+    return Texels(codes, second[..., 2], second[..., 3], planes.colour)
 
 
 def unpack(planes: Planes, coefficients: int) -> Texels:
@@ -113,6 +125,16 @@ def read_png(path: Path) -> Bytes:
         return np.asarray(pixels, dtype=np.uint8).reshape(spec.height, spec.width, spec.nchannels)
     finally:
         source.close()
+
+
+def _two_planes(codes: Bytes, alpha: Bytes, tint: Bytes) -> Bytes:
+    """(2, ..., 4): coefficients (..., C) in their slots, α and tint (...) in the two spare channels."""
+    planes = np.zeros((2, *alpha.shape, 4), dtype=np.uint8)
+    for i, (plane, channel) in enumerate(SLOTS[: codes.shape[-1]]):
+        planes[plane, ..., channel] = codes[..., i]
+    planes[1, ..., 2] = alpha
+    planes[1, ..., 3] = tint
+    return planes
 
 
 def _column(stack: Bytes) -> Bytes:

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.asset.planes import PlaneError, Planes, unpack
+from furbake.asset.planes import PlaneError, Planes, unpack, unpack_fin
 from furbake.asset.read import Asset, AssetError
-from furbake.pelt.pelt import Pelt, Ramp
+from furbake.pelt.pelt import FinPelt, Pelt, Ramp
 
 Floats = NDArray[np.float64]
 RGB = tuple[float, float, float]
@@ -72,6 +72,28 @@ def _pelt(fur: dict[str, Any], asset: Asset, state: int) -> Pelt:
         drift=_array(fur["drift"], layers, 2),
         height=float(fur["height"]),
         ramp=Ramp(_rgb(ramp["root"]), _rgb(ramp["tip"]), _rgb(ramp["tip2"]), float(ramp["power"])),
+        fin=_fin(stored["fin"], asset) if "fin" in stored else None,
+    )
+
+
+def _fin(stored: dict[str, Any], asset: Asset) -> FinPelt:
+    images = Planes(
+        tuple(asset.image(index) for index in stored["planes"]),
+        asset.image(stored["colour"]) if "colour" in stored else None,
+    )
+    texels = unpack_fin(images)
+    if texels.alpha.shape != (stored["height"], stored["width"]):
+        got = " x ".join(str(side) for side in texels.alpha.shape[::-1])
+        raise AssetError(f"{asset.folder}: a fin is {got}, expected {stored['width']} x {stored['height']}")
+    count = texels.codes.shape[-1]
+    return FinPelt(
+        codes=texels.codes,
+        alpha=texels.alpha,
+        tint=texels.tint,
+        colour=texels.colour,
+        scale=_array(stored["scale"], count),
+        bias=_array(stored["bias"], count),
+        environment=_array(stored["environment"], count, 9),
     )
 
 

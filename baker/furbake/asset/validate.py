@@ -18,8 +18,14 @@ from furbake.asset.planes import PlaneError
 from furbake.asset.read import Asset, AssetError, read_asset
 
 REQUIRED = ("POSITION", "NORMAL", "TANGENT", "TEXCOORD_0")
+ATTRIBUTES = {
+    "shells": (REQUIRED, {*REQUIRED, "COLOR_0", "_FUR", "_COMB"}),
+    "fins": ((*REQUIRED, "_EDGE"), {*REQUIRED, "COLOR_0", "_FUR", "_EDGE"}),
+}
+"""What the vertices of the fur must have, and what they may have."""
+
 HEAVIEST = 32
-"""Bytes of a shell vertex."""
+"""Bytes of a shell or fin vertex."""
 
 UNIT = 0.02
 """How far from 1 a normal may be: bytes hold it to 1/127 per component."""
@@ -40,7 +46,7 @@ def validate(folder: Path) -> list[str]:
     problems = [f"{EXTENSION}: {_where(error)}{error.message}" for error in schema().iter_errors(fur)]
     if problems:  # the other checks lean on the schema
         return problems
-    for check in (_document, _nodes, _skin, _shells, _pelts, _record):
+    for check in (_document, _nodes, _skin, _shells, _fins, _pelts, _record):
         try:
             problems.extend(check(asset))
         except (AssetError, PlaneError) as error:
@@ -108,18 +114,36 @@ def _skin(asset: Asset) -> Iterator[str]:
 
 
 def _shells(asset: Asset) -> Iterator[str]:
-    yield from _primitive(asset, "shells", REQUIRED)
+    yield from _furry(asset, "shells")
     primitive = asset.primitive(asset.fur["shells"])
-    attributes = primitive["attributes"]
+    if "_FUR" in primitive["attributes"]:
+        yield from _weights(asset, primitive)
+
+
+def _fins(asset: Asset) -> Iterator[str]:
+    drawn = "fins" in asset.fur
+    for i, pelt in enumerate(asset.fur["pelts"]):
+        if ("fin" in pelt) != drawn:
+            yield f"{EXTENSION}: pelts[{i}] has {'no ' if drawn else 'a '}fin, expected one where there are fins"
+    if drawn:
+        yield from _furry(asset, "fins")
+
+
+def _furry(asset: Asset, name: str) -> Iterator[str]:
+    """What shells and fins have in common."""
+    required, known = ATTRIBUTES[name]
+    yield from _primitive(asset, name, required)
+    attributes = asset.primitive(asset.fur[name])["attributes"]
+    strange = sorted(set(attributes) - known)
+    if strange:
+        yield f"{name}: {', '.join(strange)}, expected only {', '.join(sorted(known))}"
     views = [asset.document["bufferViews"][asset.document["accessors"][i]["bufferView"]] for i in attributes.values()]
     weight = sum(view["byteStride"] for view in {json.dumps(v, sort_keys=True): v for v in views}.values())
     if weight > HEAVIEST:
-        yield f"shells: {weight} bytes per vertex, expected at most {HEAVIEST}"
+        yield f"{name}: {weight} bytes per vertex, expected at most {HEAVIEST}"
     signs = np.unique(asset.accessor(attributes["TANGENT"])[:, 3])
     if not set(signs.tolist()) <= {-127, 127, -1.0, 1.0}:
-        yield f"shells: TANGENT w of {signs[0]}, expected 1 or -1"
-    if "_WEIGHT" in attributes:
-        yield from _weights(asset, primitive)
+        yield f"{name}: TANGENT w of {signs[0]}, expected 1 or -1"
 
 
 def _primitive(asset: Asset, name: str, required: tuple[str, ...]) -> Iterator[str]:
@@ -155,7 +179,7 @@ def _primitive(asset: Asset, name: str, required: tuple[str, ...]) -> Iterator[s
 def _weights(asset: Asset, primitive: dict[str, Any]) -> Iterator[str]:
     """The weights of all copies of a face sum to 1 at each of its corners."""
     attributes = primitive["attributes"]
-    weights = asset.accessor(attributes["_WEIGHT"])
+    weights = asset.accessor(attributes["_FUR"])[:, 0]
     if weights.dtype != np.uint8:
         return
     _, place = np.unique(asset.accessor(attributes["POSITION"]), axis=0, return_inverse=True)
@@ -169,7 +193,7 @@ def _weights(asset: Asset, primitive: dict[str, Any]) -> Iterator[str]:
     wrong = (total == 0) | (total % 255 != 0)
     if wrong.any():
         got = total[wrong][0] / 255.0
-        yield f"shells: _WEIGHT sums to {got:.3f} at {int(wrong.sum())} corners, expected 1"
+        yield f"shells: weights of _FUR sum to {got:.3f} at {int(wrong.sum())} corners, expected 1"
 
 
 def _pelts(asset: Asset) -> Iterator[str]:
@@ -189,11 +213,29 @@ def _pelts(asset: Asset) -> Iterator[str]:
             yield from _image(asset, index, (layers * size, size, 4))
         if "colour" in pelt:
             yield from _image(asset, pelt["colour"], (layers * size, size, 3))
+        if "fin" in pelt:
+            yield from _fin(asset, pelt["fin"])
     for name, (values, expected) in lists.items():
         if len(values) != expected:
             yield f"{EXTENSION}: {name} has {len(values)} rows, expected {expected}"
         elif not np.isfinite(np.array(values, dtype=np.float64)).all():
             yield f"{EXTENSION}: {name} is not finite, expected numbers"
+
+
+def _fin(asset: Asset, fin: dict[str, Any]) -> Iterator[str]:
+    """The fur's side view: a polynomial of six coefficients in two planes."""
+    shape = (fin["height"], fin["width"])
+    for index in fin["planes"]:
+        yield from _image(asset, index, (*shape, 4))
+    if "colour" in fin:
+        yield from _image(asset, fin["colour"], (*shape, 3))
+    for key, expected in (("planes", 2), ("scale", 6), ("bias", 6), ("environment", 6)):
+        if len(fin[key]) != expected:
+            yield f"{EXTENSION}: fin.{key} has {len(fin[key])} rows, expected {expected}"
+        elif not np.isfinite(np.array(fin[key], dtype=np.float64)).all():
+            yield f"{EXTENSION}: fin.{key} is not finite, expected numbers"
+    if fin["basis"]["kind"] != "ptm":
+        yield f"{EXTENSION}: fin.basis is {fin['basis']['kind']}, expected ptm"
 
 
 def _image(asset: Asset, index: int, shape: tuple[int, int, int]) -> Iterator[str]:

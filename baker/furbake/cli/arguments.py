@@ -140,6 +140,7 @@ def _bake_arguments(parser: _Parser) -> None:
     add("--seed", type=_whole, default=unset, metavar="S", help="of all chance")
     add("--guide", type=_guide, default=unset, metavar="nose-tail|down", help="where the fur is laid")
     add("--length-by-thickness", action="store_true", default=unset, help="shorter fur where the body is thin")
+    add("--no-fins", dest="fins", action="store_false", default=unset, help="no quads on the edges")
     add("--flat", action="store_true", default=unset, help="a flat patch under a point at infinity, for checks")
     add("--samples", type=_path, metavar="FILE.npz", help="write the sampled physics too, for others to check")
     add("--force", action="store_true", help="replace DIR if it is a bake")

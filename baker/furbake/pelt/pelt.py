@@ -22,6 +22,36 @@ class Ramp:
     tip2: RGB = (0.90, 0.76, 0.58)
     power: float = 1.2
 
+    def colour(self, tint: Floats, hue: Floats) -> Floats:
+        """The paper's (Rn, Gn, Bn): colour of every texel's hairs in plain light, linear, (K, ...) → (K, ..., 3).
+
+        tint, hue : (K, ...) from the skin to the tips
+        """
+        root, tip, tip2 = (np.array(part) for part in (self.root, self.tip, self.tip2))
+        s = ((np.arange(len(tint)) + 0.5) / len(tint)).reshape(-1, *[1] * tint.ndim)
+        end = (1 - hue[..., None]) * tip + hue[..., None] * tip2
+        return np.asarray((root + (end - root) * s**self.power) * tint[..., None])
+
+
+@dataclass(frozen=True)
+class FinPelt:
+    """The same fur cut from the side, W × H texels, row 0 at the roots, column 0 at u = 0; periodic along u.
+
+    codes : (H, W, 6) bytes of the paper's polynomial in (l·t, l·n), t along the fin, n out of the skin
+    alpha, tint : (H, W) bytes / 255
+    colour : (H, W, 3) sRGB bytes, the texel's original colour, or None
+    scale, bias : (6,) λ and Ω
+    environment : (6, 9) spherical harmonics of the radiance over t, n, t × n → light moments
+    """
+
+    codes: Bytes
+    alpha: Bytes
+    tint: Bytes
+    colour: Bytes | None
+    scale: Floats
+    bias: Floats
+    environment: Floats
+
 
 @dataclass(frozen=True)
 class Pelt:
@@ -35,6 +65,7 @@ class Pelt:
     environment : (C, 9) spherical harmonics of the radiance → light moments
     drift : (K, 2) mean sideways displacement of the hairs at each slab's middle, tile widths
     height : of the fur, tile widths
+    fin : its side view, or None
     """
 
     codes: Bytes
@@ -50,6 +81,7 @@ class Pelt:
     drift: Floats
     height: float
     ramp: Ramp
+    fin: FinPelt | None = None
 
     @property
     def layers(self) -> int:

@@ -59,3 +59,18 @@ class Natural:
         return Charts(
             self.source, self.faces, self.tangents, self.uv * np.array(tiles), np.ones(count), np.arange(count)
         )
+
+
+def laid(charts: Charts, normals: Floats) -> Floats:
+    """(V, 3) unit tangent vectors of growing v, where the fur is laid, at the vertices of the surface.
+
+    normals : (V, 3) unit. Where copies differ the mean of their directions holds, by their weights.
+    """
+    tangent, sign = charts.tangents[:, :3], charts.tangents[:, 3:]
+    grows = charts.weights[:, None] * sign * np.cross(normals[charts.source], tangent)
+    total = np.stack([np.bincount(charts.source, axis, len(normals)) for axis in grows.T], axis=1)
+    total -= normals * np.einsum("ij,ij->i", total, normals)[:, None]
+    # Where directions cancel, any tangent will do.
+    any_axis = np.cross(normals, np.where(np.abs(normals[:, :1]) < 0.7, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]]))
+    total = np.where(np.linalg.norm(total, axis=1, keepdims=True) > 1e-6, total, any_axis)
+    return np.asarray(total / np.linalg.norm(total, axis=1, keepdims=True))

@@ -1,7 +1,20 @@
-// Shell s of the fur above a point of the skin, in the mesh's own units (Lengyel 2001: shells are the skin moved outwards).
+// A hair above a point of the skin, in the mesh's own units: it leaves along the normal and bends to where it is combed
+// (Lengyel 2001: shells are the skin moved outwards; here along a trajectory). s = 0 at the skin, 1 at the tip.
 
 uniform float furLength; // longest fur, the mesh's own units
 
-vec3 furPoint(vec3 root, vec3 outward, float lengthShare, float s) {
-	return root + outward * (furLength * lengthShare * s);
+// comb: displacement of the tip in the tangent plane, share of the length; the tip stays as far from the root as uncombed.
+float furRise(vec3 comb) {
+	return sqrt(max(1.0 - dot(comb, comb), 0.0));
+}
+
+vec3 furPoint(vec3 root, vec3 outward, vec3 comb, float lengthShare, float s) {
+	return root + (furRise(comb) * outward + s * comb) * (furLength * lengthShare * s);
+}
+
+// The frame of light bends with the hair: the smallest rotation that takes the normal onto the curve's tangent at s.
+mat3 furBend(vec3 outward, vec3 comb, float s) {
+	vec3 along = normalize(furRise(comb) * outward + 2.0 * s * comb);
+	vec3 both = outward + along;
+	return mat3(1.0) - outerProduct(both, both) / (1.0 + dot(outward, along)) + 2.0 * outerProduct(along, outward);
 }

@@ -1,6 +1,13 @@
 // Light moments: m = Σ over lights of E·φ(l), and of the environment's radiance R, ∫R(ω)·φ(ω)dω over the upper hemisphere.
 // A texel's light is then one dot product with its coefficients, whatever the number of lights.
-// Needs three's <common> and <lights_pars_begin>; directions are in view space until they enter the tangent frame (TS).
+// Needs three's <common> and <lights_pars_begin>; directions are in view space until they enter the tangent frame (TS):
+// (T, B, N) of a shell; of a fin (along the edge, N, across it), its φ being of the first two as a shell's.
+
+#ifdef FIN
+#define UP y
+#else
+#define UP z
+#endif
 
 // Moments of coefficients 0..2 and 3..5: a column per coefficient, a row per colour channel.
 struct Moments {
@@ -26,7 +33,7 @@ uniform vec3 curvesLow[TERMS]; // weights of each smooth function in light curve
 uniform vec3 curvesHigh[TERMS];
 #endif
 
-// φ(l), l.z ≥ 0. Paper, eq. (2), or smooth light curves.
+// φ(l) of a light above the horizon. Paper, eq. (2), or smooth light curves.
 void basis(vec3 lightTS, out vec3 low, out vec3 high) {
 	float u = lightTS.x, v = lightTS.y;
 #ifdef BASIS_EIGEN
@@ -57,13 +64,14 @@ void basis(vec3 lightTS, out vec3 low, out vec3 high) {
 #endif
 }
 
-// Below the horizon (lu, lv) stays on the unit circle and the light fades out over the dip that a point at height s sees.
+// A light below the horizon is held on it and fades out over the dip that a point at height s sees.
 float horizon(inout vec3 lightTS, float s) {
-	if (lightTS.z >= 0.0) return 1.0;
+	if (lightTS.UP >= 0.0) return 1.0;
 	float cosine = bodyRadius / (bodyRadius + s);
 	float dip = sqrt(1.0 - cosine * cosine);
-	float fade = sqrt(clamp(1.0 + lightTS.z / dip, 0.0, 1.0));
-	lightTS = vec3(lightTS.xy / max(length(lightTS.xy), 1e-4), 0.0);
+	float fade = sqrt(clamp(1.0 + lightTS.UP / max(dip, 1e-4), 0.0, 1.0));
+	lightTS.UP = 0.0;
+	lightTS /= max(length(lightTS), 1e-4);
 	return fade;
 }
 

@@ -9,6 +9,10 @@ uniform vec2 scale1; // λ·255 of a3, a4
 uniform vec2 offset1; // −λ·Ω of a3, a4
 #endif
 
+#ifndef LOD_BIAS
+#define LOD_BIAS 0.0
+#endif
+
 struct FurTexel {
 	float alpha; // coverage of a slab of the baked thickness, seen from straight above
 	float tint;
@@ -19,11 +23,11 @@ struct FurTexel {
 // a polynomial dips below zero under a strong lamp it must not eat the light of the sky, which turns shadows blue.
 FurTexel furTexel(vec3 at, mat3 lampLow, mat3 lampHigh, mat3 skyLow, mat3 skyHigh) {
 	FurTexel texel;
-	vec4 byte0 = texture(plane0, at);
+	vec4 byte0 = texture(plane0, at, LOD_BIAS);
 	vec4 a = byte0 * scale0 + offset0;
 	vec3 lamps = lampLow * a.xyz, sky = skyLow * a.xyz;
 #ifdef TWO_PLANES
-	vec4 byte1 = texture(plane1, at);
+	vec4 byte1 = texture(plane1, at, LOD_BIAS);
 	vec3 b = vec3(byte1.xy * scale1 + offset1, a.w);
 	lamps += lampHigh * b;
 	sky += skyHigh * b;

@@ -1,36 +1,42 @@
 in vec4 tangent;
-in float _weight; // lapped weight, 0..1
-in float _length; // share of the longest fur, 0..1
+in vec4 color; // of the skin, linear
+in vec4 _fur; // X = lapped weight, Y = share of the longest fur, Z = openness to the sky, W = from tip to tip2, all 0..1
+in vec2 _comb; // displacement of the tip along T and B, share of the length
 in vec4 shell; // per instance: X = s of the shell, Y = slab it shows, ZW = shear of the look-up, tile widths
 
-out vec2 vUv;
+uniform float tiles; // texture coordinates → tiles
+
+// WebGL2 promises no more than 15 vectors: four matrices, two vec3, and the scalars in their gaps.
+out vec3 vAt; // XY = tiles, Z = slab
+out vec3 vColour; // of the hairs but for what the texel says, linear
 out float vWeight;
-out vec3 vNormalVS;
-out vec3 vViewVS;
+out float vFacing; // n·v
 // Light moments of coefficients 0..2 (low) and 3..5 (high), a column each.
 out mat3 vLampLow;
 out mat3 vLampHigh;
 out mat3 vSkyLow;
 out mat3 vSkyHigh;
-flat out vec2 vShell; // X = s, Y = slab
 
 void main() {
 	float s = shell.x;
-	vec4 pointVS = modelViewMatrix * vec4(furPoint(position, normal, _length, s), 1.0);
-	vec3 n = normalize(normalMatrix * normal);
-	vec3 t = mat3(modelViewMatrix) * tangent.xyz;
-	t = normalize(t - n * dot(n, t));
-	mat3 frameVS = mat3(t, tangent.w * cross(n, t), n);
+	vec3 n = normalize(normal);
+	vec3 t = normalize(tangent.xyz - n * dot(n, tangent.xyz));
+	mat3 frame = mat3(t, tangent.w * cross(n, t), n);
+	vec3 comb = frame * vec3(_comb, 0.0);
+	vec4 pointVS = modelViewMatrix * vec4(furPoint(position, n, comb, _fur.y, s), 1.0);
+	mat3 turn = mat3(modelViewMatrix) / length(modelViewMatrix[0].xyz);
+	mat3 frameVS = turn * furBend(n, comb, s) * frame;
+
 	Moments lamps = lampMoments(frameVS, pointVS.xyz, s);
 	Moments sky = environmentMoments(frameVS);
 	vLampLow = lamps.low;
 	vLampHigh = lamps.high;
-	vSkyLow = sky.low;
-	vSkyHigh = sky.high;
-	vUv = uv - shell.zw;
-	vWeight = _weight;
-	vNormalVS = n;
-	vViewVS = -pointVS.xyz;
-	vShell = shell.xy;
+	vSkyLow = sky.low * _fur.z;
+	vSkyHigh = sky.high * _fur.z;
+
+	vAt = vec3(uv * tiles - shell.zw, shell.y);
+	vColour = furColour(color.rgb, _fur.w, s);
+	vWeight = _fur.x;
+	vFacing = dot(turn * n, normalize(-pointVS.xyz));
 	gl_Position = projectionMatrix * pointVS;
 }

@@ -1,0 +1,63 @@
+"""model.bin as it grows, with its views and accessors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Ints = NDArray[np.int64]
+Record = dict[str, Any]
+
+UNSIGNED_SHORT, UNSIGNED_INT = 5123, 5125
+COMPONENTS = {np.dtype(np.int8): 5120, np.dtype(np.uint8): 5121, np.dtype(np.uint16): UNSIGNED_SHORT}
+ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
+
+
+@dataclass
+class Buffer:
+    """The bytes of one glTF buffer and what the document says of them."""
+
+    data: bytearray = field(default_factory=bytearray)
+    views: list[Record] = field(default_factory=list)
+    accessors: list[Record] = field(default_factory=list)
+
+    def primitive(self, attributes: dict[str, NDArray[Any]], faces: Ints) -> Record:
+        """A mesh primitive: attributes (count, width) as normalised integers, and the corners of its faces."""
+        indices = {name: self.attribute(values, bounds=name == "POSITION") for name, values in attributes.items()}
+        return {"attributes": indices, "indices": self.indices(faces, len(attributes["POSITION"]))}
+
+    def attribute(self, values: NDArray[Any], bounds: bool = False) -> int:
+        """Index of a new accessor over a view of its own, each vertex padded to whole 4 bytes."""
+        count, width = values.shape
+        stride = -(-width * values.itemsize // 4) * 4
+        padded = np.zeros((count, stride), dtype=np.uint8)
+        flat = np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("<"))
+        padded[:, : width * values.itemsize] = flat.view(np.uint8).reshape(count, -1)
+        accessor: Record = {
+            "bufferView": self._view(padded.tobytes(), target=ARRAY_BUFFER, byteStride=stride),
+            "componentType": COMPONENTS[values.dtype],
+            "count": count,
+            "type": "SCALAR" if width == 1 else f"VEC{width}",
+            "normalized": True,
+        }
+        if bounds:
+            accessor |= {"min": values.min(axis=0).tolist(), "max": values.max(axis=0).tolist()}
+        self.accessors.append(accessor)
+        return len(self.accessors) - 1
+
+    def indices(self, faces: Ints, vertices: int) -> int:
+        """Index of a new accessor with the corners of the faces, in 16 bits where they fit (65535 is reserved)."""
+        short = vertices <= 65535
+        view = self._view(faces.astype("<u2" if short else "<u4").tobytes(), target=ELEMENT_ARRAY_BUFFER)
+        component = UNSIGNED_SHORT if short else UNSIGNED_INT
+        self.accessors.append({"bufferView": view, "componentType": component, "count": faces.size, "type": "SCALAR"})
+        return len(self.accessors) - 1
+
+    def _view(self, data: bytes, **properties: int) -> int:
+        self.data.extend(bytes(-len(self.data) % 4))
+        self.views.append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data), **properties})
+        self.data.extend(data)
+        return len(self.views) - 1

@@ -1,0 +1,157 @@
+"""Vertices as glTF stores them: at most 32 bytes each, in normalised integers, of equal bits where they coincide.
+
+| bytes | shells | fins |
+|---|---|---|
+| 8 | POSITION | POSITION |
+| 4 | NORMAL | NORMAL |
+| 4 | TANGENT | TANGENT |
+| 4 | TEXCOORD_0 | TEXCOORD_0 |
+| 4 | COLOR_0, where the model has colours | COLOR_0 |
+| 4 | _FUR: weight, length, occlusion, tip | _FUR |
+| 4 | _COMB: along T and B | _EDGE: angles of the two faces, comb along and across |
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import connected_components
+
+from furbake.surface.charts import Charts
+from furbake.surface.coat import VertexFur, tangential
+from furbake.surface.fins import Fins
+from furbake.surface.mesh import Surface
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Bytes = NDArray[np.uint8]
+Shorts = NDArray[np.uint16]
+Attributes = dict[str, NDArray[Any]]
+
+SHORT = 65535
+FULL_FUR = (255, 255, 255, 0)
+"""_FUR where it is left out: the whole weight and length, open, of the first tip colour."""
+
+
+def shell_vertices(
+    surface: Surface, charts: Charts, fur: VertexFur, positions: Shorts, uv: Floats, tiles: float
+) -> Attributes:
+    """Attributes of the shells' M vertices by glTF's names.
+
+    positions : (V, 3) of the surface, as `quantise_positions` makes them
+    uv : (M, 2) from 0 to `tiles`
+    """
+    source = charts.source
+    weights = quantise_weights(charts.weights, charts.group)
+    comb = tangential(fur.comb, surface.normals)[source]
+    tangent = charts.tangents[:, :3]
+    bitangent = charts.tangents[:, 3:] * np.cross(surface.normals[source], tangent)
+    return {
+        "POSITION": positions[source],
+        "NORMAL": signed(surface.normals)[source],
+        "TANGENT": signed(charts.tangents),
+        "TEXCOORD_0": quantise_uv(uv, tiles),
+        **_colour(fur, source),
+        **_fur(weights, fur, source),
+        **_unless("_COMB", signed(_components(comb, tangent, bitangent)), 0),
+    }
+
+
+def fin_vertices(surface: Surface, fins: Fins, fur: VertexFur, positions: Shorts, tiles: float) -> Attributes:
+    """Attributes of the fins' four vertices per edge by glTF's names; parameters as of `shell_vertices`."""
+    source = fins.source
+    normals = surface.normals[source]
+    across = np.cross(fins.tangents, normals)
+    across /= np.maximum(np.linalg.norm(across, axis=1, keepdims=True), 1e-12)
+    along = np.cross(normals, across)
+    comb = tangential(fur.comb, surface.normals)[source]
+    return {
+        "POSITION": positions[source],
+        "NORMAL": signed(normals),
+        "TANGENT": signed(np.column_stack([fins.tangents, np.ones(len(source))])),
+        "TEXCOORD_0": quantise_uv(fins.uv, tiles),
+        **_colour(fur, source),
+        **_fur(np.full(len(source), 255, np.uint8), fur, source),
+        "_EDGE": signed(np.column_stack([fins.angles / np.pi, _components(comb, along, across)])),
+    }
+
+
+def quantise_positions(vertices: Floats, offset: Floats, scale: float) -> Shorts:
+    """(V, 3) 16-bit positions; offset + scale · code / 65535 brings them back, within scale / 131070 per axis."""
+    return np.rint((vertices - offset) * (SHORT / scale)).astype(np.uint16)
+
+
+def grid(*parts: Floats) -> tuple[Floats, float]:
+    """The (3,) offset and the scale in which `quantise_positions` takes all parts, each (V, 3).
+
+    One scale for all axes, so that normals need no correction.
+    """
+    low = np.min([part.min(axis=0) for part in parts], axis=0)
+    high = np.max([part.max(axis=0) for part in parts], axis=0)
+    return low, float((high - low).max())
+
+
+def settle(charts: Charts) -> Floats:
+    """(M, 2) texture coordinates with each patch moved by whole tiles to where they are positive and small."""
+    count = len(charts.source)
+    start, end = charts.faces.reshape(-1), np.roll(charts.faces, -1, axis=1).reshape(-1)
+    links = csr_array((np.ones(len(start)), (start, end)), shape=(count, count))
+    patches, patch = connected_components(links, directed=False)
+    low = np.full((patches, 2), np.inf)
+    np.minimum.at(low, patch, charts.uv)
+    return np.asarray(np.maximum(charts.uv - np.floor(low + 1e-9)[patch], 0.0))
+
+
+def tiles_across(*parts: Floats) -> float:
+    """The least whole number of tiles that holds all texture coordinates, each part (n, 2) and ≥ 0."""
+    return float(max(1.0, np.ceil(max(float(part.max(initial=0.0)) for part in parts) - 1e-6)))
+
+
+def quantise_uv(uv: Floats, tiles: float) -> Shorts:
+    """(n, 2) texture coordinates 0..tiles as 16-bit shares of `tiles`."""
+    return np.rint(np.clip(uv / tiles, 0.0, 1.0) * SHORT).astype(np.uint16)
+
+
+def quantise_weights(weights: Floats, group: Ints) -> Bytes:
+    """(M,) weights as bytes that sum to exactly 255 in each group (largest remainders), as the weights sum to 1."""
+    exact = 255.0 * np.clip(weights, 0.0, 1.0)
+    floor = np.floor(exact + 1e-9)
+    _, index = np.unique(group, return_inverse=True)
+    missing = np.rint(255.0 - np.bincount(index, floor)).astype(np.int64)
+    order = np.lexsort((np.arange(len(index)), floor - exact, index))
+    start = np.searchsorted(index[order], np.arange(len(missing)))
+    rank = np.empty(len(index), dtype=np.int64)
+    rank[order] = np.arange(len(index)) - start[index[order]]
+    return np.asarray(floor + (rank < missing[index]), dtype=np.uint8)
+
+
+def signed(vectors: Floats) -> NDArray[np.int8]:
+    """Components -1..1 as normalised signed bytes."""
+    return np.clip(np.rint(127.0 * vectors), -127, 127).astype(np.int8)
+
+
+def shares(values: Floats) -> Bytes:
+    """Values 0..1 as normalised bytes."""
+    return np.clip(np.rint(255.0 * values), 0, 255).astype(np.uint8)
+
+
+def _fur(weights: Bytes, fur: VertexFur, source: Ints) -> Attributes:
+    place = np.column_stack([shares(values) for values in (fur.lengths, fur.occlusion, fur.tip)])
+    return _unless("_FUR", np.column_stack([weights, place[source]]), FULL_FUR)
+
+
+def _colour(fur: VertexFur, source: Ints) -> Attributes:
+    return {} if fur.colour is None else _unless("COLOR_0", shares(fur.colour)[source], 255)
+
+
+def _components(vectors: Floats, one: Floats, two: Floats) -> Floats:
+    """(n, 2) components of (n, 3) vectors along two unit vectors."""
+    return np.column_stack([np.einsum("ij,ij->i", vectors, axis) for axis in (one, two)])
+
+
+def _unless(name: str, values: NDArray[Any], missing: Any) -> Attributes:
+    """The attribute, unless it is everywhere what it would be where missing."""
+    return {name: values} if (values != np.array(missing)).any() else {}

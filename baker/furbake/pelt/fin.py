@@ -1,0 +1,252 @@
+"""The fur cut from the side: what a fin shows, lit from all around and fitted with a polynomial of its own.
+
+A fin's frame is t (along the fin: the tile's v, along which hairs lean), n (out of the skin) and w = t × n (the tile's
+u), where the eye is. Its texels are a row of whole tufts, `THICKNESS` deep, projected along w onto the plane of t, n.
+
+Light is that of the whole fur, in the same unit. T is the transmittance of the optical depth from the light to the
+hair, as in `transport`, at half the resolution and without the lamp's width, which six numbers cannot tell. M is
+scattered as in `scatter`, coarser still. D and M are what the eye above sees, as in the shells: those show their light
+from above at the outline, too, and beside them the fin's own view would be half as bright under a high lamp.
+"""
+
+from __future__ import annotations
+
+import os
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from furbake.pelt.basis import PTM, harmonics
+from furbake.pelt.fibre import cylinder, sine
+from furbake.pelt.fill import fill
+from furbake.pelt.fit import fit
+from furbake.pelt.pelt import FinPelt
+from furbake.pelt.quantise import byte_range, quantise, srgb_bytes, unit_bytes
+from furbake.pelt.scatter import scatter
+from furbake.pelt.strands import Coat, Strands
+from furbake.pelt.transport import OpticalDepth, curved_elevation, passing
+from furbake.pelt.volume import Volume, pool, voxelise
+
+Array = NDArray[np.float64]
+Single = NDArray[np.float32]
+
+THICKNESS = 0.25
+"""Depth of the row of tufts, tile widths."""
+
+EYE = np.array([1.0, 0.0, 0.0])
+"""w in the tile's frame."""
+
+FIN_FRAME = [1, 2, 0]
+"""Components of a vector of the tile's frame along t, n and w."""
+
+MOST_ROWS = 64
+
+MOST_VOXELS = 2**22
+"""Of the tufts, where their voxels are half a texel wide; else they are as wide as a texel."""
+
+HIDDEN = 1e-3
+"""Voxels of which the eye sees less are left out."""
+
+EVEN = 4
+"""M is this much coarser than the texels: it is smooth."""
+
+
+@dataclass(frozen=True)
+class SideView:
+    """One tile along the fin and the fur's height, W × H texels, row 0 at the roots; periodic along the fin.
+
+    alpha, tint, hue : (H, W) 0..1
+    light : (n, H, W) L under each light
+    """
+
+    alpha: Array
+    tint: Array
+    hue: Array
+    light: Array
+
+
+def fin_shape(size: int, height: float) -> tuple[int, int]:
+    """Rows and columns of the texture: the tile's texels along the fin, about square ones, rows a power of two."""
+    return int(np.clip(2 ** round(np.log2(size * height)), 8, min(size, MOST_ROWS))), size
+
+
+def side_view(
+    strands: Strands, fine: Volume, layers: int, size: int, lights: Array, coat: Coat, *, flat: bool = False
+) -> SideView:
+    """A row of the tile's tufts seen from w, in the light that the whole fur lets through.
+
+    fine : the oversampled volume; layers, size : slabs and texels per side of what is stored of it
+    lights : (n, 3) in the tile's frame
+    coat : its opacity, albedo and skin count; flat : as of `transport.sample`
+    """
+    rows, columns = fin_shape(size, fine.height)
+    medium = _Medium(fine, layers, size, coat, flat)
+    slabs = medium.slabs * -(-rows // medium.slabs)
+    width = size * (2 if slabs * (2 * size) ** 2 <= MOST_VOXELS else 1)
+    tufts = voxelise(row_of_tufts(strands), fine.height, slabs, width, coat.opacity)
+    shares = seen_from_the_side(tufts)
+    upright, along = overlap(len(shares), rows), overlap(shares.shape[1], columns)
+
+    def texels(voxels: Array) -> Array:
+        """Means of (K, N) over texels, (H, W)."""
+        return np.asarray(upright @ voxels @ along.T)
+
+    alpha = texels(shares.sum(2))
+    tint, hue = (texels((shares * part).sum(2)) / np.maximum(alpha, 1e-9) for part in (tufts.tint, tufts.hue))
+    return SideView(alpha, tint, hue, medium.light(tufts, shares, lights, rows))
+
+
+def row_of_tufts(strands: Strands) -> Strands:
+    """The hairs that are rooted in a strip of the tile, whole: a cut through the volume would have chopped ones."""
+    off = np.abs(strands.points[:, 0, 0] % 1.0 - 0.5)
+    row = off <= max(THICKNESS / 2, float(off.min()))
+    return Strands(strands.points[row], strands.radius[row], strands.tint[row], strands.hue[row])
+
+
+def seen_from_the_side(volume: Volume) -> Array:
+    """What the eye at w sees of every voxel through those before it, α·Π(1 − α), (K, N, N)."""
+    size = volume.sigma.shape[2]
+    coverage = -np.expm1(-volume.sigma * sine(volume.tangent, EYE) / size)
+    clear = np.cumprod(1 - coverage[..., ::-1], axis=-1)[..., ::-1]
+    return np.asarray(coverage * np.concatenate([clear[..., 1:], np.ones_like(clear[..., :1])], -1))
+
+
+class _Medium:
+    """The whole fur at half the fine resolution, and coarser where light is scattered again."""
+
+    def __init__(self, fine: Volume, layers: int, size: int, coat: Coat, flat: bool) -> None:
+        self.size, self.flat, self.height = size, flat, fine.height
+        self.albedo, self.skin = coat.albedo, 0.0 if flat else coat.skin
+        self.slabs = halved(len(fine.sigma))
+        self.even = halved(halved(self.slabs) if self.slabs > layers else self.slabs), max(size // EVEN, 2)
+        self.sigma = self._coarse(fine.sigma)
+        self.tangent = unit([self._coarse(fine.sigma * fine.tangent[..., axis]) for axis in range(3)])
+
+    def light(self, tufts: Volume, shares: Array, lights: Array, rows: int) -> Array:
+        """L of the tufts' texels, (n, rows, N): means over what is seen of them, by `shares` of their voxels."""
+        weight = self._fine(shares)
+        voxel = np.nonzero(weight > HIDDEN)
+        slab, row, _ = voxel
+        seen, count = weight[voxel], len(weight)
+        direction = unit([self._fine(shares * tufts.tangent[..., axis])[voxel] for axis in range(3)])
+        behind = slab * self.slabs // count, *voxel[1:]
+        hair: Single = np.maximum(self._even(self.sigma), np.float32(1e-6))
+
+        def beam(light: Array) -> tuple[Array, Single, Single, Single]:
+            """T·D summed over what is seen, (K·N,), and what `scatter` takes: caught, reaching and the skin's light."""
+            elevation = float(light[2]) if self.flat else curved_elevation(float(light[2]))
+            width = sine(self.tangent, light)
+            depth = OpticalDepth(self.sigma * width, self.height / self.slabs)
+            above, own = depth(np.array([light[0], light[1], elevation]))
+            clear = np.exp(-above)
+            lambert = seen * clear[behind] * cylinder(direction, light)
+            single = np.asarray(np.bincount(slab * self.size + row, lambert, count * self.size), np.float64)
+            lit: Single = self.sigma * clear * passing(own)
+            floor: Single = pool(clear[0] * np.exp(-own[0]) * np.float32(light[2]), self.even[1])
+            return single, self._even(lit * width) / hair, self._even(lit) / hair, floor
+
+        with ThreadPoolExecutor(os.cpu_count()) as workers:
+            single, caught, reaching, floor = (np.stack(part) for part in zip(*workers.map(beam, lights), strict=True))
+        tangent = unit([self._even(self.sigma * self.tangent[..., axis]) for axis in range(3)])
+        sigma, thick = self._even(self.sigma), self.height / self.even[0]
+        multiple = scatter(sigma, thick, tangent, lights, caught, reaching, floor, albedo=self.albedo, skin=self.skin)
+        where = self._even(weight) + np.float32(1e-6)
+        multiple = (multiple * where).sum(3) / where.sum(2)
+
+        upright = overlap(count, rows)
+        total = np.bincount(slab * self.size + row, seen, count * self.size).reshape(count, self.size)
+        once = (upright @ single.reshape(-1, count, self.size)) / np.maximum(upright @ total, 1e-9)
+        high, wide = between(self.even[0], rows), between(self.even[1], self.size, periodic=True)
+        return np.asarray(once + high @ multiple @ wide.T)
+
+    def _fine(self, tufts: Array) -> Single:
+        """Means over the voxels of a texel, in the tufts' own slabs."""
+        return pool(np.asarray(tufts, np.float32), self.size)
+
+    def _coarse(self, fine: Array) -> Single:
+        """Means over blocks of fine voxels."""
+        blocks = np.asarray(fine, np.float32).reshape(self.slabs, -1, *fine.shape[1:]).mean(1)
+        return pool(blocks, self.size)
+
+    def _even(self, values: Single) -> Single:
+        """Means over still larger blocks."""
+        slabs, size = self.even
+        return pool(values.reshape(slabs, -1, *values.shape[1:]).mean(1), size)
+
+
+def halved(count: int) -> int:
+    """Half of an even number, an odd one as it is."""
+    return count // 2 if count % 2 == 0 else count
+
+
+def unit(parts: list[Single]) -> Single:
+    """Unit vectors, (..., 3), of three components; where all are 0, the third axis."""
+    vectors = np.stack(parts, -1)
+    vectors[..., 2] += 1e-9
+    vectors /= np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return vectors
+
+
+def overlap(count: int, wanted: int) -> Array:
+    """Matrix (wanted, count) that takes means of `count` equal cells over `wanted` equal cells."""
+    low, high = (np.arange(count) + side for side in (0.0, 1.0))
+    first, last = ((np.arange(wanted) + side) * count / wanted for side in (0.0, 1.0))
+    shared = np.minimum(high, last[:, None]) - np.maximum(low, first[:, None])
+    return np.asarray(np.maximum(shared, 0.0) * wanted / count)
+
+
+def between(count: int, wanted: int, periodic: bool = False) -> Array:
+    """Matrix (wanted, count) that interpolates linearly between the middles of `count` cells."""
+    at = (np.arange(wanted) + 0.5) * count / wanted - 0.5
+    cell = np.floor(at).astype(np.int64)
+    matrix = np.zeros((wanted, count))
+    for step, share in ((0, 1 - (at - cell)), (1, at - cell)):
+        column = (cell + step) % count if periodic else np.clip(cell + step, 0, count - 1)
+        np.add.at(matrix, (np.arange(wanted), column), share)
+    return matrix
+
+
+def fit_fin(view: SideView, lights: Array, colour: Array | None = None) -> FinPelt:
+    """The texels' polynomials in (l·t, l·n) as bytes.
+
+    lights : (n, 3) of the view, in the tile's frame; colour : (H, W, 3) linear original colour, or None
+    """
+    turned = lights[:, FIN_FRAME]
+    filled = fill_fin(fit(view.light, PTM, turned), view.alpha)
+    scale, bias = byte_range(filled, view.alpha)
+    phi = PTM(turned)
+    return FinPelt(
+        codes=quantise(filled, scale, bias, phi.T @ phi / len(phi)),
+        alpha=unit_bytes(view.alpha),
+        tint=unit_bytes(fill_fin(view.tint[..., None], view.alpha)[..., 0]),
+        colour=None if colour is None else srgb_bytes(fill_fin(colour, view.alpha)),
+        scale=scale,
+        bias=bias,
+        environment=fin_environment(),
+    )
+
+
+def fill_fin(values: Array, alpha: Array) -> Array:
+    """As `fill`, (H, W, C) by coverage (H, W): a fin goes round along its rows and is mirrored at roots and tips."""
+    rows, columns = alpha.shape
+
+    def square(image: Array) -> Array:
+        tall = np.concatenate([image, image[::-1]])
+        return np.concatenate([tall] * -(-columns // len(tall)))[None, :columns]
+
+    if 2 * rows <= columns:
+        return np.asarray(fill(square(values), square(alpha))[0, :rows])
+    return np.asarray(fill(values[None], alpha[None])[0])
+
+
+def fin_environment(rings: int = 8, spokes: int = 16) -> Array:
+    """∫ Y_j(ω)·φ_i(ω) dω over the half sphere around n, (6, 9), in the fin's frame; exact for the polynomial."""
+    node, weight = np.polynomial.legendre.leggauss(rings)
+    outward = np.repeat((node + 1) / 2, spokes)
+    azimuth = np.tile((np.arange(spokes) + 0.5) / spokes * 2 * np.pi, rings)
+    across = np.sqrt(1 - outward * outward)
+    directions = np.stack([across * np.cos(azimuth), outward, across * np.sin(azimuth)], -1)
+    area = np.repeat(weight, spokes) * np.pi / spokes
+    return np.asarray(PTM(directions).T @ (harmonics(directions) * area[:, None]))

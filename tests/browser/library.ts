@@ -1,0 +1,32 @@
+/** What the tests of the library share: a page with nothing on it but the library, and the assets as files. */
+
+import { readFile } from 'node:fs/promises';
+import { fileURLToPath } from 'node:url';
+import type { Page } from '@playwright/test';
+import type { FurAsset } from '../../web/fur/format.ts';
+import { site } from './harness.ts';
+
+export const repository = fileURLToPath(new URL('../..', import.meta.url));
+export const served = (path: string) =>
+	path.startsWith('public/') ? path.slice('public'.length) : `/@fs${repository}${path}`;
+
+/** A page with nothing on it but the library. */
+export async function openStage(page: Page): Promise<void> {
+	const body = `<!doctype html><title>stage</title><link rel="icon" href="data:,">
+		<script type="module" src="${served('tests/browser/stage.ts')}"></script>`;
+	await page.route('**/stage.html', (route) => route.fulfill({ contentType: 'text/html', body }));
+	await page.goto(`${site}stage.html`);
+	await page.waitForFunction(() => 'stage' in window);
+}
+
+export async function readAsset(folder: string): Promise<{ fur: FurAsset; images: { uri: string }[] }> {
+	const gltf = JSON.parse(await readFile(`${repository}${folder}/model.gltf`, 'utf8'));
+	return { fur: gltf.extensions.FUR_ptm_shells, images: gltf.images };
+}
+
+export async function readFloats(path: string): Promise<Float32Array> {
+	const bytes = await readFile(`${repository}${path}`);
+	return new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
+}
+
+export const floats = (base64: string) => new Float32Array(Uint8Array.from(Buffer.from(base64, 'base64')).buffer);

@@ -1,0 +1,54 @@
+import { DoubleSide, type IUniform, type ShaderMaterialParameters } from 'three';
+import type { FurMaterial } from './FurMaterial.ts';
+import type { Fin } from './format.ts';
+import { type FurTextures, PeltMaterial } from './PeltMaterial.ts';
+import fragmentShader from './shaders/fins.frag.glsl?raw';
+import vertexShader from './shaders/fins.vert.glsl?raw';
+
+/** Properties that a FinMaterial has beside those of every material. */
+export interface FinMaterialParameters extends ShaderMaterialParameters {
+	/** Length of the fins in lengths of the fur beside them: hairs that stand out make the outline. */
+	finLength?: number;
+	/** What their coverage is multiplied by, 0..1. */
+	finOpacity?: number;
+}
+
+const MIRRORED = ['finLength', 'finOpacity'] as const satisfies (keyof FinMaterialParameters)[];
+
+/** What fins have from the shells that they stand between. */
+const SHARED = ['tiles', 'furLength', 'bodyRadius', 'skinColour', 'root', 'tip', 'tip2', 'rampPower'] as const;
+
+/**
+ * Fins: the fur cut from the side, on quads that stand on the skin's edges, drawn where they make the outline.
+ *
+ * Lit as the shells are, by a polynomial texture map of their own over the light along the edge and along the normal.
+ * Colours and lengths are the shells'. They write no depth: the shells are blended over them.
+ */
+export class FinMaterial extends PeltMaterial {
+	declare finLength: number;
+	declare finOpacity: number;
+
+	constructor(fin: Fin, textures: FurTextures, shells: FurMaterial, parameters: FinMaterialParameters = {}) {
+		const shared = SHARED.map((name) => [name, shells.uniforms[name]] as [string, IUniform]);
+		super(
+			fin,
+			textures,
+			{
+				name: 'FinMaterial',
+				vertexShader,
+				fragmentShader,
+				uniforms: {
+					...Object.fromEntries(shared),
+					finLength: { value: 1.05 },
+					finOpacity: { value: 0.9 },
+				},
+				// |n·v| of the faces, between which a fin fades out; half a mip level finer than even, since fins are seen askew.
+				defines: { FIN: '', FADE_FROM: '0.1', FADE_TO: '0.3', LOD_BIAS: '-0.5' },
+				depthWrite: false,
+				side: DoubleSide,
+			},
+			MIRRORED,
+		);
+		this.setValues(parameters);
+	}
+}

@@ -1,0 +1,154 @@
+import {
+	CustomBlending,
+	GLSL3,
+	type IUniform,
+	LessEqualDepth,
+	OneFactor,
+	OneMinusSrcAlphaFactor,
+	ShaderMaterial,
+	type ShaderMaterialParameters,
+	type Texture,
+	UniformsLib,
+	UniformsUtils,
+	Vector2,
+	Vector3,
+	Vector4,
+} from 'three';
+import { type Basis, channelOf } from './format.ts';
+import colour from './shaders/colour.glsl?raw';
+import displacement from './shaders/displacement.glsl?raw';
+import moments from './shaders/moments.glsl?raw';
+import output from './shaders/output.glsl?raw';
+import ptm from './shaders/ptm.glsl?raw';
+
+export interface FurTextures {
+	plane0: Texture;
+	plane1?: Texture | undefined;
+	colour?: Texture | undefined;
+}
+
+/** What texels mean: how they are decoded, and what their coefficients multiply. */
+export interface Texels {
+	scale: number[];
+	bias: number[];
+	basis: Basis;
+	environment: number[][];
+}
+
+/** What the materials of shells and fins have in common: texels of coefficients that meet light moments. */
+export class PeltMaterial extends ShaderMaterial {
+	/**
+	 * @param parameters own shaders (after the common chunks), uniforms and defines
+	 * @param mirrored names of uniforms that are properties of the material, too
+	 */
+	constructor(
+		texels: Texels,
+		textures: FurTextures,
+		{ uniforms, defines, vertexShader, fragmentShader, ...parameters }: ShaderMaterialParameters,
+		mirrored: readonly string[],
+	) {
+		const { scale, offset } = decoder(texels.scale, texels.bias);
+		super({
+			glslVersion: GLSL3,
+			lights: true,
+			uniforms: {
+				...UniformsUtils.clone(UniformsLib.lights),
+				plane0: { value: null },
+				plane1: { value: null },
+				colourPlane: { value: null },
+				scale0: { value: scale[0] },
+				offset0: { value: offset[0] },
+				scale1: { value: new Vector2(scale[1]?.x, scale[1]?.y) },
+				offset1: { value: new Vector2(offset[1]?.x, offset[1]?.y) },
+				...momentUniforms(texels),
+				...uniforms,
+			},
+			defines: {
+				...(texels.basis.kind === 'eigen' && { BASIS_EIGEN: '' }),
+				...(texels.scale.length > 3 && { TWO_PLANES: '' }),
+				...(textures.colour && { COLOUR_PLANE: '' }),
+				...defines,
+			},
+			vertexShader: [
+				'#include <common>',
+				'#include <lights_pars_begin>',
+				displacement,
+				moments,
+				colour,
+				vertexShader,
+			].join('\n'),
+			fragmentShader: ['#include <common>', ptm, output, fragmentShader].join('\n'),
+			transparent: true,
+			blending: CustomBlending,
+			blendSrc: OneFactor,
+			blendDst: OneMinusSrcAlphaFactor,
+			premultipliedAlpha: true,
+			depthFunc: LessEqualDepth,
+			...parameters,
+		});
+		// What a vertex without these has: white, full, long, open, of the first tip colour.
+		Object.assign(this.defaultAttributeValues, {
+			color: [1, 1, 1, 1],
+			_fur: [1, 1, 1, 0],
+			_comb: [0, 0],
+			_edge: [0, 0, 0, 0],
+		});
+		for (const name of mirrored) {
+			const uniform = this.uniforms[name];
+			if (!uniform) continue;
+			Object.defineProperty(this, name, {
+				enumerable: true,
+				get: () => uniform.value,
+				set: (value) => {
+					uniform.value = value;
+				},
+			});
+		}
+		this.setTextures(textures);
+	}
+
+	/** Other planes of the same shape, of another state of the fur say. */
+	setTextures({ plane0, plane1, colour }: FurTextures): void {
+		for (const [name, value] of Object.entries({ plane0, plane1: plane1 ?? null, colourPlane: colour ?? null })) {
+			const uniform = this.uniforms[name];
+			if (uniform) uniform.value = value;
+		}
+	}
+}
+
+/** The light moments' matrices, coefficients 0..2 in `Low` and 3..5 in `High`, absent ones 0. */
+function momentUniforms({ environment, basis }: Texels): Record<string, IUniform> {
+	const uniforms: Record<string, IUniform> = {};
+	for (const [part, first] of [
+		['Low', 0],
+		['High', 3],
+	] as const) {
+		const zeros = new Array<number>(9).fill(0);
+		const rows = [0, 1, 2, 3].map((i) => (i < 3 && environment[first + i]) || zeros);
+		uniforms[`environment${part}0`] = { value: rows.flatMap((row) => row.slice(0, 4)) };
+		uniforms[`environment${part}1`] = { value: rows.flatMap((row) => row.slice(4, 8)) };
+		uniforms[`environment${part}2`] = { value: new Vector3(...rows.slice(0, 3).map((row) => row[8] ?? 0)) };
+		if (basis.kind === 'eigen') {
+			const curves = [0, 1, 2].map((i) => basis.matrix[first + i]);
+			const terms = basis.matrix[0]?.length ?? 0;
+			uniforms[`curves${part}`] = {
+				value: Array.from({ length: terms }, (_, t) => new Vector3(...curves.map((row) => row?.[t] ?? 0))),
+			};
+		}
+	}
+	return uniforms;
+}
+
+/** λ and Ω as multiply-adds on the GPU's 0..1 texels, per plane: a = texel·(255λ) − λΩ. */
+function decoder(scale: number[], bias: number[]): { scale: Vector4[]; offset: Vector4[] } {
+	const vectors = {
+		scale: [new Vector4(0, 0, 0, 0), new Vector4(0, 0, 0, 0)],
+		offset: [new Vector4(0, 0, 0, 0), new Vector4(0, 0, 0, 0)],
+	};
+	scale.forEach((lambda, i) => {
+		const { plane, channel } = channelOf(i);
+		vectors.scale[plane]?.setComponent(channel, lambda * 255);
+		vectors.offset[plane]?.setComponent(channel, -lambda * (bias[i] ?? 0));
+	});
+	return vectors;
+}

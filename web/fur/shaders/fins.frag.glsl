@@ -1,0 +1,30 @@
+uniform float finOpacity;
+uniform float rampPower;
+#ifdef COLOUR_PLANE
+uniform sampler2DArray colourPlane; // the texel's original colour
+#endif
+
+in vec2 vAt;
+in vec3 vRoot;
+in vec3 vTip;
+in float vFade;
+in mat3 vLampLow;
+in mat3 vLampHigh;
+in mat3 vSkyLow;
+in mat3 vSkyHigh;
+
+out vec4 fragColour;
+
+void main() {
+	vec3 at = vec3(vAt, 0.0);
+	FurTexel texel = furTexel(at, vLampLow, vLampHigh, vSkyLow, vSkyHigh);
+	float alpha = texel.alpha * vFade * finOpacity;
+	if (alpha < 0.01) discard;
+	vec3 colour = mix(vRoot, vTip, pow(clamp(vAt.y, 0.0, 1.0), rampPower));
+#ifdef COLOUR_PLANE
+	colour *= texture(colourPlane, at).rgb;
+#else
+	colour *= texel.tint;
+#endif
+	fragColour = furOutput(colour, texel.light, alpha);
+}

@@ -1,0 +1,58 @@
+in vec4 tangent; // along the edge
+in vec4 color; // of the skin, linear
+in vec4 _fur; // as of the shells
+in vec4 _edge; // XY = angles of the two faces' normals about the edge, over π; ZW = comb along the edge and across it
+
+uniform float tiles; // texture coordinates → tiles
+uniform float finLength; // lengths of the fur here
+
+out vec2 vAt; // tiles along the edge, height
+out vec3 vRoot; // colours of the hairs but for what the texel says, linear
+out vec3 vTip;
+out float vFade;
+// Light moments of coefficients 0..2 (low) and 3..5 (high), a column each.
+out mat3 vLampLow;
+out mat3 vLampHigh;
+out mat3 vSkyLow;
+out mat3 vSkyHigh;
+
+// How much of a fin is there: all of it at the silhouette, where one face looks to the viewer and the other away, less
+// where both look the same way, nothing where they look straight, nor where the fin itself is seen from its end.
+float finFade(vec2 facing, float broadside) {
+	vec2 towards = abs(facing);
+	float off = facing.x * facing.y > 0.0 ? min(towards.x, towards.y) : 0.0;
+	return (1.0 - smoothstep(FADE_FROM, FADE_TO, off)) * smoothstep(0.15, 0.5, abs(broadside));
+}
+
+void main() {
+	vec3 n = normalize(normal);
+	vec3 edge = normalize(tangent.xyz);
+	vec3 across = normalize(cross(edge, n));
+	vec3 upright = cross(across, edge);
+	mat3 frame = mat3(cross(n, across), n, across);
+	mat3 turn = mat3(modelViewMatrix) / length(modelViewMatrix[0].xyz);
+
+	vec3 viewer = normalize(-(modelViewMatrix * vec4(position, 1.0)).xyz) * turn;
+	vec2 angle = PI * _edge.xy;
+	float broadside = dot(across, viewer);
+	vFade = finFade(cos(angle) * dot(upright, viewer) + sin(angle) * broadside, broadside);
+
+	vAt = uv * tiles;
+	// Where nothing is to be seen the quad falls onto its root, and no fragment is left of it.
+	float s = vFade > 0.0 ? min(vAt.y, 1.0) : 0.0;
+	vec3 comb = frame * vec3(_edge.z, 0.0, _edge.w);
+	vec4 pointVS = modelViewMatrix * vec4(furPoint(position, n, comb, _fur.y * finLength, s), 1.0);
+	gl_Position = projectionMatrix * pointVS;
+	vLampLow = vLampHigh = vSkyLow = vSkyHigh = mat3(0.0);
+	if (vFade > 0.0) {
+		mat3 frameVS = turn * furBend(n, comb, s) * frame;
+		Moments lamps = lampMoments(frameVS, pointVS.xyz, s);
+		Moments sky = environmentMoments(frameVS);
+		vLampLow = lamps.low;
+		vLampHigh = lamps.high;
+		vSkyLow = sky.low * _fur.z;
+		vSkyHigh = sky.high * _fur.z;
+	}
+	vRoot = furColour(color.rgb, _fur.w, 0.0);
+	vTip = furColour(color.rgb, _fur.w, 1.0);
+}
