@@ -19,6 +19,9 @@ VARIANTS: tuple[tuple[str, dict[str, Any]], ...] = (
     ("eigen, 3 numbers", {"basis": "eigen", "coefficients": 3}),
 )
 
+HELD_OUT = 256
+"""Lights that judge. The bound sees them: with 32 it is 0.55 dB better than with 256, by their noise alone."""
+
 
 @dataclass(frozen=True)
 class Row:
@@ -30,14 +33,14 @@ class Row:
 
 
 def compare(
-    options: BakeOptions, lights: int = 96, step: Callable[[float], None] = lambda fraction: None
+    options: BakeOptions, lights: int = 192, step: Callable[[float], None] = lambda fraction: None
 ) -> Iterator[Row]:
-    """Sample one fur under `lights` directions and as many held-out ones, then fit it in every basis."""
+    """Sample one fur under `lights` directions and `HELD_OUT` others, then fit it in every basis."""
     height = options.height if options.height is not None else options.height_share
     strands = grow(options.coat, height, options.seed)
     fine = voxelise(strands, height, *fine_shape(options.layers, options.size, height), options.coat.opacity)
     volume = coarsen(fine, options.layers, options.size)
-    lighting = light(fine, replace(options, lights=lights), step, held_out=lights)
+    lighting = light(fine, replace(options, lights=lights), step, held_out=HELD_OUT)
     for name, basis in VARIANTS:
         _, figures = fit_pelt(volume, lighting, replace(options, **basis))
         yield Row(options.preset, name, figures)

@@ -22,7 +22,7 @@ FLOORS = {
     "swatch": {"asset", "pelt", "options"},
     "report": {"asset", "pelt", "options", "bake", "swatch", "report"},
     "pathtrace": {"pelt"},
-    "verify": {"asset", "pelt", "options", "pathtrace"},
+    "verify": {"asset", "pelt", "options", "bake", "pathtrace"},
     "compare": {"pelt", "options", "bake"},
     "cli": {"asset", "pelt", "surface", "options", "bake", "swatch", "report", "verify", "pathtrace", "compare", "cli"},
     "__init__": {"asset", "surface", "options", "bake"},

@@ -203,6 +203,7 @@ BAD_COMMANDS = {
     ("verify", "nope"): "nope: no such folder, expected a folder that furbake wrote",
     ("compare", "cat"): "preset: got 'cat', expected one of",
     ("compare", "paper", "--lights", "3"): "lights: got 3, expected 8 to 1024",
+    ("compare", "paper", "--size", "60"): "size: got 60, expected a power of two",
     ("inspect", "nope"): "nope: no such folder, expected a folder that furbake wrote",
     ("inspect", "folder"): "model.gltf: no such file or directory, expected JSON",
     ("validate", "nope"): "nope: no such folder, expected a folder that furbake wrote",

@@ -7,7 +7,8 @@ import pytest
 from scipy.ndimage import gaussian_filter
 
 from furbake.options import preset, preset_names
-from furbake.pelt.strands import Coat, Hairs, Strands, grow, nearest, scatter, shuffle, tile_noise
+from furbake.pelt.strands import Coat, Hairs, Strands, grow
+from furbake.pelt.tiling import nearest, scatter, shuffle, tile_noise
 
 PLAIN = Hairs(stray=0.0, curl=0.0, clump=0.0, length=(1.0, 1.0))
 

@@ -64,7 +64,7 @@ export class PeltMaterial extends ShaderMaterial {
 				...uniforms,
 			},
 			defines: {
-				...(texels.basis.kind === 'eigen' && { BASIS_EIGEN: '' }),
+				...(texels.basis.kind === 'eigen' && { BASIS_EIGEN: texels.basis.degree }),
 				...(texels.scale.length > 3 && { TWO_PLANES: '' }),
 				...(textures.colour && { COLOUR_PLANE: '' }),
 				...defines,

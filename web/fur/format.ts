@@ -8,7 +8,7 @@ export const EXTENSION = 'FUR_ptm_shells';
 /** The newest version that this reader knows; a higher major version shows the skin alone. */
 export const VERSION = '1.0';
 
-/** What the coefficients multiply: the paper's eq. (2), or weights of the 27 smooth functions, a row per coefficient. */
+/** What the coefficients multiply: the paper's eq. (2), or weights of the smooth functions, a row per coefficient. */
 export type Basis = { kind: 'ptm' } | { kind: 'eigen'; degree: number; matrix: number[][] };
 
 export type RGB = [number, number, number];
@@ -98,6 +98,11 @@ export function parseFur(extension: unknown): FurAsset | undefined {
 		]),
 	]) {
 		if (rows !== wanted) throw new Error(`${EXTENSION}/${name}: got ${rows} entries, expected ${wanted}`);
+	}
+	if (asset.basis.kind === 'eigen') {
+		const terms = (asset.basis.degree + 1) ** 2 + 2;
+		const odd = asset.basis.matrix.find((row) => row.length !== terms);
+		if (odd) throw new Error(`${EXTENSION}/basis.matrix: got a row of ${odd.length} weights, expected ${terms}`);
 	}
 	return asset;
 }

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from furbake.asset.planes import PlaneError, Planes, unpack, unpack_fin
 from furbake.asset.read import Asset, AssetError
+from furbake.pelt.basis import smooth_terms
 from furbake.pelt.pelt import FinPelt, Pelt, Ramp
 
 Floats = NDArray[np.float64]
 RGB = tuple[float, float, float]
-SMOOTH_TERMS = 27
 
 
 def read_pelt(asset: Asset, state: int = 0) -> Pelt:
@@ -67,7 +67,7 @@ def _pelt(fur: dict[str, Any], asset: Asset, state: int) -> Pelt:
         bias=_array(stored["bias"], count),
         kind="eigen" if eigen else "ptm",
         degree=int(basis["degree"]) if eigen else None,
-        matrix=_array(basis["matrix"], count, SMOOTH_TERMS) if eigen else None,
+        matrix=_array(basis["matrix"], count, smooth_terms(int(basis["degree"]))) if eigen else None,
         environment=_array(fur["environment"], count, 9),
         drift=_array(fur["drift"], layers, 2),
         height=float(fur["height"]),

@@ -16,6 +16,7 @@ from jsonschema import Draft202012Validator
 from furbake.asset.gltf import EXTENSION, QUANTIZATION
 from furbake.asset.planes import PlaneError
 from furbake.asset.read import Asset, AssetError, read_asset
+from furbake.pelt.basis import smooth_terms
 
 REQUIRED = ("POSITION", "NORMAL", "TANGENT", "TEXCOORD_0")
 ATTRIBUTES = {
@@ -196,15 +197,24 @@ def _weights(asset: Asset, primitive: dict[str, Any]) -> Iterator[str]:
         yield f"shells: weights of _FUR sum to {got:.3f} at {int(wrong.sum())} corners, expected 1"
 
 
+def _basis(basis: dict[str, Any], count: int) -> Iterator[str]:
+    if basis["kind"] == "ptm" and count != 6:
+        yield f"{EXTENSION}: {count} coefficients of the basis ptm, expected 6"
+    if basis["kind"] == "eigen":
+        terms = smooth_terms(basis["degree"])
+        for length in sorted({len(row) for row in basis["matrix"]} - {terms}):
+            yield f"{EXTENSION}: basis.matrix has a row of {length} weights, expected {terms}"
+
+
 def _pelts(asset: Asset) -> Iterator[str]:
     fur = asset.fur
     count, layers, size = fur["coefficients"], fur["layers"], fur["size"]
     if size & (size - 1):
         yield f"{EXTENSION}: size {size}, expected a power of two"
-    if fur["basis"]["kind"] == "ptm" and count != 6:
-        yield f"{EXTENSION}: {count} coefficients of the basis ptm, expected 6"
+    wrong = list(_basis(fur["basis"], count))
+    yield from wrong
     lists = {"environment": (fur["environment"], count), "drift": (fur["drift"], layers)}
-    if fur["basis"]["kind"] == "eigen":
+    if fur["basis"]["kind"] == "eigen" and not wrong:
         lists["basis.matrix"] = (fur["basis"]["matrix"], count)
     for i, pelt in enumerate(fur["pelts"]):
         lists |= {f"pelts[{i}].{key}": (pelt[key], count) for key in ("scale", "bias")}

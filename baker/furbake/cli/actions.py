@@ -177,6 +177,9 @@ def run_compare(args: argparse.Namespace) -> int:
     """Print a table of presets and bases, all measured anew."""
     names = args.names or preset_names()
     coats = [preset(name) for name in names]
+    if args.size is not None:
+        coats = [replace(options, size=args.size) for options in coats]
+        coats[0].check()
     rows: list[Row] = []
     with shown(names, args.quiet) as progress:
         for name, options in zip(names, coats, strict=True):

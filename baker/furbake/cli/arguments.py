@@ -118,7 +118,8 @@ def parser() -> argparse.ArgumentParser:
         "compare", actions.run_compare, "[NAME ...]", "table of presets and bases, measured anew, as Markdown"
     )
     compare.add_argument("names", metavar="NAME", nargs="*", type=_path, help="presets or .toml files (default: all)")
-    compare.add_argument("--lights", type=_lights, default=96, metavar="N", help="lights of the fit (default: 96)")
+    compare.add_argument("--lights", type=_lights, default=192, metavar="N", help="lights of the fit (default: 192)")
+    compare.add_argument("--size", type=_whole, metavar="N", help="texels per side of a slab (default: the preset's)")
     compare.add_argument("--quiet", action="store_true", help="no progress")
     return top
 

@@ -61,7 +61,7 @@ class Pelt:
     alpha, tint : (K, N, N) bytes / 255
     colour : (K, N, N, 3) sRGB bytes, the texel's original colour, or None   (paper, eq. 4)
     scale, bias : (C,) the paper's λ and Ω
-    kind, degree, matrix : the basis: "ptm", or "eigen" with (C, 27) weights of the smooth functions
+    kind, degree, matrix : the basis: "ptm", or "eigen" with (C, T) weights of the smooth functions
     environment : (C, 9) spherical harmonics of the radiance → light moments
     drift : (K, 2) mean sideways displacement of the hairs at each slab's middle, tile widths
     height : of the fur, tile widths

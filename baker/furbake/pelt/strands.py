@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import gaussian_filter, map_coordinates
-from scipy.spatial import cKDTree
+
+from furbake.pelt.tiling import nearest, scatter, settle, shuffle, spread_out, tile_noise
 
 Array = NDArray[np.float64]
 
@@ -110,18 +110,12 @@ class Strands:
     hue: Array
 
 
-TILE = np.ones(2)
-
 POINTS = 25
 """Points per hair at least."""
 
 POINTS_PER_TURN = 8
 
 MOST_POINTS = 161
-
-EVENING_ROUNDS = 12
-EVENING_GRID = 64
-"""Cells per side on which the density of the hairs' upper halves is evened out, and how many times."""
 
 FLOW_WAVES = 2
 """Changes of the lean's direction along a side of the tile."""
@@ -132,30 +126,6 @@ def points_per_hair(coat: Coat) -> int:
     bends = max(max(kind.turns * (kind.curl > 0), kind.waves * (kind.wave > 0)) for kind in (coat.guard, coat.under))
     kinks = max(kind.kinks * (kind.frizz > 0) for kind in (coat.guard, coat.under))
     return min(MOST_POINTS, max(POINTS, 1 + int(np.ceil(POINTS_PER_TURN * max(bends, kinks / 2)))))
-
-
-def scatter(count: int, rng: np.random.Generator) -> Array:
-    """Jittered points in the unit tile, (count, 2): one per cell of a grid, so that no bald spots arise."""
-    side = int(np.ceil(np.sqrt(max(count, 1))))
-    cells = np.stack(np.meshgrid(np.arange(side), np.arange(side), indexing="ij"), -1).reshape(-1, 2)
-    points: Array = (cells + rng.random((side * side, 2))) / side
-    return points[rng.permutation(side * side)[:count]]
-
-
-def tile_noise(at: Array, waves: int, rng: np.random.Generator) -> Array:
-    """Smooth periodic noise at points (S, 2) of the tile, (S,), mean 0, standard deviation 1.
-
-    A sum of plane waves whose periods fit the tile, about `waves` of them along a side.
-    """
-    steps = np.arange(-waves, waves + 1)
-    vectors = np.stack(np.meshgrid(steps, steps), -1).reshape(-1, 2)
-    length = np.linalg.norm(vectors, axis=1)
-    vectors = vectors[(length > 0.5 * waves) & (length < 1.2 * waves)]
-    size = rng.normal(0.0, 1.0, len(vectors))
-    size *= np.sqrt(2 / (size**2).sum())
-    phase = rng.uniform(0.0, 2 * np.pi, len(vectors))
-    noise: Array = np.cos(2 * np.pi * at @ vectors.T + phase) @ size
-    return noise
 
 
 def plant(coat: Coat, rng: np.random.Generator) -> Array:
@@ -247,55 +217,6 @@ def grow(coat: Coat, height: float, seed: int) -> Strands:
         tint=np.clip(column(tint) * between("fade", np.broadcast_to(s, radius.shape)), 0.0, 1.0),
         hue=column(hue) + (1 - column(hue)) * ticked,
     )
-
-
-def spread_out(points: Array, radius: Array, bend: Array, reach: float) -> Array:
-    """Hairs bent a little from where they crowd to where the skin would show, (S, P, 3) → (S, P, 3).
-
-    A pit is what the eye sees first of a tile that repeats. bend : (P,) share of a tip's displacement along the hair;
-    reach : how far crowding is felt, tile widths; tufts are smaller and stay.
-    """
-    n, points = EVENING_GRID, points.copy()
-    upper = radius * (points[..., 2] > 0.45 * points[..., 2].max())
-    for _ in range(EVENING_ROUNDS):
-        column, row = np.moveaxis(np.floor(points[..., :2] * n).astype(np.int64) % n, -1, 0)
-        density = np.bincount((row * n + column).ravel(), upper.ravel(), n * n).reshape(n, n)
-        density = gaussian_filter(density, reach * n, mode="wrap") / density.mean()
-        near_tip = points[:, int(0.8 * len(bend)), 1::-1].T * n - 0.5
-        slope = [(np.roll(density, -1, axis) - np.roll(density, 1, axis)) * n / 2 for axis in (1, 0)]
-        uphill = np.stack([map_coordinates(way, near_tip, order=1, mode="grid-wrap") for way in slope], -1)
-        points[..., :2] -= 0.5 * reach**2 * uphill[:, None] * bend[:, None]
-    return points
-
-
-def settle(centre: Array, root: Array) -> Array:
-    """Centres half-way to the middle of the roots around them: no clump is much larger than the others, (C, 2)."""
-    clump, way = nearest(root, centre)
-    many = np.maximum(np.bincount(clump, minlength=len(centre)), 1)
-    back = np.stack([np.bincount(clump, axis, len(centre)) for axis in way.T], -1) / many[:, None]
-    return np.asarray((centre - 0.5 * back) % 1.0 % 1.0)  # twice: a hair below 0 is 1 after the first
-
-
-def shuffle(centre: Array, rng: np.random.Generator) -> Array:
-    """Values 0..1, evenly spread, one per centre, (C,), that differ from those of the centres around it.
-
-    What many neighbours have in common is what the eye sees of a tile from afar: it would see the tile repeat.
-    """
-    noise = rng.random(len(centre))
-    around = min(7, len(centre))
-    if around > 1:
-        _, near = cKDTree(centre, boxsize=TILE).query(centre, k=around)
-        noise = noise - 0.8 * noise[np.asarray(near)[:, 1:]].mean(1)
-    rank: Array = (np.argsort(np.argsort(noise, kind="stable"), kind="stable") + 0.5) / len(centre)
-    return rank
-
-
-def nearest(root: Array, centre: Array) -> tuple[NDArray[np.intp], Array]:
-    """Index of each root's nearest centre in the repeating tile, (S,), and the way there, (S, 2)."""
-    tree = cKDTree(centre % 1.0, boxsize=TILE)
-    _, index = tree.query(root % 1.0)
-    way = centre[index] - root
-    return np.asarray(index), np.asarray(way - np.round(way))
 
 
 def circle(angle: Array) -> Array:

@@ -27,8 +27,8 @@ uniform vec3 environmentHigh2;
 #endif
 uniform float bodyRadius; // β, in lengths of the fur: where tips lose the light when it sinks below their horizon
 
-#ifdef BASIS_EIGEN
-#define TERMS 27 // smooth functions of the eigen basis at degree 4
+#ifdef BASIS_EIGEN // its degree
+#define TERMS ((BASIS_EIGEN + 1) * (BASIS_EIGEN + 1) + 2) // smooth functions
 uniform vec3 curvesLow[TERMS]; // weights of each smooth function in light curves 0..2 and 3..5
 uniform vec3 curvesHigh[TERMS];
 #endif
@@ -43,9 +43,9 @@ void basis(vec3 lightTS, out vec3 low, out vec3 high) {
 	float w = 1.0;
 	for (int k = 0; k < 2; k++) {
 		float ui = w;
-		for (int i = 0; i + k <= 4; i++) {
+		for (int i = 0; i + k <= BASIS_EIGEN; i++) {
 			float uivj = ui;
-			for (int j = 0; i + j + k <= 4; j++) {
+			for (int j = 0; i + j + k <= BASIS_EIGEN; j++) {
 				low += curvesLow[n] * uivj;
 				high += curvesHigh[n] * uivj;
 				n++;
