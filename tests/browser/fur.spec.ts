@@ -103,6 +103,16 @@ for (const [what, change, message] of [
 	});
 }
 
+test('a skin of several materials is one body', async ({ page }) => {
+	await openStage(page);
+	const path = 'tests/golden/eigen-3/model.gltf';
+	const gltf = JSON.parse(await readFile(`${repository}${path}`, 'utf8'));
+	gltf.materials.push({ name: 'other', pbrMetallicRoughness: { baseColorFactor: [1, 0, 0, 1] } });
+	gltf.meshes[0].primitives.push({ ...gltf.meshes[0].primitives[0], material: 1 });
+	await page.route('**/eigen-3/model.gltf', (route) => route.fulfill({ json: gltf }));
+	expect(await page.evaluate((url) => stage.refusal(url), served(path))).toBe('loaded');
+});
+
 test('of a newer version the skin alone is shown, with a warning', async ({ page, watch }) => {
 	await openStage(page);
 	const path = 'tests/golden/ptm-6/model.gltf';

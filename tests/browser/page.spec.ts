@@ -31,6 +31,17 @@ test('ui=0 leaves the picture alone', async ({ page }) => {
 	await expect(page.locator('#overlay')).toBeEmpty();
 });
 
+test('fins=0 leaves out the fins, which are one draw call', async ({ page }) => {
+	const drawn = async (query: string) => {
+		await open(page, `?model=sphere&shells=4${query}`);
+		await expect(page.locator('#overlay')).toContainText(/draw calls · \d+,\d+ triangles/);
+		return Number(/(\d+) draw calls/.exec((await page.locator('#overlay').textContent()) ?? '')?.[1]);
+	};
+	const without = await drawn('&fins=0');
+	expect(await drawn('')).toBe(without + 1);
+	expect(await drawn('&fins=1')).toBe(without + 1);
+});
+
 test('the lamp is visible, and hidden with ui=0', async ({ page }) => {
 	const at = '?model=sphere&shells=4&still=1&light=-1,0,.01&camera=0,0,1';
 	const brightest = async () => {

@@ -8,6 +8,7 @@ import {
 	FloatType,
 	HemisphereLight,
 	LightProbe,
+	type Mesh,
 	NoBlending,
 	OrthographicCamera,
 	PerspectiveCamera,
@@ -116,8 +117,9 @@ class Flat {
 		this.#scene.add(...lights);
 	}
 
-	/** Gives every vertex this value. */
-	attribute(name: string, value: number[]): void {
+	/** Gives every vertex this value, a comb's along T and B. */
+	attribute(name: string, given: number[]): void {
+		const value = name === '_comb' ? this.world(given).toArray() : given;
 		const { geometry } = this.fur.shells;
 		const { count } = geometry.getAttribute('position');
 		const values = Float32Array.from({ length: count * value.length }, (_, i) => value[i % value.length] ?? 0);
@@ -274,9 +276,9 @@ const stage = {
 		lamp.position.set(-1, 0.6, 0.6);
 		scene.add(model, lamp, new HemisphereLight(0xffffff, 0x808080, 2));
 		scene.updateMatrixWorld(true);
-		fur.skin.geometry.computeBoundingSphere();
-		const sphere = fur.skin.geometry.boundingSphere ?? new Sphere();
-		const { center, radius } = sphere.clone().applyMatrix4(fur.skin.matrixWorld);
+		const { geometry } = fur.skin as Mesh;
+		geometry.computeBoundingSphere();
+		const { center, radius } = (geometry.boundingSphere ?? new Sphere()).clone().applyMatrix4(fur.skin.matrixWorld);
 		const camera = new PerspectiveCamera(20, 1, 0.1 * radius, 20 * radius);
 		const distance = (1.25 * radius) / Math.tan((10 * Math.PI) / 180);
 		const target = new WebGLRenderTarget(size, size, { type: FloatType });

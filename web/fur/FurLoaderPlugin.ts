@@ -1,4 +1,13 @@
-import { ClampToEdgeWrapping, Color, FileLoader, LoaderUtils, Material, Mesh, type MeshStandardMaterial } from 'three';
+import {
+	ClampToEdgeWrapping,
+	Color,
+	FileLoader,
+	LoaderUtils,
+	Material,
+	Mesh,
+	type MeshStandardMaterial,
+	type Object3D,
+} from 'three';
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 import { FinMaterial } from './FinMaterial.ts';
 import { ALPHA_CUT, FurMaterial } from './FurMaterial.ts';
@@ -7,6 +16,7 @@ import { EXTENSION, type Fin, type FurAsset, type Pelt, parseFur, VERSION } from
 import type { FurTextures } from './PeltMaterial.ts';
 import { decodePlane, type Extent, mipLevels, textureArray } from './planes.ts';
 import { FurShells } from './shells.ts';
+import { furCover, shadeSkin } from './skin.ts';
 
 /** How much of the roots' colour the skin shows: it lies in the shadow of all the fur above it. */
 const SKIN_SHADE = 0.35;
@@ -18,7 +28,8 @@ export interface Fur {
 	shells: FurShells;
 	/** What makes the outline, drawn before the shells; the shells show without it, too: `fins.visible = false`. */
 	fins: FurFins | undefined;
-	skin: Mesh;
+	/** The body: a mesh, or a group of one for each material. */
+	skin: Object3D;
 	/** Frees geometry, material and textures. */
 	dispose(): void;
 }
@@ -56,13 +67,15 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		const pelt = asset.pelts[0] as Pelt;
 		const [surface, skin, textures, quads, finTextures] = await Promise.all([
 			this.#mesh(asset.shells, 'shells'),
-			this.#mesh(asset.skin, 'skin'),
+			this.#skin(asset.skin),
 			this.#peltTextures(asset, pelt),
 			asset.fins !== undefined && pelt.fin ? this.#mesh(asset.fins, 'fins') : undefined,
 			asset.fins !== undefined && pelt.fin ? this.#finTextures(pelt.fin) : undefined,
 		]);
-		const own = skin.material as MeshStandardMaterial;
-		const base = own.color ?? new Color(1, 1, 1);
+		const pieces = isMesh(skin) ? [skin] : (skin.children as Mesh[]);
+		// Shells that bring colours bring the whole of them: those of several materials, or of a picture.
+		const own = pieces[0]?.material as MeshStandardMaterial | undefined;
+		const base = (!surface.geometry.hasAttribute('color') && own?.color) || new Color(1, 1, 1);
 		const material = new FurMaterial(asset, textures, { skinColour: base.clone() });
 		const fins =
 			pelt.fin && quads && finTextures
@@ -71,9 +84,11 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		const shells = new FurShells(surface.geometry, surface, asset, material);
 		if (fins && quads) fins.join(shells, quads);
 
-		const dark = own.clone();
-		dark.color?.copy(base).multiply(new Color(...asset.ramp.root).multiplyScalar(SKIN_SHADE));
-		skin.material = dark;
+		const shade = new Color(...asset.ramp.root).multiplyScalar(SKIN_SHADE);
+		const together = skin.matrix.equals(surface.matrix);
+		const worn = pieces.map((piece) =>
+			shadeSkin(piece, shade, together ? furCover(piece.geometry, surface.geometry) : undefined),
+		);
 		for (const part of [fins, shells]) if (part) skin.parent?.add(part);
 
 		return {
@@ -87,23 +102,34 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 					part?.dispose();
 					part?.material.dispose();
 				}
-				dark.dispose();
-				skin.geometry.dispose();
+				for (const dark of worn) dark.dispose();
+				for (const piece of pieces) piece.geometry.dispose();
 				for (const texture of Object.values({ ...textures })) texture?.dispose();
 				for (const texture of Object.values({ ...finTextures })) texture?.dispose();
 			},
 		};
 	}
 
-	/** The node's mesh; that of shells or fins has to have what their shaders can't do without. */
-	async #mesh(node: number, role: 'skin' | 'shells' | 'fins'): Promise<Mesh> {
-		const object = this.#parser.json.nodes?.[node] && (await this.#parser.getDependency('node', node));
-		if (!(object instanceof Mesh) || !(object.material instanceof Material)) {
-			throw new Error(`${EXTENSION}/${role}: node ${node} is no mesh with one primitive`);
-		}
-		for (const name of role === 'skin' ? [] : ['normal', 'tangent', 'uv']) {
+	/** The node's mesh, with what the shaders of shells and fins can't do without. */
+	async #mesh(node: number, role: 'shells' | 'fins'): Promise<Mesh> {
+		const object = await this.#node(node);
+		if (!isMesh(object)) throw new Error(`${EXTENSION}/${role}: node ${node} is no mesh with one primitive`);
+		for (const name of ['normal', 'tangent', 'uv']) {
 			if (!object.geometry.hasAttribute(name)) throw new Error(`${EXTENSION}/${role}: the mesh has no ${name}s`);
 		}
+		return object;
+	}
+
+	async #skin(node: number): Promise<Object3D> {
+		const object = await this.#node(node);
+		const meshes = object && (isMesh(object) || (object.children.length > 0 && object.children.every(isMesh)));
+		if (!meshes) throw new Error(`${EXTENSION}/skin: node ${node} is no mesh`);
+		return object;
+	}
+
+	async #node(node: number): Promise<Object3D | undefined> {
+		const object = this.#parser.json.nodes?.[node] && (await this.#parser.getDependency('node', node));
+		object?.updateMatrix();
 		return object;
 	}
 
@@ -166,4 +192,8 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 			throw new Error(`${definition.uri}: could not be loaded (${(error as Error).message})`);
 		}
 	}
+}
+
+function isMesh(object: Object3D | undefined): object is Mesh {
+	return object instanceof Mesh && object.material instanceof Material;
 }

@@ -90,7 +90,7 @@ export class PeltMaterial extends ShaderMaterial {
 		Object.assign(this.defaultAttributeValues, {
 			color: [1, 1, 1, 1],
 			_fur: [1, 1, 1, 0],
-			_comb: [0, 0],
+			_comb: [0, 0, 0],
 			_edge: [0, 0, 0, 0],
 		});
 		for (const name of mirrored) {

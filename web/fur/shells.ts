@@ -7,6 +7,7 @@ import {
 	Sphere,
 	Vector3,
 } from 'three';
+import { sharedComb } from './comb.ts';
 import type { FurMaterial } from './FurMaterial.ts';
 import type { FurAsset } from './format.ts';
 
@@ -58,6 +59,8 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 		geometry.setIndex(surface.index);
 		for (const [name, attribute] of Object.entries(surface.attributes)) geometry.setAttribute(name, attribute);
 		super(geometry, material);
+		const comb = sharedComb(surface);
+		if (comb) geometry.setAttribute('_comb', comb);
 		geometry.setAttribute('shell', this.#parameters);
 		this.name = 'fur';
 		this.#asset = asset;

@@ -44,6 +44,7 @@ void main() {
 	vec4 pointVS = modelViewMatrix * vec4(furPoint(position, n, comb, _fur.y * finLength, s), 1.0);
 	gl_Position = projectionMatrix * pointVS;
 	vLampLow = vLampHigh = vSkyLow = vSkyHigh = mat3(0.0);
+	vRoot = vTip = vec3(0.0);
 	if (vFade > 0.0) {
 		mat3 frameVS = turn * furBend(n, comb, s) * frame;
 		Moments lamps = lampMoments(frameVS, pointVS.xyz, s);
@@ -52,7 +53,7 @@ void main() {
 		vLampHigh = lamps.high;
 		vSkyLow = sky.low * _fur.z;
 		vSkyHigh = sky.high * _fur.z;
+		vRoot = furColour(color.rgb, _fur.w, 0.0);
+		vTip = furColour(color.rgb, _fur.w, 1.0);
 	}
-	vRoot = furColour(color.rgb, _fur.w, 0.0);
-	vTip = furColour(color.rgb, _fur.w, 1.0);
 }

@@ -1,7 +1,7 @@
 in vec4 tangent;
 in vec4 color; // of the skin, linear
 in vec4 _fur; // X = lapped weight, Y = share of the longest fur, Z = openness to the sky, W = from tip to tip2, all 0..1
-in vec2 _comb; // displacement of the tip along T and B, share of the length
+in vec3 _comb; // displacement of the tip in the tangent plane, share of the length, the mesh's own axes
 in vec4 shell; // per instance: X = s of the shell, Y = slab it shows, ZW = shear of the look-up, tile widths
 
 uniform float tiles; // texture coordinates → tiles
@@ -22,10 +22,9 @@ void main() {
 	vec3 n = normalize(normal);
 	vec3 t = normalize(tangent.xyz - n * dot(n, tangent.xyz));
 	mat3 frame = mat3(t, tangent.w * cross(n, t), n);
-	vec3 comb = frame * vec3(_comb, 0.0);
-	vec4 pointVS = modelViewMatrix * vec4(furPoint(position, n, comb, _fur.y, s), 1.0);
+	vec4 pointVS = modelViewMatrix * vec4(furPoint(position, n, _comb, _fur.y, s), 1.0);
 	mat3 turn = mat3(modelViewMatrix) / length(modelViewMatrix[0].xyz);
-	mat3 frameVS = turn * furBend(n, comb, s) * frame;
+	mat3 frameVS = turn * furBend(n, _comb, s) * frame;
 
 	Moments lamps = lampMoments(frameVS, pointVS.xyz, s);
 	Moments sky = environmentMoments(frameVS);
