@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext, suppress
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field, replace
-from importlib.metadata import PackageNotFoundError, version
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -17,6 +16,8 @@ from numpy.typing import NDArray
 
 from furbake.asset.gltf import write_gltf
 from furbake.asset.store import atomic_file, atomic_folder
+from furbake.body import prepare
+from furbake.identity import bake_key, describe_input, library_versions
 from furbake.options import BakeOptions
 from furbake.pelt import basis as bases
 from furbake.pelt.basis import Basis, environment
@@ -28,15 +29,8 @@ from furbake.pelt.quantise import byte_range, dequantise, quantise, srgb_bytes, 
 from furbake.pelt.strands import Strands, grow
 from furbake.pelt.transport import LOWEST, LOWEST_FLAT, hemisphere, sample
 from furbake.pelt.volume import Volume, coarsen, fine_shape, voxelise
-from furbake.surface.charts import laid
-from furbake.surface.coat import VertexFur
 from furbake.surface.fins import build_fins
-from furbake.surface.mesh import Surface, load_mesh
-from furbake.surface.projection import project
-from furbake.surface.shapes import builtin, is_builtin
-from furbake.surface.thickness import length_by_thickness
 
-LIBRARIES = ("numpy", "scipy", "OpenImageIO", "trimesh", "embreex", "DracoPy")
 STAGES = ("mesh", "strands", "volume", "light", "fit", "fins", "write")
 
 FIN_LIGHTS, FIN_HELD_OUT = 64, 16
@@ -50,11 +44,12 @@ Single = NDArray[np.float32]
 
 @dataclass(frozen=True)
 class BakeResult:
-    """Where the asset is, what `bake.json` says, and the seconds of every stage (which are not stored)."""
+    """Where the asset is, what `bake.json` says, and what is not stored: seconds of every stage, what was repaired."""
 
     folder: Path
     record: dict[str, Any]
     seconds: dict[str, float]
+    notices: tuple[str, ...] = ()
 
 
 @dataclass
@@ -106,13 +101,8 @@ def bake(
     clock = _Clock(progress)
     with atomic_folder(out, force) as folder, atomic_file(samples) if samples else nullcontext() as archive:
         with clock.stage("mesh"):
-            surface = load_surface(model)
-            tile, length = options.dimensions(surface.extent)
-            charts = project(surface, tile, options.guide)
-            fur = VertexFur.even(len(surface.vertices))
-            if options.length_by_thickness:
-                fur = replace(fur, lengths=length_by_thickness(surface))
-        height = length / tile
+            body = prepare(model, options)
+        height = body.length / body.tile
         with clock.stage("strands"):
             strands = grow(options.coat, height, options.seed)
         with clock.stage("volume"):
@@ -125,8 +115,8 @@ def bake(
         with clock.stage("fins"):
             fins = None
             if options.fins:
-                direction, lean = laid(charts, surface.normals), float(volume.drift[-1, 1])
-                fins = build_fins(surface, direction, tile, lean, options.seed, length)
+                lean = float(volume.drift[-1, 1])
+                fins = build_fins(body.ground, body.direction, body.tile, lean, options.seed, body.length)
             if fins is not None and len(fins.faces):
                 fin, figures["fin"] = fit_side(strands, fine, options)
                 pelt = replace(pelt, fin=fin)
@@ -137,20 +127,16 @@ def bake(
                 "furbake": version("furbake"),
                 "libraries": library_versions(),
                 "options": options.as_record(),
-                "input": describe_input(model, surface),
+                "input": describe_input(model, body.skin),
                 "key": bake_key(model, options),
                 "fit": figures,
             }
-            record["asset"] = write_gltf(folder, surface, charts, fur, pelt, length, fins)
+            base = None if body.ground is body.skin else body.ground
+            record["asset"] = write_gltf(folder, body.skin, body.charts, body.fur, pelt, body.length, fins, base)
             (folder / "bake.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
             if archive is not None:
                 write_samples(archive, volume, lighting, strands)
-    return BakeResult(out, record, clock.seconds)
-
-
-def load_surface(model: str) -> Surface:
-    """A built-in shape by its name, else the mesh in a file."""
-    return builtin(model) if is_builtin(model) else load_mesh(Path(model))
+    return BakeResult(out, record, clock.seconds, body.skin.notices)
 
 
 def light(
@@ -250,34 +236,3 @@ def write_samples(archive: BinaryIO, volume: Volume, lighting: Lighting, strands
         strands=strands.points,
         radius=strands.radius,
     )
-
-
-def library_versions() -> dict[str, str]:
-    """Versions of the libraries that the result depends on, of those that are there."""
-    versions = {}
-    for name in LIBRARIES:
-        with suppress(PackageNotFoundError):
-            versions[name] = version(name)
-    return versions
-
-
-def describe_input(model: str, surface: Surface) -> dict[str, Any]:
-    """Name, hash and size of what was baked."""
-    return {
-        "name": Path(model).name,
-        "sha256": input_hash(model),
-        "vertices": len(surface.vertices),
-        "faces": len(surface.faces),
-    }
-
-
-def input_hash(model: str) -> str:
-    """SHA-256 of the file, or of the built-in shape's name."""
-    data = model.encode() if is_builtin(model) else Path(model).read_bytes()
-    return hashlib.sha256(data).hexdigest()
-
-
-def bake_key(model: str, options: BakeOptions) -> str:
-    """SHA-256 of everything that decides the result: version, options, input. A differing key means a stale asset."""
-    parts = {"furbake": version("furbake"), "options": options.as_record(), "input": input_hash(model)}
-    return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()

@@ -125,7 +125,12 @@ BAKE = {
     "tile_share": _number(0.001, 10),
     "colour_plane": Knob("switch"),
     "guide": Knob("word", words=("nose-tail", "down")),
+    "sweep": _number(0, 0.8),
+    "uv": Knob("word", words=("lapped", "own")),
     "length_by_thickness": Knob("switch"),
+    "length_noise": _number(0, 0.9),
+    "tip_noise": _number(0, 1),
+    "belly": _number(0, 1),
     "fins": Knob("switch"),
     "seed": _whole(0, 2**63 - 1),
 }

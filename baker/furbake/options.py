@@ -19,6 +19,10 @@ __all__ = ["BakeOptions", "OptionError", "as_toml", "override", "preset", "prese
 
 BasisKind = Literal["ptm", "eigen"]
 Guide = Literal["nose-tail", "down"]
+Uv = Literal["lapped", "own"]
+
+FILES = ("length_map", "mask", "comb", "features")
+"""Options that name files."""
 
 
 @dataclass(frozen=True)
@@ -50,8 +54,28 @@ class BakeOptions:
     """A flat patch under a point at infinity: for checks against other renderers."""
     guide: Guide = "nose-tail"
     """Direction in which the fur is laid."""
+    sweep: float = 0.0
+    """How far shells bend along the fur's direction, share of its length, 0 to 0.8, besides the lean in the tile."""
+    uv: Uv = "lapped"
+    """Lapped patches along the fur, or the model's own texture coordinates."""
     length_by_thickness: bool = False
     """Shorter fur where the body is thin (ears, feet)."""
+    length_noise: float = 0.0
+    """How much shorter fur may be from place to place, 0 to 0.9."""
+    tip_noise: float = 0.0
+    """How far tips turn to the ramp's second tip colour from place to place, 0 to 1."""
+    belly: float = 0.0
+    """How far they turn to it on the underside, 0 to 1."""
+    max_faces: int = 60_000
+    """Faces above which a model is simplified, 4 to 2 000 000."""
+    length_map: str | None = None
+    """PNG over the model's texture coordinates: white is full length, black none."""
+    mask: str | None = None
+    """The same for where fur grows: black is bare skin."""
+    comb: str | None = None
+    """JSON file of strokes along which the fur is laid."""
+    features: str | None = None
+    """JSON file of eyes, a nose and the like."""
     fins: bool = True
     """Quads on the edges that show the fur from the side, where shells are seen edge-on."""
     coat: Coat = field(default_factory=Coat)
@@ -73,6 +97,7 @@ class BakeOptions:
             raise OptionError(
                 f"coefficients: got {self.coefficients}, expected 6 for the basis ptm (eigen takes 3 to 6)"
             )
+        knobs.within("max-faces", self.max_faces, 4, 2_000_000)
         for name, length in (("length", self.length), ("tile", self.tile)):
             if length is not None and not (math.isfinite(length) and length > 0):
                 raise OptionError(f"{name}: got {length:g}, expected a length above 0")

@@ -145,14 +145,13 @@ BAD_COMMANDS = {
     ("bake", "plane", "-o", "out", "--layers"): "layers: got nothing, expected a value",
     ("bake", "plane", "-o", "out", "--basis", "fft"): "basis: got 'fft', expected ptm or eigen",
     ("bake", "plane", "-o", "out", "--coefficients", "4"): "coefficients: got 4, expected 6 for the basis ptm",
-    (
-        "bake",
-        "plane",
-        "-o",
-        "out",
-        "--guide",
-        "comb.json",
-    ): "guide: got 'comb.json', expected nose-tail or down (a file",
+    ("bake", "plane", "-o", "out", "--guide", "comb.json"): "comb.json: no such file or directory, expected {",
+    ("bake", "plane", "-o", "out", "--guide", "aside"): "guide: got 'aside', expected nose-tail, down or a .json",
+    ("bake", "plane", "-o", "out", "--comb", "text.obj"): "text.obj: JSONDecodeError: ",
+    ("bake", "plane", "-o", "out", "--uv", "round"): "uv: got 'round', expected lapped or own",
+    ("bake", "plane", "-o", "out", "--max-faces", "2"): "max-faces: got 2, expected 4 to 2000000",
+    ("bake", "plane", "-o", "out", "--mask", "none.png"): "none.png: ",
+    ("bake", "good.obj", "-o", "out", "--uv", "own"): "good.obj: the model has no texture coordinates, expected",
     ("bake", "plane", "-o", "out", "--preset", "nope"): "preset: got 'nope', expected one of ",
     ("bake", "plane", "-o", "out", "--lay", "8"): "--lay 8: unknown, expected arguments of",
     (
@@ -220,6 +219,7 @@ def test_bad_input_is_one_line(run: Callable[..., Any], here: Path, command: tup
     Path("empty.obj").touch()
     Path("bad.toml").write_text("[coat.guard]\ncout = 3\n")
     Path("huge.toml").write_text("coat.guard.count = 20000\ncoat.under.count = 20000\n")
+    Path("good.obj").write_text(CUBE)
     Path("text.obj").write_text("Dear diary,\nno triangles today.\n")
     Path("points.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\n")
     Path("nan.obj").write_text(CUBE.replace("v 1", "v nan"))

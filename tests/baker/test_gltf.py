@@ -18,18 +18,26 @@ from furbake.asset.read import Asset, AssetError, inside, read_asset
 from furbake.asset.validate import schema
 from furbake.asset.vertices import grid, quantise_positions, quantise_weights, settle, signed
 from furbake.pelt.pelt import Pelt
+from furbake.surface.charts import Charts
 from furbake.surface.coat import FARTHEST, VertexFur
+from furbake.surface.field import comb_field
 from furbake.surface.fins import build_fins
-from furbake.surface.projection import project
+from furbake.surface.lapped import lap
+from furbake.surface.mesh import Surface
+from furbake.surface.own import own_charts
 from furbake.surface.shapes import builtin
 from furbake.surface.thickness import length_by_thickness
+
+
+def lapped(surface: Surface) -> Charts:
+    return lap(surface, comb_field(surface).direction, 0.2)
 
 
 @pytest.fixture
 def write(tmp_path: Path, make_pelt: Callable[..., Pelt]) -> Callable[..., Any]:
     def build(name: str = "sphere", fur: Any = None, pelt: Any = None, surface: Any = None, **rest: Any) -> Any:
         surface = surface or builtin(name)
-        charts = project(rest.get("base", surface), 0.2)
+        charts = rest.pop("charts", None) or lapped(rest.get("base", surface))
         folder = tmp_path / "asset"
         folder.mkdir(exist_ok=True)
         fur = fur or VertexFur.even(len(rest.get("base", surface).vertices))
@@ -89,7 +97,7 @@ def test_combs_come_back_in_each_copys_frame(write: Callable[..., Any]) -> None:
 
 
 def test_patches_move_by_whole_tiles_to_where_coordinates_are_small() -> None:
-    charts = project(builtin("sphere"), 0.2)
+    charts = lapped(builtin("sphere"))
     uv = settle(charts)
     moved = uv - charts.uv
     np.testing.assert_allclose(moved, np.rint(moved), atol=1e-9)
@@ -134,7 +142,7 @@ def test_fur_may_stand_on_a_simpler_copy_of_the_skin(write: Callable[..., Any]) 
     node = asset.document["nodes"][1]
     assert node["scale"] == asset.document["nodes"][0]["scale"]
     back = np.array(node["translation"]) + np.array(node["scale"]) * attribute(asset, 1, "POSITION") / 65535
-    charts = project(base, 0.2)
+    charts = lapped(base)
     assert np.abs(back - base.vertices[charts.source]).max() <= skin.extent / 65535 / 2 * 1.001
     assert "COLOR_0" not in asset.primitive(0)["attributes"]  # its vertices are others
 
@@ -181,7 +189,8 @@ def test_signed_bytes_leave_out_minus_128() -> None:
 
 
 def test_trivial_attributes_are_left_out(write: Callable[..., Any]) -> None:
-    asset, *_ = write("torus:8x12")
+    torus = builtin("torus:8x12")
+    asset, *_ = write(surface=torus, charts=own_charts(torus, 0.2, "torus"))
     assert set(asset.primitive(1)["attributes"]) == {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0"}
     asset, *_ = write("sphere")
     assert set(asset.primitive(1)["attributes"]) == {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "_FUR"}
@@ -266,7 +275,7 @@ def test_same_input_same_bytes(tmp_path: Path, make_pelt: Callable[..., Pelt]) -
     for name in ("a", "b"):
         (tmp_path / name).mkdir()
         fins = build_fins(surface, np.roll(surface.normals, 1, axis=1), 0.2)
-        write_gltf(tmp_path / name, surface, project(surface, 0.2), fur, make_pelt(), 0.1, fins)
+        write_gltf(tmp_path / name, surface, lapped(surface), fur, make_pelt(), 0.1, fins)
     for file in (tmp_path / "a").iterdir():
         assert file.read_bytes() == (tmp_path / "b" / file.name).read_bytes()
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from furbake.knobs import KNOBS
-from furbake.options import BakeOptions, OptionError, as_toml, override, preset, preset_names, preset_summary
+from furbake.options import FILES, BakeOptions, OptionError, as_toml, override, preset, preset_names, preset_summary
 from furbake.pelt.pelt import Ramp
 from furbake.pelt.strands import Coat, Hairs
 
@@ -73,7 +73,7 @@ def test_every_knob_of_the_options_can_be_set() -> None:
             for name in (names(value, f"{prefix}{key}.") if isinstance(value, dict) else {prefix + key})
         }
 
-    only_for_one_bake = {"preset", "length", "tile", "flat", "height_share"}
+    only_for_one_bake = {"preset", "length", "tile", "flat", "height_share", "max_faces", *FILES}
     assert set(KNOBS) == names(BakeOptions().as_record()) - only_for_one_bake
 
 

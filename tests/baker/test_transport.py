@@ -44,7 +44,7 @@ def test_optical_depth_equals_brute_force(elevation: float, azimuth: float) -> N
     volume = voxelise(grow(Coat(), 0.6, 0), 0.6, 8, 32, 2.2)
     e, a = np.radians([elevation, azimuth])
     light = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
-    above, _ = OpticalDepth(volume.sigma, volume.slab)(light)
+    above = OpticalDepth(volume.sigma, volume.slab).above(light)
     error = np.exp(-above) - np.exp(-march(volume.sigma, volume.slab, light))
     assert np.sqrt((error**2).mean()) <= 0.002
 
@@ -52,7 +52,8 @@ def test_optical_depth_equals_brute_force(elevation: float, azimuth: float) -> N
 def test_own_slab_is_crossed_from_floor_to_ceiling() -> None:
     sigma = np.full((3, 16, 16), 4.0)
     light = np.array([0.6, 0.0, 0.8])
-    above, own = OpticalDepth(sigma, 0.1)(light)
+    depth = OpticalDepth(sigma, 0.1)
+    above, own = depth.above(light), depth.own(light)
     np.testing.assert_allclose(own, 4 * 0.1 / 0.8, rtol=1e-5)
     np.testing.assert_allclose(above[0], 2 * 4 * 0.1 / 0.8, rtol=1e-5)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 import time
 from dataclasses import replace
 from functools import partial
@@ -14,9 +15,10 @@ from typing import Any
 from furbake.asset.inspect import summary
 from furbake.asset.read import AssetError, read_asset
 from furbake.asset.validate import validate
-from furbake.bake import STAGES, bake, bake_key
+from furbake.bake import STAGES, bake
 from furbake.cli.progress import shown
 from furbake.compare import Row, compare, markdown
+from furbake.identity import bake_key
 from furbake.options import BakeOptions, OptionError, as_toml, override, preset, preset_names, preset_summary
 from furbake.report import STAGES as REPORT_STAGES
 from furbake.report import write as write_report
@@ -25,8 +27,7 @@ from furbake.verify import lines, verify
 
 GIVEN = (
     "layers", "size", "lights", "basis", "coefficients", "length", "tile", "height", "seed", "flat", "guide",
-    "length_by_thickness",
-    "fins",
+    "length_by_thickness", "fins", "uv", "max_faces", "length_map", "mask", "comb", "features",
 )  # fmt: skip
 """Options of the command that are options of the bake; one that is not given is the preset's."""
 
@@ -43,6 +44,8 @@ def chosen(args: argparse.Namespace) -> BakeOptions:
     except OptionError as error:
         raise OptionError(f"set: {error}") from None
     options = replace(options, **{name: getattr(args, name) for name in GIVEN if hasattr(args, name)})
+    if options.guide.endswith(".json"):  # strokes, and where there are none from nose to tail
+        options = replace(options, guide=BakeOptions.guide, comb=options.comb or options.guide)
     options.check()
     return options
 
@@ -61,6 +64,9 @@ def run_bake(args: argparse.Namespace) -> int:
     start = time.perf_counter()
     with shown(STAGES, args.quiet) as progress:
         result = bake(args.model, out, options, force=args.force or args.if_stale, samples=samples, progress=progress)
+    if not args.quiet:
+        for notice in result.notices:
+            print(f"furbake: note: {notice}", file=sys.stderr)
     if args.json:
         print(json.dumps({"folder": str(out), "baked": True, "seconds": result.seconds, **result.record}))
     elif not args.quiet:

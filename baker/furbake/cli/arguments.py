@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import re
 from importlib.metadata import version
-from pathlib import Path
 from typing import Any, NoReturn
 
 from furbake.cli import actions
@@ -72,9 +71,8 @@ def _direction(text: str) -> tuple[float, float, float]:
 
 
 def _guide(text: str) -> str:
-    if text not in ("nose-tail", "down"):
-        hint = " (a file of strokes is not supported yet)" if Path(text).suffix else ""
-        raise argparse.ArgumentTypeError(f"got {text!r}, expected nose-tail or down{hint}")
+    if text not in ("nose-tail", "down") and not text.endswith(".json"):
+        raise argparse.ArgumentTypeError(f"got {text!r}, expected nose-tail, down or a .json file of strokes")
     return text
 
 
@@ -139,7 +137,13 @@ def _bake_arguments(parser: _Parser) -> None:
     add("--tile", type=_number, default=unset, metavar="W", help="width of a tile, the model's own units")
     add("--height", type=_number, default=unset, metavar="H", help="longest fur in tile widths: length / tile")
     add("--seed", type=_whole, default=unset, metavar="S", help="of all chance")
-    add("--guide", type=_guide, default=unset, metavar="nose-tail|down", help="where the fur is laid")
+    add("--guide", type=_guide, default=unset, metavar="nose-tail|down|FILE.json", help="where the fur is laid")
+    add("--comb", type=_path, default=unset, metavar="FILE.json", help="strokes along which it is combed, besides")
+    add("--uv", default=unset, metavar="lapped|own", help="lapped patches (default), or the model's own coordinates")
+    add("--max-faces", type=_whole, default=unset, metavar="F", help="simplify larger models (default: 60000)")
+    add("--length-map", type=_path, default=unset, metavar="FILE.png", help="picture on the model: black is no length")
+    add("--mask", type=_path, default=unset, metavar="FILE.png", help="picture on the model: black is bare skin")
+    add("--features", type=_path, default=unset, metavar="FILE.json", help="eyes, a nose and the like")
     add("--length-by-thickness", action="store_true", default=unset, help="shorter fur where the body is thin")
     add("--no-fins", dest="fins", action="store_false", default=unset, help="no quads on the edges")
     add("--flat", action="store_true", default=unset, help="a flat patch under a point at infinity, for checks")

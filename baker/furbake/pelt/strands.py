@@ -20,11 +20,11 @@ Array = NDArray[np.float64]
 class Hairs:
     """One kind of hair. Lengths are fractions of the fur's height, radii and displacements tile widths."""
 
-    count: int = 330
+    count: int = 214
     """Hairs per tile, 0 to 20 000."""
     length: tuple[float, float] = (0.8, 1.0)
     """Shortest and longest hair, 0.05 to 1."""
-    radius: tuple[float, float] = (0.011, 0.004)
+    radius: tuple[float, float] = (0.0132, 0.0048)
     """Radius at the root and at the tip, 0.0001 to 0.1."""
     curl: float = 0.01
     """Radius of the helix that the tip describes, 0 to 0.5."""
@@ -67,7 +67,7 @@ class Coat:
     """A whole coat: what grows, how it leans together, how hairs differ in shade and hue."""
 
     guard: Hairs = Hairs()
-    under: Hairs = Hairs(count=400, length=(0.4, 0.7), radius=(0.009, 0.003), curl=0.02, stray=0.08, clump=0.3)
+    under: Hairs = Hairs(count=260, length=(0.4, 0.7), radius=(0.0108, 0.0036), curl=0.02, stray=0.08, clump=0.3)
     lean: tuple[float, float] = (0.0, 0.34)
     """Mean displacement of the longest tips along u and v, tile widths, -2 to 2."""
     bend: float = 1.7

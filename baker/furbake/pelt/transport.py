@@ -86,22 +86,32 @@ class OpticalDepth:
                 weights += np.bincount((row + down) % n * n + (column + right) % n, wx * wy, n * n)
         return (weights * ((end - start) / count)).reshape(n, n).astype(np.float32)
 
-    def __call__(self, light: Array) -> tuple[Single, Single]:
-        """Optical depth of all slabs above, and of the voxel's own slab from its floor to its ceiling, each (K, N, N).
+    def above(self, light: Array) -> Single:
+        """Optical depth of all slabs above the voxel's own, (K, N, N).
 
         The ray passes through the middle of the voxel. lz of `light` may be the effective one of a curved body.
         """
-        lz = max(float(light[2]), 1e-3)
-        shift = light[:2] / lz * self.slab * self.size
-        path = self.slab / lz
-        segments = [self._segment(shift, m - 0.5, m + 0.5) for m in range(self.layers)]
-        kernels = scipy.fft.rfft2(np.stack(segments))
+        shift, path = self._way(light)
+        segments = [self._segment(shift, m - 0.5, m + 0.5) for m in range(1, self.layers)]
+        kernels = scipy.fft.rfft2(np.stack(segments)) if segments else self.spectrum[:0]
         above = np.zeros_like(self.spectrum)
         for k in range(self.layers - 1):
-            above[k] = np.einsum("jyx,jyx->yx", self.spectrum[k + 1 :], kernels[1 : self.layers - k])
-        shape = (self.size, self.size)
-        own = scipy.fft.irfft2(self.spectrum * kernels[0], s=shape) * path
-        return np.maximum(scipy.fft.irfft2(above, s=shape) * path, 0), np.maximum(own, 0)
+            above[k] = np.einsum("jyx,jyx->yx", self.spectrum[k + 1 :], kernels[: self.layers - 1 - k])
+        return self._in_space(above, path)
+
+    def own(self, light: Array) -> Single:
+        """Optical depth of the voxel's own slab from its floor to its ceiling, (K, N, N), on the same ray."""
+        shift, path = self._way(light)
+        return self._in_space(self.spectrum * scipy.fft.rfft2(self._segment(shift, -0.5, 0.5)), path)
+
+    def _way(self, light: Array) -> tuple[Array, float]:
+        """How far the ray moves aside in a slab, voxels, and its length there, tile widths."""
+        lz = max(float(light[2]), 1e-3)
+        return light[:2] / lz * self.slab * self.size, self.slab / lz
+
+    def _in_space(self, spectrum: NDArray[np.complexfloating], path: float) -> Single:
+        depth: Single = np.maximum(scipy.fft.irfft2(spectrum, s=(self.size, self.size)) * np.float32(path), 0)
+        return depth
 
 
 def passing(depth: Single) -> Single:
@@ -178,24 +188,28 @@ class _Beam:
 
         T is taken at the ceiling of a voxel's slab: how a hair shades itself is in D. A hair that the light runs along
         catches less of it and shades less: its σ counts times the sine between the two. D and that sine are those of
-        the lamp's middle; its rays are averaged in what they pass through.
+        the lamp's middle, and so is the path through the voxel's own slab; its rays are averaged in what they pass
+        through above.
         """
         width = sine(self.tangent, light)
         depth = OpticalDepth(self.sigma * width, self.slab)
         rays = light[None] if self.flat else lamp_cone(light, float(number))
-        passed, hairs = np.zeros_like(self.sigma), np.zeros_like(self.sigma)
+        passed = np.zeros_like(self.sigma)
         skin = np.zeros_like(self.sigma[0])
+        own = depth.own(self.way_in(light))
         for ray in rays:
-            elevation = float(ray[2]) if self.flat else curved_elevation(float(ray[2]))
-            above, own = depth(np.array([ray[0], ray[1], elevation]))
-            clear = np.exp(-above)
+            clear = np.exp(-depth.above(self.way_in(ray)))
             passed += clear
-            hairs += clear * passing(own)
             skin += clear[0] * np.exp(-own[0]) * np.float32(ray[2])
+        hairs = passed * passing(own)
         share = np.float32(1 / len(rays))
         single = average_down(passed * share * cylinder(self.tangent, light), self.shares, self.size)
         lit = hairs * (share * self.sigma)
         return single, self.stored(lit * width) / self.hair, self.stored(lit) / self.hair, pool(skin * share, self.half)
+
+    def way_in(self, light: Array) -> Array:
+        """The direction in which light crosses the slabs."""
+        return light if self.flat else np.array([light[0], light[1], curved_elevation(float(light[2]))])
 
     def stored(self, fine: Single) -> Single:
         """Means over blocks of fine voxels, to stored slabs at half the stored resolution."""

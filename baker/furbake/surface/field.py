@@ -14,8 +14,8 @@ from scipy.sparse import coo_array, csr_array
 from scipy.spatial import cKDTree
 
 from furbake.surface.charts import Floats, Ints
+from furbake.surface.guide import SINK, Guide, nose
 from furbake.surface.mesh import Surface
-from furbake.surface.projection import SINK, Guide, nose
 from furbake.surface.sheet import Complex, cotangents, flattened, frames, transport
 from furbake.surface.topology import face_vectors, unit
 

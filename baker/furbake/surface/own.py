@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from furbake.surface.charts import Charts
+from furbake.surface.guide import AXES, frames
 from furbake.surface.mesh import MeshError, Surface
-from furbake.surface.projection import AXES, frames
 from furbake.surface.seams import SAME, islands, unique_rows
 from furbake.surface.soup import Flags, Floats, Ints, Soup
 from furbake.surface.topology import face_vectors, unit

@@ -51,7 +51,7 @@ def builtin(name: str) -> Surface:
 
 
 def sphere() -> Surface:
-    """Ball of radius 1. A subdivided icosahedron: no poles, so its fur comes from projection."""
+    """Ball of radius 1. A subdivided icosahedron: no poles, and no texture coordinates of its own."""
     ball = trimesh.creation.icosphere(subdivisions=SUBDIVISIONS)
     vertices = np.asarray(ball.vertices, dtype=np.float64)
     return Surface(vertices, np.asarray(ball.faces, dtype=np.int64), unit(vertices))

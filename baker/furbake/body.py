@@ -1,0 +1,142 @@
+"""What the fur stands on: a model read, its fur laid, and what the fur is like from place to place."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from furbake.asset.planes import PlaneError, read_png
+from furbake.options import BakeOptions
+from furbake.surface.charts import Charts, laid
+from furbake.surface.coat import VertexFur
+from furbake.surface.field import Stroke, comb_field
+from furbake.surface.lapped import lap
+from furbake.surface.mesh import MeshError, Surface, load_mesh, simplify
+from furbake.surface.occlusion import openness
+from furbake.surface.own import own_charts
+from furbake.surface.paint import brought, uncover, vertex_map
+from furbake.surface.shapes import builtin, is_builtin
+from furbake.surface.simplify import shell_faces
+from furbake.surface.thickness import length_by_thickness
+from furbake.surface.variation import noise, underside
+
+Floats = NDArray[np.float64]
+
+ROOM = 8e6
+"""Bytes that shells and fins may take; larger models carry them on a simplified copy."""
+
+MOST_STROKES = 1000
+
+
+@dataclass(frozen=True)
+class Body:
+    """A model with its fur laid.
+
+    skin : the surface as it is shown
+    ground : what shells and fins stand on: the skin, or a simpler copy of it without its bare parts
+    charts, fur : of the ground
+    direction : (V, 3) unit tangents of the ground along which the fur is laid
+    tile, length : width of a tile and longest fur, model units
+    """
+
+    skin: Surface
+    ground: Surface
+    charts: Charts
+    fur: VertexFur
+    direction: Floats
+    tile: float
+    length: float
+
+
+def load_surface(model: str, max_faces: int | None = None) -> Surface:
+    """A built-in shape by its name, else the mesh in a file."""
+    if is_builtin(model):
+        return builtin(model)
+    return load_mesh(Path(model)) if max_faces is None else load_mesh(Path(model), max_faces)
+
+
+def prepare(model: str, options: BakeOptions) -> Body:
+    """Read `model` and lay its fur. Raises MeshError or OptionError, each with one sentence."""
+    skin = load_surface(model, options.max_faces)
+    tile, length = options.dimensions(skin.extent)
+    ground = simplify(skin, shell_faces(ROOM))
+    lengths = np.ones(len(ground.vertices))
+    maps = brought(ground)
+    if options.length_map is not None:
+        maps["length"] = painted(ground, options.length_map)
+    if options.mask is not None:
+        maps["mask"] = painted(ground, options.mask)
+    if options.length_by_thickness:
+        lengths = lengths * length_by_thickness(ground)
+    if options.length_noise:
+        lengths = lengths * (1 - options.length_noise * noise(ground, options.seed))
+    for name in ("length", "mask"):
+        lengths = lengths * maps.get(name, 1.0)
+    if "mask" in maps and (maps["mask"] < 0.5 / 255).any():
+        ground, kept = uncover(ground, maps["mask"], model)
+        lengths = lengths[kept]
+    strokes = read_strokes(Path(options.comb)) if options.comb is not None else ()
+    attribute = ground.attributes.get("direction", ground.attributes.get("comb"))
+    if attribute is not None and attribute.shape[1] != 3:
+        attribute = None
+    field = comb_field(ground, options.guide, strokes, attribute)
+    direction = field.direction
+    if options.uv == "lapped":
+        charts = lap(ground, direction, tile, options.seed)
+    else:
+        charts = own_charts(ground, tile, model)
+        direction = laid(charts, ground.normals)
+    tip = np.maximum(options.tip_noise * noise(ground, options.seed + 1), options.belly * underside(ground))
+    return Body(
+        skin=skin,
+        ground=ground,
+        charts=charts,
+        fur=VertexFur(
+            lengths=np.asarray(lengths),
+            occlusion=openness(ground),
+            tip=np.asarray(tip),
+            comb=options.sweep * field.strength[:, None] * direction,
+            colour=ground.colours,
+        ),
+        direction=direction,
+        tile=tile,
+        length=length,
+    )
+
+
+def painted(surface: Surface, path: str) -> Floats:
+    """(V,) 0..1 of a picture that is laid on a surface. Raises MeshError where either cannot be."""
+    try:
+        return vertex_map(surface, read_png(Path(path)), path)
+    except PlaneError as error:
+        raise MeshError(str(error)) from error
+
+
+def read_strokes(path: Path) -> tuple[Stroke, ...]:
+    """Strokes of a comb: `{"strokes": [{"points": [[x, y, z], ...], "strength": 1}, ...]}`, model units.
+
+    Raises MeshError that says what is wrong.
+    """
+    expected = 'expected {"strokes": [{"points": [[x, y, z], ...], "strength": 0..1}, ...]}'
+    try:
+        strokes = json.loads(path.read_text("utf-8"))["strokes"]
+        found = tuple(
+            Stroke(np.array(stroke["points"], np.float64), float(stroke.get("strength", 1.0))) for stroke in strokes
+        )
+    except OSError as error:
+        raise MeshError(f"{path}: {(error.strerror or str(error)).lower()}, {expected}") from error
+    except (ValueError, TypeError, LookupError, AttributeError, RecursionError) as error:
+        raise MeshError(f"{path}: {type(error).__name__}: {' '.join(str(error).split())[:120]}, {expected}") from error
+    for number, stroke in enumerate(found, 1):
+        points = stroke.points
+        if points.ndim != 2 or points.shape[1] != 3 or len(points) < 2 or not np.isfinite(points).all():
+            raise MeshError(f"{path}: stroke {number} is not a line of points, {expected}")
+        if not 0 <= stroke.strength <= 1:
+            raise MeshError(f"{path}: stroke {number} has the strength {stroke.strength:g}, {expected}")
+    if len(found) > MOST_STROKES:
+        raise MeshError(f"{path}: {len(found)} strokes, expected {MOST_STROKES} at most")
+    return found
