@@ -132,3 +132,9 @@ def test_the_ball_is_round_and_faces_out() -> None:
     a, b, c = (vertices[faces[:, i]] for i in range(3))
     assert (np.einsum("ij,ij->i", np.cross(b - a, c - a), a + b + c) > 0).all()
     assert len(faces) == 320
+
+
+def test_the_bunnys_face_is_read() -> None:
+    face = read_features(Path(__file__).parents[2] / "public" / "models" / "bunny.features.json")
+    assert [feature.name for feature in face] == ["eye right", "eye left", "nose"]
+    assert all(feature.on for feature in face)
