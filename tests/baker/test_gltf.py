@@ -13,7 +13,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from furbake.asset.gltf import dump, numbers, write_gltf
+from furbake.asset.buffer import numbers
+from furbake.asset.gltf import dump, write_gltf
 from furbake.asset.read import Asset, AssetError, inside, read_asset
 from furbake.asset.validate import schema
 from furbake.asset.vertices import grid, quantise_positions, quantise_weights, settle, signed

@@ -11,8 +11,14 @@ from numpy.typing import NDArray
 Ints = NDArray[np.int64]
 Record = dict[str, Any]
 
-UNSIGNED_SHORT, UNSIGNED_INT = 5123, 5125
-COMPONENTS = {np.dtype(np.int8): 5120, np.dtype(np.uint8): 5121, np.dtype(np.uint16): UNSIGNED_SHORT}
+UNSIGNED_SHORT, UNSIGNED_INT, FLOAT = 5123, 5125, 5126
+COMPONENTS = {
+    np.dtype(np.int8): 5120,
+    np.dtype(np.uint8): 5121,
+    np.dtype(np.int16): 5122,
+    np.dtype(np.uint16): UNSIGNED_SHORT,
+    np.dtype(np.float32): FLOAT,
+}
 ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
 
 
@@ -25,7 +31,7 @@ class Buffer:
     accessors: list[Record] = field(default_factory=list)
 
     def primitive(self, attributes: dict[str, NDArray[Any]], faces: Ints) -> Record:
-        """A mesh primitive: attributes (count, width) as normalised integers, and the corners of its faces."""
+        """A mesh primitive: attributes (count, width) as normalised integers or as floats, and its faces."""
         indices = {name: self.attribute(values, bounds=name == "POSITION") for name, values in attributes.items()}
         return {"attributes": indices, "indices": self.indices(faces, len(attributes["POSITION"]))}
 
@@ -41,8 +47,9 @@ class Buffer:
             "componentType": COMPONENTS[values.dtype],
             "count": count,
             "type": "SCALAR" if width == 1 else f"VEC{width}",
-            "normalized": True,
         }
+        if values.dtype != np.float32:
+            accessor["normalized"] = True
         if bounds:
             accessor |= {"min": values.min(axis=0).tolist(), "max": values.max(axis=0).tolist()}
         self.accessors.append(accessor)
@@ -61,3 +68,8 @@ class Buffer:
         self.views.append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data), **properties})
         self.data.extend(data)
         return len(self.views) - 1
+
+
+def numbers(values: NDArray[Any]) -> list[float]:
+    """A vector as JSON numbers: nine digits, which hold every 32-bit float."""
+    return [float(f"{value:.9g}") + 0.0 for value in np.asarray(values, dtype=np.float64).ravel()]

@@ -9,24 +9,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from furbake.asset.buffer import Buffer
+from furbake.asset.buffer import Buffer, numbers
 from furbake.asset.planes import pack, pack_fin, write_png
-from furbake.asset.vertices import (
-    Attributes,
-    fin_vertices,
-    grid,
-    quantise_positions,
-    settle,
-    shares,
-    shell_vertices,
-    signed,
-    tiles_across,
-)
+from furbake.asset.skin import Looks, feature_nodes, fur_colour, skin_primitives
+from furbake.asset.vertices import fin_vertices, grid, quantise_positions, settle, shell_vertices, tiles_across
 from furbake.pelt.pelt import Pelt
 from furbake.surface.charts import Charts
 from furbake.surface.coat import VertexFur
+from furbake.surface.features import Feature, placed
 from furbake.surface.fins import Fins
 from furbake.surface.mesh import Surface
 
@@ -46,58 +37,48 @@ def write_gltf(
     length: float,
     fins: Fins | None = None,
     base: Surface | None = None,
+    features: tuple[Feature, ...] = (),
 ) -> Record:
-    """Write model.gltf, model.bin and the planes into `folder`; counts and file sizes for the record.
+    """Write model.gltf, model.bin and all images into `folder`; counts and file sizes for the record.
 
     length : longest fur, model units
     base : the surface that charts, fur and fins stand on where it is not the skin itself but a simpler copy
+    features : further opaque meshes of the scene; where they stand on the skin they are put there
     """
-    images = _write_planes(folder, pelt)
+    looks = Looks(folder, _write_planes(folder, pelt))
+    planes = list(looks.images)
     buffer = Buffer()
     ground = base or surface
     offset, scale = grid(surface.vertices, ground.vertices)
     positions = quantise_positions(ground.vertices, offset, scale)
-    body: Attributes = {
-        "POSITION": quantise_positions(surface.vertices, offset, scale),
-        "NORMAL": signed(surface.normals),
-    }
-    if base is None and fur.colour is not None:
-        body["COLOR_0"] = shares(fur.colour)
-    skin = buffer.primitive(body, surface.faces) | {"material": 0}
+    colours = fur.colour if base is None else None
+    skin = skin_primitives(surface, quantise_positions(surface.vertices, offset, scale), colours, buffer, looks)
+    fur = fur_colour(surface, fur)
 
     uv = settle(charts)
     tiles = tiles_across(uv, *([] if fins is None else [fins.uv]))
-    meshes = {
-        "skin": skin,
-        "shells": buffer.primitive(shell_vertices(ground, charts, fur, positions, uv, tiles), charts.faces),
-    }
+    shells = buffer.primitive(shell_vertices(ground, charts, fur, positions, uv, tiles), charts.faces)
+    meshes: list[Record] = [{"name": "skin", "primitives": skin}, {"name": "shells", "primitives": [shells]}]
     if fins is not None:
-        meshes["fins"] = buffer.primitive(fin_vertices(ground, fins, fur, positions, tiles), fins.faces)
-
+        edges = buffer.primitive(fin_vertices(ground, fins, fur, positions, tiles), fins.faces)
+        meshes.append({"name": "fins", "primitives": [edges]})
+    names = [mesh["name"] for mesh in meshes]
     place = {"translation": numbers(offset), "scale": numbers(np.full(3, scale))}
+    nodes = [{"name": name, "mesh": i, **place} for i, name in enumerate(names)]
+    nodes += feature_nodes(placed(surface, features), buffer, looks, meshes)
     document = {
         "asset": {"version": "2.0", "generator": f"furbake {version('furbake')}"},
         "extensionsUsed": [EXTENSION, QUANTIZATION],
         "extensionsRequired": [QUANTIZATION],
         "scene": 0,
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"name": name, "mesh": i, **place} for i, name in enumerate(meshes)],
-        "meshes": [{"name": name, "primitives": [primitive]} for name, primitive in meshes.items()],
-        "materials": [
-            {
-                "name": "skin",
-                "pbrMetallicRoughness": {
-                    "baseColorFactor": [*numbers(np.array(surface.colour)), 1.0],
-                    "metallicFactor": 0.0,
-                    "roughnessFactor": 1.0,
-                },
-            }
-        ],
-        "images": [{"name": uri.removesuffix(".png"), "uri": uri} for uri in images],
+        "scenes": [{"nodes": [0, *range(len(names), len(nodes))]}],
+        "nodes": nodes,
+        "meshes": meshes,
+        **looks.records,
         "accessors": buffer.accessors,
         "bufferViews": buffer.views,
         "buffers": [{"uri": "model.bin", "byteLength": len(buffer.data)}],
-        "extensions": {EXTENSION: extension(pelt, length, tiles, images, list(meshes))},
+        "extensions": {EXTENSION: extension(pelt, length, tiles, planes, names)},
     }
     (folder / "model.bin").write_bytes(bytes(buffer.data))
     (folder / "model.gltf").write_text(dump(document), "utf-8", newline="\n")
@@ -107,7 +88,8 @@ def write_gltf(
     }
     if fins is not None:
         counts["fins"] = {"vertices": len(fins.source), "faces": len(fins.faces)}
-    return counts | {"bytes": {name: (folder / name).stat().st_size for name in ("model.gltf", "model.bin", *images)}}
+    files = ("model.gltf", "model.bin", *looks.images)
+    return counts | {"bytes": {name: (folder / name).stat().st_size for name in files}}
 
 
 def extension(pelt: Pelt, length: float, tiles: float, images: list[str], nodes: list[str]) -> Record:
@@ -161,11 +143,6 @@ def extension(pelt: Pelt, length: float, tiles: float, images: list[str], nodes:
         },
         "pelts": [state],
     }
-
-
-def numbers(values: NDArray[Any]) -> list[float]:
-    """A vector as JSON numbers: nine digits, which hold every 32-bit float."""
-    return [float(f"{value:.9g}") + 0.0 for value in np.asarray(values, dtype=np.float64).ravel()]
 
 
 def dump(document: Any) -> str:

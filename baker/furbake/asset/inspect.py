@@ -53,12 +53,12 @@ def _summary(asset: Asset) -> dict[str, Any]:
 
 
 def _mesh(asset: Asset, name: str) -> dict[str, Any]:
-    primitive = asset.primitive(asset.fur[name])
+    primitives = asset.primitives(asset.fur[name])
     accessors = asset.document["accessors"]
     return {
-        "vertices": accessors[primitive["attributes"]["POSITION"]]["count"],
-        "faces": accessors[primitive["indices"]]["count"] // 3,
-        "attributes": list(primitive["attributes"]),
+        "vertices": sum(accessors[primitive["attributes"]["POSITION"]]["count"] for primitive in primitives),
+        "faces": sum(accessors[primitive["indices"]]["count"] // 3 for primitive in primitives),
+        "attributes": list(dict.fromkeys(name for primitive in primitives for name in primitive["attributes"])),
     }
 
 

@@ -43,11 +43,15 @@ class Asset:
         return fur
 
     def primitive(self, node: int) -> dict[str, Any]:
-        """The first primitive of a node's mesh."""
-        primitive = self.document["meshes"][self.document["nodes"][node]["mesh"]]["primitives"][0]
-        if not isinstance(primitive, dict):
-            raise TypeError("primitive is no object")
-        return primitive
+        """The first primitive of a node's mesh: all of it, save of a skin of several materials."""
+        return self.primitives(node)[0]
+
+    def primitives(self, node: int) -> list[dict[str, Any]]:
+        """All primitives of a node's mesh, at least one."""
+        found = self.document["meshes"][self.document["nodes"][node]["mesh"]]["primitives"]
+        if not isinstance(found, list) or not found or not all(isinstance(primitive, dict) for primitive in found):
+            raise TypeError("primitives are no objects")
+        return found
 
     def accessor(self, index: int) -> NDArray[Any]:
         """(count, width) components as stored, or (count,) for scalars. Raises AssetError where it leaves the data."""

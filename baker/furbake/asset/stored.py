@@ -33,13 +33,20 @@ def read_pelt(asset: Asset, state: int = 0) -> Pelt:
 
 
 def skin_colour(asset: Asset) -> RGB:
-    """Linear base colour of the skin, by which the fur's own colours are multiplied; white where it has none."""
+    """Linear colour of the skin, by which the fur's own colours are multiplied; white where it has none.
+
+    Where the shells bring colours of the skin, that is their mean.
+    """
     try:
+        attributes = asset.primitive(asset.fur["shells"])["attributes"]
+        if "COLOR_0" in attributes:
+            colours = asset.accessor(attributes["COLOR_0"])[:, :3]
+            full = np.iinfo(colours.dtype).max if colours.dtype.kind == "u" else 1.0
+            return _rgb(colours.mean(axis=0, dtype=np.float64) / full)
         material = asset.document["materials"][asset.primitive(asset.fur["skin"])["material"]]
-        red, green, blue = (float(c) for c in material["pbrMetallicRoughness"]["baseColorFactor"][:3])
-    except (LookupError, TypeError, ValueError):
+        return _rgb(material["pbrMetallicRoughness"]["baseColorFactor"][:3])
+    except (LookupError, TypeError, ValueError):  # as AssetError is
         return 1.0, 1.0, 1.0
-    return red, green, blue
 
 
 def _pelt(fur: dict[str, Any], asset: Asset, state: int) -> Pelt:

@@ -15,7 +15,7 @@ from jsonschema import Draft202012Validator
 
 from furbake.asset.gltf import EXTENSION, QUANTIZATION
 from furbake.asset.planes import PlaneError
-from furbake.asset.read import Asset, AssetError, read_asset
+from furbake.asset.read import Asset, AssetError, inside, read_asset
 from furbake.pelt.basis import smooth_terms
 
 REQUIRED = ("POSITION", "NORMAL", "TANGENT", "TEXCOORD_0")
@@ -111,7 +111,29 @@ def _below(nodes: list[dict[str, Any]], root: int) -> set[int]:
 
 
 def _skin(asset: Asset) -> Iterator[str]:
-    yield from _primitive(asset, "skin", ("POSITION", "NORMAL"))
+    """The body and whatever else the scene shows: meshes in materials that there are, with pictures that there are."""
+    nodes, fur = asset.document["nodes"], asset.fur
+    for index, node in enumerate(nodes):
+        if "mesh" not in node or index in (fur["shells"], fur.get("fins")):
+            continue
+        name = "skin" if index == fur["skin"] else f"node {index}"
+        for primitive in asset.primitives(index):
+            yield from _primitive(asset, name, primitive, ("POSITION", "NORMAL"))
+            yield from _material(asset, name, primitive)
+
+
+def _material(asset: Asset, name: str, primitive: dict[str, Any]) -> Iterator[str]:
+    if "material" not in primitive:
+        return
+    material = asset.document["materials"][primitive["material"]]
+    texture = material.get("pbrMetallicRoughness", {}).get("baseColorTexture")
+    if texture is None:
+        return
+    if f"TEXCOORD_{texture.get('texCoord', 0)}" not in primitive["attributes"]:
+        yield f"{name}: a picture but no texture coordinates, expected TEXCOORD_0"
+    uri = asset.document["images"][asset.document["textures"][texture["index"]]["source"]]["uri"]
+    if not inside(asset.folder, uri).is_file():
+        yield f"{uri}: no such file, expected a picture of the {name}"
 
 
 def _shells(asset: Asset) -> Iterator[str]:
@@ -133,8 +155,9 @@ def _fins(asset: Asset) -> Iterator[str]:
 def _furry(asset: Asset, name: str) -> Iterator[str]:
     """What shells and fins have in common."""
     required, known = ATTRIBUTES[name]
-    yield from _primitive(asset, name, required)
-    attributes = asset.primitive(asset.fur[name])["attributes"]
+    primitive = asset.primitive(asset.fur[name])
+    yield from _primitive(asset, name, primitive, required)
+    attributes = primitive["attributes"]
     strange = sorted(set(attributes) - known)
     if strange:
         yield f"{name}: {', '.join(strange)}, expected only {', '.join(sorted(known))}"
@@ -147,8 +170,7 @@ def _furry(asset: Asset, name: str) -> Iterator[str]:
         yield f"{name}: TANGENT w of {signs[0]}, expected 1 or -1"
 
 
-def _primitive(asset: Asset, name: str, required: tuple[str, ...]) -> Iterator[str]:
-    primitive = asset.primitive(asset.fur[name])
+def _primitive(asset: Asset, name: str, primitive: dict[str, Any], required: tuple[str, ...]) -> Iterator[str]:
     attributes = primitive["attributes"]
     missing = [attribute for attribute in required if attribute not in attributes]
     if missing:

@@ -39,7 +39,7 @@ FULL_FUR = (255, 255, 255, 0)
 def shell_vertices(
     surface: Surface, charts: Charts, fur: VertexFur, positions: Shorts, uv: Floats, tiles: float
 ) -> Attributes:
-    """Attributes of the shells' M vertices by glTF's names.
+    """Attributes of the shells' M vertices by glTF's names; the fur's colours are the whole of the skin's below it.
 
     positions : (V, 3) of the surface, as `quantise_positions` makes them
     uv : (M, 2) from 0 to `tiles`
@@ -138,13 +138,18 @@ def shares(values: Floats) -> Bytes:
     return np.clip(np.rint(255.0 * values), 0, 255).astype(np.uint8)
 
 
+def deep_shares(values: Floats) -> Shorts:
+    """Values 0..1 as normalised 16-bit numbers, for colours that are all there is to see."""
+    return np.clip(np.rint(SHORT * values), 0, SHORT).astype(np.uint16)
+
+
 def _fur(weights: Bytes, fur: VertexFur, source: Ints) -> Attributes:
     place = np.column_stack([shares(values) for values in (fur.lengths, fur.occlusion, fur.tip)])
     return _unless("_FUR", np.column_stack([weights, place[source]]), FULL_FUR)
 
 
 def _colour(fur: VertexFur, source: Ints) -> Attributes:
-    return {} if fur.colour is None else _unless("COLOR_0", shares(fur.colour)[source], 255)
+    return {} if fur.colour is None else {"COLOR_0": shares(fur.colour)[source]}
 
 
 def _components(vectors: Floats, one: Floats, two: Floats) -> Floats:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from furbake.surface.material import CLAMP, MIRROR, REPEAT, Material, Picture
+from furbake.surface.material import CLAMP, MIRROR, REPEAT, Material, Picture, Skin
 from furbake.surface.soup import Floats, Ints, Soup
 
 Bytes = NDArray[np.uint8]
@@ -68,6 +68,17 @@ def decode(picture: Picture) -> Bytes | None:
                 return np.asarray(image.convert("RGBA"), dtype=np.uint8)
     except Exception:  # noqa: BLE001 — image plug-ins raise anything on a broken file
         return None
+
+
+def translucent(piece: Skin) -> bool:
+    """Whether anything of a skin lets through what is behind it: its factor, its vertex colours or its picture."""
+    picture = piece.material.picture
+    pixels = None if picture is None or piece.uv is None else decode(picture)
+    return (
+        piece.material.factor[3] < 1.0
+        or (piece.colour is not None and bool((piece.colour[:, 3] < 1.0).any()))
+        or (pixels is not None and bool((pixels[..., 3] < 255).any()))
+    )
 
 
 def portable(picture: Picture) -> Picture | None:

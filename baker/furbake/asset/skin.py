@@ -1,0 +1,178 @@
+"""The body in glTF: the model's own materials and pictures on the skin, and the ordinary meshes beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from furbake.asset.buffer import Buffer, numbers
+from furbake.asset.vertices import Attributes, deep_shares, shares, signed
+from furbake.surface.coat import VertexFur
+from furbake.surface.colours import translucent
+from furbake.surface.features import Feature, ball
+from furbake.surface.material import Material, Picture, Skin
+from furbake.surface.mesh import Surface
+
+Record = dict[str, Any]
+
+ENDINGS = {"image/png": "png", "image/jpeg": "jpg"}
+"""Of the files that pictures are written to, by media type."""
+
+ALIKE = 0.5 / 255.0
+"""Colours nearer than this are one."""
+
+FARTHEST = 1e6
+"""Largest texture coordinate: beyond it 32-bit floats say nothing of the place in a picture."""
+
+
+@dataclass
+class Looks:
+    """What a document says of materials as it grows; the pictures are written into `folder` on the way.
+
+    images : names of the image files, those of the pelt first
+    """
+
+    folder: Path
+    images: list[str]
+    materials: list[Record] = field(default_factory=list)
+    textures: list[Record] = field(default_factory=list)
+    samplers: list[Record] = field(default_factory=list)
+    _pictures: dict[Picture, int] = field(default_factory=dict)
+
+    @property
+    def records(self) -> Record:
+        """The document's members; glTF wants no empty ones."""
+        images = [{"name": Path(uri).stem, "uri": uri} for uri in self.images]
+        members = {
+            "materials": self.materials,
+            "textures": self.textures,
+            "images": images,
+            "samplers": self.samplers,
+        }
+        return {name: records for name, records in members.items() if records}
+
+    def material(self, material: Material, textured: bool) -> int:
+        """Index of a material; its picture is left out where nothing says how it lies (`textured`)."""
+        surface: Record = {
+            "baseColorFactor": numbers(np.array(material.factor)),
+            "metallicFactor": numbers(np.array([material.metallic]))[0],
+            "roughnessFactor": numbers(np.array([material.roughness]))[0],
+        }
+        if textured and material.picture is not None:
+            surface["baseColorTexture"] = {"index": self._texture(material.picture, material.wrap)}
+        record: Record = {"name": _text(material.name) or "skin", "pbrMetallicRoughness": surface}
+        if material.double_sided:
+            record["doubleSided"] = True
+        if material.alpha != "OPAQUE":
+            record["alphaMode"] = material.alpha
+        if material.alpha == "MASK":
+            record["alphaCutoff"] = numbers(np.array([material.cutoff]))[0]
+        return _index(self.materials, record)
+
+    def _texture(self, picture: Picture, wrap: tuple[int, int]) -> int:
+        if picture not in self._pictures:
+            name = f"skin{len(self._pictures)}.{ENDINGS[picture.kind]}"
+            (self.folder / name).write_bytes(picture.data)
+            self._pictures[picture] = len(self.images)
+            self.images.append(name)
+        sampler = _index(self.samplers, dict(zip(("wrapS", "wrapT"), wrap, strict=True)))
+        return _index(self.textures, {"sampler": sampler, "source": self._pictures[picture]})
+
+
+def skin_primitives(
+    surface: Surface, positions: NDArray[np.uint16], colours: NDArray[np.float64] | None, buffer: Buffer, looks: Looks
+) -> list[Record]:
+    """The skin's primitives, one per material of the model; one in the surface's colour where it brings none.
+
+    positions : (V, 3) of the surface, as `quantise_positions` makes them
+    colours : (V, 3) linear, a factor of the colour of a skin that brings no materials
+    """
+    normals = signed(surface.normals)
+    if not surface.skin:
+        body: Attributes = {"POSITION": positions, "NORMAL": normals}
+        if colours is not None:
+            body["COLOR_0"] = shares(colours)
+        plain = Material("skin", factor=(*surface.colour, 1.0))
+        return [buffer.primitive(body, surface.faces) | {"material": looks.material(plain, textured=False)}]
+    return [
+        buffer.primitive(_attributes(piece, positions, normals), piece.faces)
+        | {"material": looks.material(_material(piece, surface), piece.uv is not None)}
+        for piece in surface.skin
+    ]
+
+
+def fur_colour(surface: Surface, fur: VertexFur) -> VertexFur:
+    """The fur with the whole colour of the skin below it, or none where the first material of the skin says that."""
+    first = _material(surface.skin[0], surface).factor[:3] if surface.skin else surface.colour
+    whole = np.array(surface.colour) * (np.ones(3) if fur.colour is None else fur.colour)
+    same = bool((np.abs(whole - np.array(first)) < ALIKE).all())
+    return replace(fur, colour=None if same else np.broadcast_to(whole, (len(fur.lengths), 3)))
+
+
+def feature_nodes(features: Iterable[Feature], buffer: Buffer, looks: Looks, meshes: list[Record]) -> list[Record]:
+    """A node for each feature, placed and turned; all share the vertices of one ball of radius 1.
+
+    meshes : of the document so far; those of the features are added, one per material
+    """
+    nodes: list[Record] = []
+    shape: Record = {}
+    for feature in features:
+        if not shape:
+            vertices, faces = ball()
+            # Normals of a ball are its positions.
+            shape = buffer.primitive({"POSITION": np.rint(32767.0 * vertices).astype(np.int16),
+                                      "NORMAL": signed(vertices)}, faces)  # fmt: skip
+        wears = Material(feature.name, factor=(*feature.colour, 1.0), roughness=feature.roughness)
+        mesh = {
+            "name": _text(feature.name),
+            "primitives": [shape | {"material": looks.material(wears, textured=False)}],
+        }
+        meshes.append(mesh)
+        nodes.append(
+            {
+                "name": mesh["name"],
+                "mesh": len(meshes) - 1,
+                "translation": numbers(np.array(feature.centre)),
+                "rotation": numbers(feature.turn),
+                "scale": numbers(np.array(feature.radii)),
+            }
+        )
+    return nodes
+
+
+def _attributes(piece: Skin, positions: NDArray[np.uint16], normals: NDArray[np.int8]) -> Attributes:
+    found: Attributes = {"POSITION": positions[piece.source], "NORMAL": normals[piece.source]}
+    if piece.uv is not None and piece.material.picture is not None:
+        found["TEXCOORD_0"] = np.clip(piece.uv, -FARTHEST, FARTHEST).astype(np.float32)
+    if piece.colour is not None:
+        found["COLOR_0"] = deep_shares(piece.colour)
+    return found
+
+
+def _material(piece: Skin, surface: Surface) -> Material:
+    """The model's own material, opaque where it only says that it might not be.
+
+    Where it is all there is to the skin's colour, that is the surface's: an exporter's grey counts as white.
+    """
+    material = piece.material
+    if material.alpha == "BLEND" and not translucent(piece):
+        material = replace(material, alpha="OPAQUE")
+    plain = len(surface.skin) == 1 and piece.colour is None and (piece.uv is None or material.picture is None)
+    return replace(material, factor=(*surface.colour, material.factor[3])) if plain else material
+
+
+def _text(name: str) -> str:
+    """A name as files can hold it: half a pair of surrogates is no character."""
+    return name.encode("utf-8", "replace").decode()
+
+
+def _index(records: list[Record], record: Record) -> int:
+    """Index of a record in the list, at whose end it is put where it is not in it."""
+    if record not in records:
+        records.append(record)
+    return records.index(record)
