@@ -132,7 +132,9 @@ def bake(
                 "fit": figures,
             }
             base = None if body.ground is body.skin else body.ground
-            record["asset"] = write_gltf(folder, body.skin, body.charts, body.fur, pelt, body.length, fins, base)
+            record["asset"] = write_gltf(
+                folder, body.skin, body.charts, body.fur, pelt, body.length, fins, base, body.features
+            )
             (folder / "bake.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
             if archive is not None:
                 write_samples(archive, volume, lighting, strands)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,8 +14,10 @@ from furbake.asset.planes import PlaneError, read_png
 from furbake.options import BakeOptions
 from furbake.surface.charts import Charts, laid
 from furbake.surface.coat import VertexFur
+from furbake.surface.features import Feature, clearing, read_features
 from furbake.surface.field import Stroke, comb_field
 from furbake.surface.lapped import lap
+from furbake.surface.lapped_figures import lapped_figures
 from furbake.surface.mesh import MeshError, Surface, load_mesh, simplify
 from furbake.surface.occlusion import openness
 from furbake.surface.own import own_charts
@@ -41,6 +44,7 @@ class Body:
     charts, fur : of the ground
     direction : (V, 3) unit tangents of the ground along which the fur is laid
     tile, length : width of a tile and longest fur, model units
+    features : eyes, a nose and the like
     """
 
     skin: Surface
@@ -50,6 +54,7 @@ class Body:
     direction: Floats
     tile: float
     length: float
+    features: tuple[Feature, ...] = ()
 
 
 def load_surface(model: str, max_faces: int | None = None) -> Surface:
@@ -79,6 +84,9 @@ def prepare(model: str, options: BakeOptions) -> Body:
     if "mask" in maps and (maps["mask"] < 0.5 / 255).any():
         ground, kept = uncover(ground, maps["mask"], model)
         lengths = lengths[kept]
+    features = () if options.features is None else read_features(Path(options.features))
+    if features:
+        lengths = lengths * clearing(ground, features)
     strokes = read_strokes(Path(options.comb)) if options.comb is not None else ()
     attribute = ground.attributes.get("direction", ground.attributes.get("comb"))
     if attribute is not None and attribute.shape[1] != 3:
@@ -105,7 +113,20 @@ def prepare(model: str, options: BakeOptions) -> Body:
         direction=direction,
         tile=tile,
         length=length,
+        features=features,
     )
+
+
+def patch_figures(model: str, faces: int | None = None, tile_share: float = BakeOptions.tile_share) -> dict[str, float]:
+    """How well lapped patches cover a model, simplified to `faces` if given: see `lapped_figures`, and seconds."""
+    surface = load_surface(model)
+    surface = surface if faces is None else simplify(surface, faces)
+    start = time.perf_counter()
+    direction = comb_field(surface).direction
+    tile = tile_share * surface.extent
+    charts = lap(surface, direction, tile)
+    took = time.perf_counter() - start
+    return {"faces": len(surface.faces), **lapped_figures(surface, charts, direction, tile), "seconds": took}
 
 
 def painted(surface: Surface, path: str) -> Floats:

@@ -33,6 +33,7 @@ FLOORS = {
         "options",
         "identity",
         "bake",
+        "body",
         "swatch",
         "report",
         "verify",

@@ -206,8 +206,8 @@ BAD_COMMANDS = {
     ("inspect", "nope"): "nope: no such folder, expected a folder that furbake wrote",
     ("inspect", "folder"): "model.gltf: no such file or directory, expected JSON",
     ("validate", "nope"): "nope: no such folder, expected a folder that furbake wrote",
-    ("fry",): "command: got 'fry', expected bake, inspect, validate, presets, report, swatch, verify, compare",
-    (): "COMMAND: missing, expected furbake bake, inspect, validate, presets, report, swatch, verify or compare",
+    ("fry",): "command: got 'fry', expected bake, inspect, validate, presets, report, swatch, verify, compare, patches",
+    (): "COMMAND: missing, expected furbake bake, inspect, validate, presets, report, swatch, verify, compare or",
 }
 
 
@@ -402,6 +402,12 @@ def test_compare_is_a_table(run: Callable[..., Any]) -> None:
     assert (done.status, done.err) == (0, "")
     assert done.out.startswith("| fur | basis |")
     assert len(done.out.splitlines()) == 7
+
+
+def test_patches_is_a_table(run: Callable[..., Any]) -> None:
+    done = run("patches", "torus:16x16", "sphere", "--faces", "512")
+    assert (done.status, done.err) == (0, "")
+    assert [line.split(" | ")[1:3] for line in done.out.splitlines()[2:]] == [["512", "100.00%"]] * 2
 
 
 def test_interrupt(run: Callable[..., Any], monkeypatch: pytest.MonkeyPatch) -> None:

@@ -16,6 +16,7 @@ from furbake.asset.inspect import summary
 from furbake.asset.read import AssetError, read_asset
 from furbake.asset.validate import validate
 from furbake.bake import STAGES, bake
+from furbake.body import patch_figures
 from furbake.cli.progress import shown
 from furbake.compare import Row, compare, markdown
 from furbake.identity import bake_key
@@ -192,6 +193,21 @@ def run_compare(args: argparse.Namespace) -> int:
             rows += compare(options, args.lights, partial(progress, name))
             progress(name, 1.0)
     print(markdown(rows), end="")
+    return 0
+
+
+def run_patches(args: argparse.Namespace) -> int:
+    """Print a table of models and how lapped patches cover them."""
+    print("| model | faces | covered | faces ratio | stretch, 95 % | sum of weights off | off the field, 95 % | s |")
+    print("|---|---|---|---|---|---|---|---|")
+    for model in args.models:
+        found = patch_figures(model, args.faces)
+        off = max(found["sum_error"], found["sum_error_vertices"])
+        print(
+            f"| {Path(model).name} | {found['faces']} | {found['coverage']:.2%} | {found['faces_ratio']:.2f} "
+            f"| {found['stretch_mean']:.3f}, {found['stretch_95']:.3f} | {off:.1g} "
+            f"| {found['angle_mean']:.1f}°, {found['angle_95']:.1f}° | {found['seconds']:.1f} |"
+        )
     return 0
 
 

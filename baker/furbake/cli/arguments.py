@@ -19,7 +19,7 @@ class UsageError(ValueError):
 class _Parser(argparse.ArgumentParser):
     """Says what is wrong in the words of all other errors, instead of printing usage."""
 
-    shape = "furbake bake, inspect, validate, presets, report, swatch, verify or compare"
+    shape = "furbake bake, inspect, validate, presets, report, swatch, verify, compare or patches"
 
     def error(self, message: str) -> NoReturn:
         if match := re.fullmatch(r"the following arguments are required: (.*)", message, re.DOTALL):
@@ -119,6 +119,11 @@ def parser() -> argparse.ArgumentParser:
     compare.add_argument("--lights", type=_lights, default=192, metavar="N", help="lights of the fit (default: 192)")
     compare.add_argument("--size", type=_whole, metavar="N", help="texels per side of a slab (default: the preset's)")
     compare.add_argument("--quiet", action="store_true", help="no progress")
+    patches = add("patches", actions.run_patches, "MODEL ...", "table of how lapped patches cover models, as Markdown")
+    patches.add_argument("models", metavar="MODEL", nargs="+", type=_path)
+    patches.add_argument(
+        "--faces", type=_whole, metavar="F", help="of a simplified copy of each (default: as they are)"
+    )
     return top
 
 
