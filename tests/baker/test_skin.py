@@ -22,14 +22,20 @@ from furbake.asset.read import Asset, read_asset
 from furbake.asset.stored import read_pelt, skin_colour
 from furbake.asset.validate import validate
 from furbake.pelt.pelt import Pelt
+from furbake.surface.charts import Charts
 from furbake.surface.coat import VertexFur
 from furbake.surface.features import Feature
+from furbake.surface.field import comb_field
+from furbake.surface.lapped import lap
 from furbake.surface.material import CLAMP, MIRROR, REPEAT, Material, Picture, Skin
 from furbake.surface.mesh import Surface, load_mesh
-from furbake.surface.projection import project
 from furbake.surface.shapes import builtin
 
 ROOT = Path(__file__).parents[2]
+
+
+def lapped(surface: Surface) -> Charts:
+    return lap(surface, comb_field(surface).direction, 0.2)
 
 
 @pytest.fixture
@@ -38,7 +44,7 @@ def write(tmp_path: Path, make_pelt: Callable[..., Pelt]) -> Callable[..., Asset
         folder = tmp_path / "asset"
         folder.mkdir()
         fur = fur or VertexFur.even(len(surface.vertices))
-        write_gltf(folder, surface, project(surface, 0.2), fur, make_pelt(), 0.12, **rest)
+        write_gltf(folder, surface, lapped(surface), fur, make_pelt(), 0.12, **rest)
         document = {"furbake": "0", "libraries": {}, "options": {}, "input": {}, "key": "", "fit": figures()}
         (folder / "bake.json").write_text(json.dumps(document))
         return read_asset(folder)
@@ -130,7 +136,7 @@ def test_shells_bring_the_whole_colour_of_the_skin(write: Callable[..., Asset]) 
     colour = np.random.default_rng(0).random((2562, 3))
     asset = write(surface, replace(VertexFur.even(2562), colour=colour))
     got = asset.accessor(asset.primitive(1)["attributes"]["COLOR_0"]) / 255
-    source = project(surface, 0.2).source
+    source = lapped(surface).source
     assert np.abs(got - colour[source]).max() <= 0.5 / 255 + 1e-9
     np.testing.assert_allclose(skin_colour(asset), got.mean(axis=0), atol=1e-6)
     assert all("COLOR_0" not in primitive["attributes"] for primitive in asset.primitives(0))

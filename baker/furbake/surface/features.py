@@ -31,7 +31,7 @@ CLEAR = 2.5
 SUBDIVISIONS = 2
 """Of a feature's icosahedron: 20·4² = 320 triangles."""
 
-MOST = 1000
+MOST = 100
 """Features of one file."""
 
 
