@@ -55,7 +55,7 @@ test('the lamp is visible, and hidden with ui=0', async ({ page }) => {
 	const lamp = await brightest();
 	expect(lamp).toBeGreaterThan(220);
 	await open(page, `${at}&ui=0`);
-	expect(await brightest(), 'fur alone').toBeLessThan(lamp - 30);
+	expect(await brightest(), 'fur alone').toBeLessThan(lamp - 20);
 });
 
 test('shells are set by the address and by the panel', async ({ page }) => {
