@@ -2,7 +2,8 @@ import { DoubleSide, type IUniform, type ShaderMaterialParameters } from 'three'
 import type { FurMaterial } from './FurMaterial.ts';
 import type { Fin } from './format.ts';
 import { type FurTextures, PeltMaterial } from './PeltMaterial.ts';
-import fragmentShader from './shaders/fins.frag.glsl?raw';
+import colour from './shaders/colour.glsl?raw';
+import fragmentMain from './shaders/fins.frag.glsl?raw';
 import vertexShader from './shaders/fins.vert.glsl?raw';
 
 /** Properties that a FinMaterial has beside those of every material. */
@@ -36,7 +37,7 @@ export class FinMaterial extends PeltMaterial {
 			{
 				name: 'FinMaterial',
 				vertexShader,
-				fragmentShader,
+				fragmentShader: `${colour}\n${fragmentMain}`,
 				uniforms: {
 					...Object.fromEntries(shared),
 					finLength: { value: 1.05 },

@@ -1,12 +1,10 @@
 uniform float finOpacity;
-uniform float rampPower;
 #ifdef COLOUR_PLANE
 uniform sampler2DArray colourPlane; // the texel's original colour
 #endif
 
 in vec2 vAt;
-in vec3 vRoot;
-in vec3 vTip;
+in vec4 vSkin;
 in float vFade;
 in mat3 vLampLow;
 in mat3 vLampHigh;
@@ -20,11 +18,9 @@ void main() {
 	FurTexel texel = furTexel(at, vLampLow, vLampHigh, vSkyLow, vSkyHigh);
 	float alpha = texel.alpha * vFade * finOpacity;
 	if (alpha < 0.01) discard;
-	vec3 colour = mix(vRoot, vTip, pow(clamp(vAt.y, 0.0, 1.0), rampPower));
+	vec3 colour = furRamp(vSkin.a, clamp(vAt.y, 0.0, 1.0)) * texel.tint;
 #ifdef COLOUR_PLANE
-	colour *= texture(colourPlane, at).rgb;
-#else
-	colour *= texel.tint;
+	colour = mix(texture(colourPlane, at).rgb, colour, vSkin.a);
 #endif
-	fragColour = furOutput(colour, texel.light, alpha);
+	fragColour = furOutput(vSkin.rgb * colour, texel.light, alpha);
 }

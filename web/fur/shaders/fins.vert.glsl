@@ -7,8 +7,7 @@ uniform float tiles; // texture coordinates → tiles
 uniform float finLength; // lengths of the fur here
 
 out vec2 vAt; // tiles along the edge, height
-out vec3 vRoot; // colours of the hairs but for what the texel says, linear
-out vec3 vTip;
+out vec4 vSkin; // RGB = factor of the hairs' colour, A = from tip to tip2
 out float vFade;
 // Light moments of coefficients 0..2 (low) and 3..5 (high), a column each.
 out mat3 vLampLow;
@@ -53,7 +52,6 @@ void main() {
 		vLampHigh = lamps.high;
 		vSkyLow = sky.low * _fur.z;
 		vSkyHigh = sky.high * _fur.z;
-		vRoot = furColour(color.rgb, _fur.w, 0.0);
-		vTip = furColour(color.rgb, _fur.w, 1.0);
+		vSkin = vec4(skinColour * color.rgb, _fur.w);
 	}
 }

@@ -6,6 +6,9 @@ uniform sampler2DArray colourPlane; // the texel's original colour (paper, eq. 4
 
 in vec3 vAt;
 in vec3 vColour;
+#ifdef COLOUR_PLANE
+in vec4 vPlane;
+#endif
 in float vWeight;
 in float vFacing;
 in mat3 vLampLow;
@@ -17,10 +20,9 @@ out vec4 fragColour;
 
 void main() {
 	FurTexel texel = furTexel(vAt, vLampLow, vLampHigh, vSkyLow, vSkyHigh);
-#ifdef COLOUR_PLANE
-	vec3 colour = vColour * texture(colourPlane, vAt).rgb;
-#else
 	vec3 colour = vColour * texel.tint;
+#ifdef COLOUR_PLANE
+	colour = vPlane.a * colour + vPlane.rgb * texture(colourPlane, vAt).rgb;
 #endif
 	if (texel.alpha < alphaCut) discard;
 

@@ -6,9 +6,12 @@ in vec4 shell; // per instance: X = s of the shell, Y = slab it shows, ZW = shea
 
 uniform float tiles; // texture coordinates → tiles
 
-// WebGL2 promises no more than 15 vectors: four matrices, two vec3, and the scalars in their gaps.
+// WebGL2 promises no more than 15 vectors: four matrices, two vec3 with the scalars in their gaps, and a vec4.
 out vec3 vAt; // XY = tiles, Z = slab
-out vec3 vColour; // of the hairs but for what the texel says, linear
+out vec3 vColour; // of the hairs but for the texel's tint, linear
+#ifdef COLOUR_PLANE
+out vec4 vPlane; // RGB = factor of the texel's original colour, A = share of vColour
+#endif
 out float vWeight;
 out float vFacing; // n·v
 // Light moments of coefficients 0..2 (low) and 3..5 (high), a column each.
@@ -34,7 +37,11 @@ void main() {
 	vSkyHigh = sky.high * _fur.z;
 
 	vAt = vec3(uv * tiles - shell.zw, shell.y);
-	vColour = furColour(color.rgb, _fur.w, s);
+	vec3 skin = skinColour * color.rgb;
+	vColour = skin * furRamp(_fur.w, s);
+#ifdef COLOUR_PLANE
+	vPlane = vec4(skin * (1.0 - _fur.w), _fur.w);
+#endif
 	vWeight = _fur.x;
 	vFacing = dot(turn * n, normalize(-pointVS.xyz));
 	gl_Position = projectionMatrix * pointVS;
