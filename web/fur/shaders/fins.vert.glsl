@@ -43,7 +43,7 @@ void main() {
 	vec4 pointVS = modelViewMatrix * vec4(furPoint(position, n, comb, _fur.y * finLength, s), 1.0);
 	gl_Position = projectionMatrix * pointVS;
 	vLampLow = vLampHigh = vSkyLow = vSkyHigh = mat3(0.0);
-	vRoot = vTip = vec3(0.0);
+	vSkin = vec4(0.0);
 	if (vFade > 0.0) {
 		mat3 frameVS = turn * furBend(n, comb, s) * frame;
 		Moments lamps = lampMoments(frameVS, pointVS.xyz, s);
