@@ -15,6 +15,7 @@ import {
 	WebGLRenderer,
 	WebGLRenderTarget,
 } from 'three';
+import { measureFins } from '../../web/bench/fins.ts';
 import { loadFur, renderFloats, Studio } from '../../web/bench/studio.ts';
 import type { Fur } from '../../web/fur/index.ts';
 import { shellParameters } from '../../web/fur/shells.ts';
@@ -265,6 +266,9 @@ const stage = {
 		studio.dispose();
 		return { pictures, orders, scale, radius, length: fur.asset.length };
 	},
+
+	/** The figures of `npm run fins`. */
+	fins: measureFins,
 
 	/** The message with which an asset is refused, or 'loaded'. */
 	async refusal(url: string): Promise<string> {
