@@ -268,3 +268,31 @@ test('fins are drawn before the shells from every side', async ({ page }) => {
 	const { orders } = await drawSphere(page, sides, 16);
 	for (const order of orders) expect(order).toEqual(['fins', 'fur']);
 });
+
+test('fins are measured: what they add to the outline, where they are, what a frame takes', async ({ page }) => {
+	await openStage(page);
+	const figures = await page.evaluate(([url, o]) => stage.fins(url, o), [
+		served('public/models/sphere/model.gltf'),
+		{ width: 180, height: 120, counts: [2], rounds: 1 },
+	] as const);
+	expect(figures.views.map(({ name }) => name)).toEqual(['front', 'side', 'above']);
+	for (const { beside, all, extra, finPixels, outside } of figures.views) {
+		// A ring of fur around a disc of skin, whose radius is 48 pixels.
+		const ring = Math.PI * ((48 + figures.length) ** 2 - 48 ** 2);
+		expect(beside.pixels).toBeGreaterThan(0.3 * ring);
+		expect(beside.pixels).toBeLessThan(1.1 * ring);
+		expect(beside.fins).toBeGreaterThan(beside.without);
+		expect(beside.fins).toBeLessThanOrEqual(beside.pixels);
+		expect(Math.abs(all.pixels - beside.pixels - Math.PI * 48 ** 2)).toBeLessThan(0.02 * all.pixels);
+		// The whole skin is covered, with fins and without.
+		expect(all.without - beside.without).toBe(all.pixels - beside.pixels);
+		expect(all.fins - beside.fins).toBe(all.pixels - beside.pixels);
+		expect(extra.pixels).toBe(180 * 120 - all.pixels);
+		expect(extra.fins).toBeLessThan(0.5 * ring);
+		expect(finPixels).toBeGreaterThan(0.5 * ring);
+		expect(outside).toBeLessThan(0.01 * finPixels);
+	}
+	const [cost] = figures.costs;
+	expect(cost?.shells).toBe(2);
+	for (const value of [cost?.without, cost?.fins, cost?.ratio]) expect(value).toBeGreaterThan(0);
+});

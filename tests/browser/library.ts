@@ -4,6 +4,7 @@ import { readFile } from 'node:fs/promises';
 import { fileURLToPath } from 'node:url';
 import type { Page } from '@playwright/test';
 import type { FurAsset } from '../../web/fur/format.ts';
+import { openModule } from '../../web/tools/browser.mjs';
 import { site } from './harness.ts';
 
 export const repository = fileURLToPath(new URL('../..', import.meta.url));
@@ -12,11 +13,7 @@ export const served = (path: string) =>
 
 /** A page with nothing on it but the library. */
 export async function openStage(page: Page): Promise<void> {
-	const body = `<!doctype html><title>stage</title><link rel="icon" href="data:,">
-		<script type="module" src="${served('tests/browser/stage.ts')}"></script>`;
-	await page.route('**/stage.html', (route) => route.fulfill({ contentType: 'text/html', body }));
-	await page.goto(`${site}stage.html`);
-	await page.waitForFunction(() => 'stage' in window);
+	await openModule(page, site, served('tests/browser/stage.ts'));
 }
 
 export async function readAsset(folder: string): Promise<{ fur: FurAsset; images: { uri: string }[] }> {

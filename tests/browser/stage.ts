@@ -3,32 +3,24 @@
 import {
 	AmbientLight,
 	BufferAttribute,
-	type Camera,
 	DirectionalLight,
 	FloatType,
 	HemisphereLight,
 	LightProbe,
-	type Mesh,
 	NoBlending,
 	OrthographicCamera,
-	PerspectiveCamera,
 	Scene,
-	Sphere,
 	type Texture,
 	Vector3,
 	WebGLRenderer,
 	WebGLRenderTarget,
 } from 'three';
-import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
-import { type Fur, FurLoaderPlugin } from '../../web/fur/index.ts';
+import { measureFins } from '../../web/bench/fins.ts';
+import { loadFur, renderFloats, Studio } from '../../web/bench/studio.ts';
+import type { Fur } from '../../web/fur/index.ts';
 import { shellParameters } from '../../web/fur/shells.ts';
 
 const renderer = new WebGLRenderer({ antialias: false });
-
-async function load(url: string): Promise<Fur> {
-	const loader = new GLTFLoader().register((parser) => new FurLoaderPlugin(parser));
-	return (await loader.loadAsync(url)).userData.fur;
-}
 
 function toBase64(bytes: Uint8Array): string {
 	let text = '';
@@ -53,17 +45,6 @@ function readArray(texture: Texture, size: number, layers: number): Uint8Array {
 	gl.deleteFramebuffer(framebuffer);
 	renderer.resetState();
 	return bytes;
-}
-
-/** Renders as floats, rgba, premultiplied, over nothing; row by row from the bottom. */
-function renderFloats(scene: Scene, camera: Camera, target: WebGLRenderTarget): Float32Array {
-	renderer.setRenderTarget(target);
-	renderer.setClearColor(0, 0);
-	renderer.clear();
-	renderer.render(scene, camera);
-	const pixels = new Float32Array(target.width * target.height * 4);
-	renderer.readRenderTargetPixels(target, 0, 0, target.width, target.height, pixels);
-	return pixels;
 }
 
 const channel = (pixels: Float32Array, c: number) =>
@@ -132,7 +113,7 @@ class Flat {
 		const parameters = shells.geometry.getAttribute('shell');
 		(parameters.array as Float32Array).set(shellParameters(layer, asset.layers, asset.drift));
 		parameters.needsUpdate = true;
-		return renderFloats(this.#scene, this.#camera, this.#target);
+		return renderFloats(renderer, this.#scene, this.#camera, this.#target);
 	}
 
 	/** L of one layer's texels, [row, column], under a light like those of the golden lights. */
@@ -144,7 +125,7 @@ class Flat {
 const stage = {
 	/** Both planes as the GPU holds them, base64. */
 	async planes(url: string): Promise<string[]> {
-		const { asset, shells, dispose } = await load(url);
+		const { asset, shells, dispose } = await loadFur(url);
 		const planes = ['plane0', 'plane1'].flatMap((name) => shells.material.uniforms[name]?.value ?? []);
 		const bytes = planes.map((texture: Texture) => toBase64(readArray(texture, asset.size, asset.layers)));
 		dispose();
@@ -153,7 +134,7 @@ const stage = {
 
 	/** The light of every texel of a golden asset under each of the lights, base64 of float32 [light, layer, row, column]. */
 	async light(url: string, lights: number[][]): Promise<string> {
-		const flat = new Flat(await load(url));
+		const flat = new Flat(await loadFur(url));
 		const lamp = new DirectionalLight(0xffffff, 4 * Math.PI);
 		flat.add(lamp, lamp.target);
 		const { layers, size } = flat.fur.asset;
@@ -173,7 +154,7 @@ const stage = {
 		ambient: number,
 		hemisphere: { sky: number; ground: number; up: number[] },
 	): Promise<{ light: number[]; frame: number[][] }> {
-		const flat = new Flat(await load(url));
+		const flat = new Flat(await loadFur(url));
 		const harmonics = new LightProbe();
 		for (const [j, coefficient] of harmonics.sh.coefficients.entries()) coefficient.setScalar(probe[j] ?? 0);
 		const dome = new HemisphereLight();
@@ -196,7 +177,7 @@ const stage = {
 		const drawn: Fur[] = [];
 		const counts: number[] = [];
 		for (const url of urls) {
-			const flat = new Flat(await load(url));
+			const flat = new Flat(await loadFur(url));
 			flat.render(0);
 			drawn.push(flat.fur);
 			counts.push(renderer.info.programs?.length ?? 0);
@@ -212,7 +193,7 @@ const stage = {
 		attributes: Record<string, number[]>,
 		{ lamp, ambient = 0, tip2 = [1, 1, 1] }: { lamp?: number[]; ambient?: number; tip2?: [number, number, number] },
 	): Promise<{ light: number[]; alpha: number[] }> {
-		const flat = new Flat(await load(url));
+		const flat = new Flat(await loadFur(url));
 		for (const [name, value] of Object.entries(attributes)) flat.attribute(name, value);
 		flat.fur.shells.material.tip2.setRGB(...tip2);
 		flat.add(new AmbientLight(0xffffff, ambient));
@@ -232,7 +213,7 @@ const stage = {
 	 * @returns L and coverage, [light, row, column], rows from root to tip
 	 */
 	async fin(url: string, lights: number[][]): Promise<{ light: string; alpha: string }> {
-		const fur = await load(url);
+		const fur = await loadFur(url);
 		const { fins, asset } = fur;
 		const fin = asset.pelts[0]?.fin;
 		if (!fins || !fin) throw new Error('no fins');
@@ -249,7 +230,7 @@ const stage = {
 		const alpha = new Float32Array(lights.length * count);
 		lights.forEach((direction, i) => {
 			lamp.position.fromArray(direction);
-			const pixels = renderFloats(scene, camera, target);
+			const pixels = renderFloats(renderer, scene, camera, target);
 			light.set(uncovered(pixels), i * count);
 			alpha.set(channel(pixels, 3), i * count);
 		});
@@ -269,47 +250,30 @@ const stage = {
 		size: number,
 		wanted: { shells: number; fins: boolean; azimuth?: number }[],
 	): Promise<{ pictures: string[]; orders: string[][]; scale: number; radius: number; length: number }> {
-		const fur = await load(url);
-		const scene = new Scene();
-		const model = fur.skin.parent ?? fur.skin;
-		const lamp = new DirectionalLight(0xffffff, 6);
-		lamp.position.set(-1, 0.6, 0.6);
-		scene.add(model, lamp, new HemisphereLight(0xffffff, 0x808080, 2));
-		scene.updateMatrixWorld(true);
-		const { geometry } = fur.skin as Mesh;
-		geometry.computeBoundingSphere();
-		const { center, radius } = (geometry.boundingSphere ?? new Sphere()).clone().applyMatrix4(fur.skin.matrixWorld);
-		const camera = new PerspectiveCamera(20, 1, 0.1 * radius, 20 * radius);
-		const distance = (1.25 * radius) / Math.tan((10 * Math.PI) / 180);
-		const target = new WebGLRenderTarget(size, size, { type: FloatType });
+		const studio = new Studio(renderer, await loadFur(url), size, size);
+		const { fur, scale, radius } = studio;
 		let order: string[] = [];
 		for (const part of [fur.fins, fur.shells]) if (part) part.onBeforeRender = () => order.push(part.name);
 		const pictures: string[] = [];
 		const orders: string[][] = [];
-		for (const { shells, fins, azimuth = 0 } of wanted) {
-			fur.shells.visible = shells > 0;
-			if (shells > 0) fur.shells.shellCount = shells;
-			if (fur.fins) fur.fins.visible = fins;
-			camera.position.setFromSphericalCoords(distance, Math.PI / 2, azimuth).add(center);
-			camera.lookAt(center);
+		for (const { shells, fins, azimuth } of wanted) {
+			studio.wear(shells, fins);
+			studio.look(azimuth);
 			order = [];
-			pictures.push(toBase64(new Uint8Array(renderFloats(scene, camera, target).buffer)));
+			pictures.push(toBase64(new Uint8Array(studio.draw().buffer)));
 			orders.push(order);
 		}
-		fur.dispose();
-		return {
-			pictures,
-			orders,
-			scale: size / (2 * distance * Math.tan((10 * Math.PI) / 180)),
-			radius,
-			length: fur.asset.length,
-		};
+		studio.dispose();
+		return { pictures, orders, scale, radius, length: fur.asset.length };
 	},
+
+	/** The figures of `npm run fins`. */
+	fins: measureFins,
 
 	/** The message with which an asset is refused, or 'loaded'. */
 	async refusal(url: string): Promise<string> {
 		try {
-			await load(url);
+			await loadFur(url);
 			return 'loaded';
 		} catch (error) {
 			return (error as Error).message;

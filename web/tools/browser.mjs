@@ -1,5 +1,5 @@
 /**
- * The browser for the tests: an installed Chromium or Chrome, else Playwright's own, which is then installed.
+ * The browser for tests and measurements: an installed Chromium or Chrome, else Playwright's own, which is then installed.
  * Called as a command it prints the path of what is installed, or fails.
  */
 import { existsSync } from 'node:fs';
@@ -55,6 +55,21 @@ export async function ensureBrowser() {
 			throw new Failure('no browser for the tests: install Chromium or Chrome, or set FURBAKE_CHROMIUM to its path');
 	}
 	return chromium.executablePath();
+}
+
+/**
+ * Opens a page with nothing on it but a module, whose exports are then `loaded` there.
+ *
+ * @param {import('@playwright/test').Page} page
+ * @param {string} site where web/ is served, with a slash at its end
+ * @param {string} module its address there
+ */
+export async function openModule(page, site, module) {
+	const body = `<!doctype html><title>${module}</title><link rel="icon" href="data:,">
+		<script type="module">import * as loaded from '${module}'; window.loaded = loaded;</script>`;
+	await page.route('**/module.html', (route) => route.fulfill({ contentType: 'text/html', body }));
+	await page.goto(`${site}module.html`);
+	await page.waitForFunction(() => 'loaded' in globalThis);
 }
 
 if (process.argv[1] && import.meta.url === pathToFileURL(process.argv[1]).href) {

@@ -1,4 +1,4 @@
-/** Runs Vite's own command line with the project's configuration. */
+/** Vite with the project's configuration: its own command line, and its server for pages that are measured. */
 import { join } from 'node:path';
 import { root, run } from './process.mjs';
 
@@ -7,4 +7,20 @@ export function vite(args) {
 	const [verb, ...rest] = args;
 	const config = ['--config', join(root, 'web', 'vite.config.ts')];
 	return run(process.execPath, [join(root, 'node_modules', 'vite', 'bin', 'vite.js'), verb, ...config, ...rest]);
+}
+
+/**
+ * Serves web/ as `npm start` does, on a port of its own, and never reloads a page.
+ *
+ * @returns {Promise<{ url: string, close: () => Promise<void> }>} the address, which ends in a slash, and what ends it
+ */
+export async function serve() {
+	const { createServer } = await import('vite');
+	const server = await createServer({
+		configFile: join(root, 'web', 'vite.config.ts'),
+		logLevel: 'error',
+		server: { port: 0, host: '127.0.0.1', hmr: false, watch: null },
+	});
+	await server.listen();
+	return { url: server.resolvedUrls?.local[0] ?? '', close: () => server.close() };
 }

@@ -1,0 +1,40 @@
+/** What is measured of fins, as the page hands it to the command. */
+
+/** Some pixels, and how many of them are at least half covered. */
+export interface Coverage {
+	pixels: number;
+	without: number;
+	fins: number;
+}
+
+export interface FinView {
+	name: string;
+	/** The outline: what 64 shells cover at least half and the bare skin does not. */
+	beside: Coverage;
+	/** All that 64 shells cover at least half, the body in front of its own fur too. */
+	all: Coverage;
+	/** All that 64 shells cover less: what is covered here has made the outline thicker. */
+	extra: Coverage;
+	/** Pixels that fins change on the bare skin and around it. */
+	finPixels: number;
+	/** Those of them that are farther than the fur's length from all that 64 shells cover at least half. */
+	outside: number;
+}
+
+export interface FinCost {
+	shells: number;
+	/** Medians, milliseconds a frame. */
+	without: number;
+	fins: number;
+	/** Median over the rounds of their time with fins over that without. */
+	ratio: number;
+}
+
+export interface FinFigures {
+	width: number;
+	height: number;
+	/** Of the fur in these pictures, pixels. */
+	length: number;
+	views: FinView[];
+	costs: FinCost[];
+}

@@ -1,0 +1,120 @@
+import {
+	type Camera,
+	DirectionalLight,
+	FloatType,
+	HalfFloatType,
+	HemisphereLight,
+	Mesh,
+	PerspectiveCamera,
+	Scene,
+	Sphere,
+	type WebGLRenderer,
+	WebGLRenderTarget,
+} from 'three';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { type Fur, FurLoaderPlugin } from '../fur/index.ts';
+
+const FIELD_OF_VIEW = 20; // degrees, from the picture's lower to its upper edge
+
+/** @param url of an asset's model.gltf */
+export async function loadFur(url: string): Promise<Fur> {
+	const loader = new GLTFLoader().register((parser) => new FurLoaderPlugin(parser));
+	return (await loader.loadAsync(url)).userData.fur;
+}
+
+/** Renders as floats, rgba, premultiplied, over nothing; row by row from the bottom. */
+export function renderFloats(
+	renderer: WebGLRenderer,
+	scene: Scene,
+	camera: Camera,
+	target: WebGLRenderTarget,
+): Float32Array {
+	renderer.setRenderTarget(target);
+	renderer.setClearColor(0, 0);
+	renderer.clear();
+	renderer.render(scene, camera);
+	const pixels = new Float32Array(target.width * target.height * 4);
+	renderer.readRenderTargetPixels(target, 0, 0, target.width, target.height, pixels);
+	return pixels;
+}
+
+/** A whole model over nothing, centred and filling the picture's height, lit from the left and by the sky. */
+export class Studio {
+	/** Of the skin, model units. */
+	readonly radius: number;
+	/** Pixels that a unit of the model is wide at its centre. */
+	readonly scale: number;
+	readonly #renderer: WebGLRenderer;
+	readonly #scene = new Scene();
+	readonly #camera: PerspectiveCamera;
+	readonly #centre: Sphere['center'];
+	readonly #distance: number;
+	readonly #picture: WebGLRenderTarget;
+	/** As deep as what the demo's frames are blended in. */
+	readonly #frame: WebGLRenderTarget;
+
+	constructor(
+		renderer: WebGLRenderer,
+		readonly fur: Fur,
+		width: number,
+		height: number,
+	) {
+		this.#renderer = renderer;
+		const lamp = new DirectionalLight(0xffffff, 6);
+		lamp.position.set(-1, 0.6, 0.6);
+		this.#scene.add(fur.skin.parent ?? fur.skin, lamp, new HemisphereLight(0xffffff, 0x808080, 2));
+		this.#scene.updateMatrixWorld(true);
+		const body = new Sphere().makeEmpty();
+		fur.skin.traverse((piece) => {
+			if (!(piece instanceof Mesh)) return;
+			piece.geometry.computeBoundingSphere();
+			body.union(piece.geometry.boundingSphere.clone().applyMatrix4(piece.matrixWorld));
+		});
+		this.#centre = body.center;
+		this.radius = body.radius;
+		const slope = Math.tan(((FIELD_OF_VIEW / 2) * Math.PI) / 180);
+		this.#distance = (1.25 * body.radius) / slope;
+		this.scale = height / (2 * this.#distance * slope);
+		this.#camera = new PerspectiveCamera(FIELD_OF_VIEW, width / height, 0.1 * body.radius, 20 * body.radius);
+		this.#picture = new WebGLRenderTarget(width, height, { type: FloatType });
+		this.#frame = new WebGLRenderTarget(width, height, { type: HalfFloatType });
+		this.look();
+	}
+
+	/**
+	 * @param azimuth radians from the front to the model's left
+	 * @param polar radians from straight above
+	 */
+	look(azimuth = 0, polar = Math.PI / 2): void {
+		this.#camera.position.setFromSphericalCoords(this.#distance, polar, azimuth).add(this.#centre);
+		this.#camera.lookAt(this.#centre);
+	}
+
+	/** @param shells 0: none */
+	wear(shells: number, fins: boolean): void {
+		this.fur.shells.visible = shells > 0;
+		if (shells > 0) this.fur.shells.shellCount = shells;
+		if (this.fur.fins) this.fur.fins.visible = fins;
+	}
+
+	/** @returns rgba, premultiplied; row by row from the bottom */
+	draw(): Float32Array {
+		return renderFloats(this.#renderer, this.#scene, this.#camera, this.#picture);
+	}
+
+	/** Milliseconds of one frame, until the GPU has finished it: a pixel of it is read. */
+	time(): number {
+		const start = performance.now();
+		this.#renderer.setRenderTarget(this.#frame);
+		this.#renderer.render(this.#scene, this.#camera);
+		this.#renderer.readRenderTargetPixels(this.#frame, 0, 0, 1, 1, new Uint16Array(4));
+		return performance.now() - start;
+	}
+
+	/** Frees the fur and what it was drawn in; the renderer is the caller's. */
+	dispose(): void {
+		this.fur.dispose();
+		this.#picture.dispose();
+		this.#frame.dispose();
+	}
+}
