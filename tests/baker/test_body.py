@@ -43,6 +43,16 @@ def test_belly_and_noise_choose_the_second_tip_colour() -> None:
     assert body(tip_noise=0.5).fur.tip.max() == pytest.approx(0.5, abs=0.01)
 
 
+def test_fur_makes_room_for_features(tmp_path: Path) -> None:
+    eye = {"name": "eye", "shape": "ellipsoid", "centre": [0, 0, 1], "radii": [0.1, 0.1, 0.1], "on": True}
+    (tmp_path / "f.json").write_text(json.dumps({"features": [{**eye, "colour": [0, 0, 0], "roughness": 0.1}]}))
+    seeing = body(features=str(tmp_path / "f.json"))
+    off = np.linalg.norm(seeing.ground.vertices - [0, 0, 1], axis=1)
+    assert seeing.fur.lengths[off < 0.05].max() < 0.3
+    assert seeing.fur.lengths[off > 0.5].min() == 1
+    assert len(seeing.features) == 1
+
+
 def test_sweep_combs_along_the_fur() -> None:
     swept = body(sweep=0.5)
     comb = np.einsum("ij,ij->i", swept.fur.comb, swept.direction)
