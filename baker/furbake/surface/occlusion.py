@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from furbake.surface.mesh import Floats, Surface
+from furbake.surface.sheet import frames
 from furbake.surface.thickness import distances
 from furbake.surface.topology import smoother
 
@@ -21,10 +22,7 @@ ROUNDS = 2
 def openness(surface: Surface) -> Floats:
     """(V,) float 0..1, cosine-weighted share of the hemisphere above each vertex that the body leaves open."""
     normals = surface.normals
-    helper = np.where(np.abs(normals[:, :1]) < 0.7, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]])
-    one = np.cross(normals, helper)
-    one /= np.linalg.norm(one, axis=1, keepdims=True)
-    two = np.cross(normals, one)
+    one, two = frames(normals)
     i = np.arange(RAYS) + 0.5
     across, angle = np.sqrt(i / RAYS), np.pi * (3 - np.sqrt(5)) * i
     local = np.stack([across * np.cos(angle), across * np.sin(angle), np.sqrt(1 - i / RAYS)], axis=1)
