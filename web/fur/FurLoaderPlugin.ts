@@ -152,12 +152,14 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		coefficients: number,
 		cut: number,
 	): Promise<FurTextures> {
-		const images = await Promise.all(
-			[...planes, ...(colour === undefined ? [] : [colour])].map(async (index) => {
-				const { name, bytes } = await this.#image(index);
-				return { name, texels: decodePlane(name, bytes, extent.width, extent.height * extent.layers) };
-			}),
+		const files = await Promise.all(
+			[...planes, ...(colour === undefined ? [] : [colour])].map((index) => this.#image(index)),
 		);
+		// In order, whichever came first: of several bad planes the first is named.
+		const images = files.map(({ name, bytes }) => ({
+			name,
+			texels: decodePlane(name, bytes, extent.width, extent.height * extent.layers),
+		}));
 		const mips = mipLevels(
 			images.map(({ texels }) => texels),
 			extent,
