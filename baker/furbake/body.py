@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.asset.planes import PlaneError, read_png
-from furbake.options import BakeOptions
+from furbake.options import OF_VERTICES, BakeOptions
 from furbake.surface.charts import Charts, laid
 from furbake.surface.coat import VertexFur
 from furbake.surface.features import Feature, clearing, read_features
@@ -21,7 +21,7 @@ from furbake.surface.lapped_figures import lapped_figures
 from furbake.surface.mesh import MeshError, Surface, load_mesh, simplify
 from furbake.surface.occlusion import openness
 from furbake.surface.own import own_charts
-from furbake.surface.paint import brought, uncover, vertex_map
+from furbake.surface.paint import brought, uncover, vertex_map, vertex_numbers
 from furbake.surface.shapes import builtin, is_builtin
 from furbake.surface.simplify import shell_faces
 from furbake.surface.thickness import length_by_thickness
@@ -129,10 +129,15 @@ def patch_figures(model: str, faces: int | None = None, tile_share: float = Bake
     return {"faces": len(surface.faces), **lapped_figures(surface, charts, direction, tile), "seconds": took}
 
 
-def painted(surface: Surface, path: str) -> Floats:
-    """(V,) 0..1 of a picture that is laid on a surface. Raises MeshError where either cannot be."""
+def painted(surface: Surface, where: str) -> Floats:
+    """(V,) 0..1 of a picture that is laid on a surface, or of its own vertices: `vertex:red`, `vertex:` + attribute.
+
+    Raises MeshError where there is none.
+    """
+    if where.startswith(OF_VERTICES):
+        return vertex_numbers(surface, where.removeprefix(OF_VERTICES), where)
     try:
-        return vertex_map(surface, read_png(Path(path)), path)
+        return vertex_map(surface, read_png(Path(where)), where)
     except PlaneError as error:
         raise MeshError(str(error)) from error
 

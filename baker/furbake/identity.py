@@ -9,7 +9,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from furbake.options import FILES, BakeOptions
+from furbake.options import FILES, OF_VERTICES, BakeOptions
 from furbake.surface.companions import companions
 from furbake.surface.mesh import Surface
 from furbake.surface.shapes import is_builtin
@@ -48,11 +48,12 @@ def input_hash(model: str) -> str:
 
 def bake_key(model: str, options: BakeOptions) -> str:
     """SHA-256 of everything that decides the result: version, options, input. A differing key means a stale asset."""
-    files = [getattr(options, name) for name in FILES]
+    named = [getattr(options, name) for name in FILES]
+    files = [name for name in named if name is not None and not name.startswith(OF_VERTICES)]
     parts = {
         "furbake": version("furbake"),
         "options": options.as_record(),
         "input": input_hash(model),
-        "files": [hashlib.sha256(Path(file).read_bytes()).hexdigest() for file in files if file is not None],
+        "files": [hashlib.sha256(Path(file).read_bytes()).hexdigest() for file in files],
     }
     return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()

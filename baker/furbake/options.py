@@ -24,6 +24,9 @@ Uv = Literal["lapped", "own"]
 FILES = ("length_map", "mask", "comb", "features")
 """Options that name files."""
 
+OF_VERTICES = "vertex:"
+"""With it `length_map` and `mask` name a channel of the vertex colours or an attribute instead."""
+
 
 @dataclass(frozen=True)
 class BakeOptions:
@@ -69,7 +72,7 @@ class BakeOptions:
     max_faces: int = 60_000
     """Faces above which a model is simplified, 4 to 2 000 000."""
     length_map: str | None = None
-    """PNG over the model's texture coordinates: white is full length, black none."""
+    """PNG over the model's texture coordinates, or `vertex:red` of its vertices: white is full length, black none."""
     mask: str | None = None
     """The same for where fur grows: black is bare skin."""
     comb: str | None = None

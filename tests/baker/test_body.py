@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 
 from furbake.body import prepare, read_strokes
 from furbake.options import BakeOptions
@@ -32,6 +33,21 @@ def test_length_is_what_all_its_knobs_say() -> None:
     assert uneven.fur.lengths.min() == pytest.approx(0.6, abs=0.01)
     assert uneven.fur.lengths.max() == pytest.approx(1.0, abs=0.01)
     assert plain.length == plain.tile * 0.5
+
+
+def test_vertex_colours_paint_length_and_mask(tmp_path: Path) -> None:
+    ball = trimesh.creation.icosphere(subdivisions=3)
+    red = np.clip(128 + 200 * ball.vertices[:, 1], 0, 255).astype(np.uint8)
+    ball.visual.vertex_colors = np.column_stack([red, red, red, np.full(len(red), 255)])
+    ball.export(tmp_path / "ball.ply")
+    model = str(tmp_path / "ball.ply")
+    shorn = prepare(model, BakeOptions(length_map="vertex:red"))
+    up = shorn.ground.vertices[:, 1]
+    assert shorn.fur.lengths[up > 0.7].min() == 1
+    assert shorn.fur.lengths[up < -0.7].max() < 0.02
+    bald = prepare(model, BakeOptions(mask="vertex:red"))
+    assert len(bald.ground.faces) < len(bald.skin.faces)
+    assert bald.ground.vertices[:, 1].min() > -0.8
 
 
 def test_belly_and_noise_choose_the_second_tip_colour() -> None:

@@ -100,7 +100,7 @@ def extension(pelt: Pelt, length: float, tiles: float, images: list[str], nodes:
     basis: Record = {"kind": pelt.kind}
     if pelt.kind == "eigen":
         if pelt.matrix is None or pelt.degree is None:
-            raise ValueError("basis: got eigen without its matrix, expected (C, 27) weights")
+            raise ValueError("basis: got eigen without its matrix, expected a row of weights per coefficient")
         basis |= {"degree": pelt.degree, "matrix": [numbers(row) for row in pelt.matrix]}
     state: Record = {
         "name": "dry",

@@ -51,10 +51,7 @@ def skin_colour(asset: Asset) -> RGB:
 
 def _pelt(fur: dict[str, Any], asset: Asset, state: int) -> Pelt:
     stored, layers, size, count = fur["pelts"][state], fur["layers"], fur["size"], fur["coefficients"]
-    images = Planes(
-        tuple(asset.image(index) for index in stored["planes"]),
-        asset.image(stored["colour"]) if "colour" in stored else None,
-    )
+    images = _images(stored, asset)
     for image in (*images.coefficients, *([] if images.colour is None else [images.colour])):
         if image.shape[:2] != (layers * size, size):
             got = " x ".join(str(side) for side in image.shape[1::-1])
@@ -84,10 +81,7 @@ def _pelt(fur: dict[str, Any], asset: Asset, state: int) -> Pelt:
 
 
 def _fin(stored: dict[str, Any], asset: Asset) -> FinPelt:
-    images = Planes(
-        tuple(asset.image(index) for index in stored["planes"]),
-        asset.image(stored["colour"]) if "colour" in stored else None,
-    )
+    images = _images(stored, asset)
     texels = unpack_fin(images)
     if texels.alpha.shape != (stored["height"], stored["width"]):
         got = " x ".join(str(side) for side in texels.alpha.shape[::-1])
@@ -102,6 +96,12 @@ def _fin(stored: dict[str, Any], asset: Asset) -> FinPelt:
         bias=_array(stored["bias"], count),
         environment=_array(stored["environment"], count, 9),
     )
+
+
+def _images(stored: dict[str, Any], asset: Asset) -> Planes:
+    """The planes of a state, or of its fin."""
+    colour = asset.image(stored["colour"]) if "colour" in stored else None
+    return Planes(tuple(asset.image(index) for index in stored["planes"]), colour)
 
 
 def _array(values: Any, *shape: int) -> Floats:

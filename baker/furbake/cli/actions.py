@@ -46,7 +46,9 @@ def chosen(args: argparse.Namespace) -> BakeOptions:
         raise OptionError(f"set: {error}") from None
     options = replace(options, **{name: getattr(args, name) for name in GIVEN if hasattr(args, name)})
     if options.guide.endswith(".json"):  # strokes, and where there are none from nose to tail
-        options = replace(options, guide=BakeOptions.guide, comb=options.comb or options.guide)
+        if options.comb is not None:
+            raise OptionError(f"comb: got {options.comb} beside the strokes of --guide, expected one file of strokes")
+        options = replace(options, guide=BakeOptions.guide, comb=options.guide)
     options.check()
     return options
 
