@@ -2,8 +2,10 @@ import { Color, type ShaderMaterialParameters } from 'three';
 import type { FurAsset } from './format.ts';
 import { BODY_RADIUS } from './moments.ts';
 import { type FurTextures, PeltMaterial } from './PeltMaterial.ts';
-import fragmentShader from './shaders/shells.frag.glsl?raw';
-import vertexShader from './shaders/shells.vert.glsl?raw';
+import opacity from './shaders/opacity.glsl?raw';
+import shell from './shaders/shell.glsl?raw';
+import fragmentMain from './shaders/shells.frag.glsl?raw';
+import vertexMain from './shaders/shells.vert.glsl?raw';
 
 /** Coverage below which a fragment is dropped; the mip levels of the planes are made for it. */
 export const ALPHA_CUT = 0.1;
@@ -66,10 +68,11 @@ export class FurMaterial extends PeltMaterial {
 			textures,
 			{
 				name: 'FurMaterial',
-				vertexShader,
-				fragmentShader,
+				vertexShader: `${shell}\n${vertexMain}`,
+				fragmentShader: `${opacity}\n${fragmentMain}`,
 				uniforms: {
 					tiles: { value: asset.tiles ?? 1 },
+					layers: { value: asset.layers },
 					furLength: { value: asset.length },
 					slabsPerShell: { value: 1 },
 					alphaCut: { value: ALPHA_CUT },
