@@ -18,7 +18,6 @@ import {
 import { measureFins } from '../../web/bench/fins.ts';
 import { loadFur, renderFloats, Studio } from '../../web/bench/studio.ts';
 import type { Fur } from '../../web/fur/index.ts';
-import { shellParameters } from '../../web/fur/shells.ts';
 
 const renderer = new WebGLRenderer({ antialias: false });
 
@@ -110,9 +109,8 @@ class Flat {
 	/** One layer's texels, [row, column]. */
 	render(layer: number): Float32Array {
 		const { asset, shells } = this.fur;
-		const parameters = shells.geometry.getAttribute('shell');
-		(parameters.array as Float32Array).set(shellParameters(layer, asset.layers, asset.drift));
-		parameters.needsUpdate = true;
+		shells.material.shellCount = asset.layers;
+		(shells.material.uniforms.firstShell as { value: number }).value = layer;
 		return renderFloats(renderer, this.#scene, this.#camera, this.#target);
 	}
 

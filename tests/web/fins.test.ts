@@ -4,6 +4,7 @@ import { FinMaterial } from '../../web/fur/FinMaterial.ts';
 import { FurMaterial } from '../../web/fur/FurMaterial.ts';
 import { FurFins } from '../../web/fur/fins.ts';
 import type { Fin, FurAsset } from '../../web/fur/format.ts';
+import type { PeltMaterial } from '../../web/fur/PeltMaterial.ts';
 import { FurShells } from '../../web/fur/shells.ts';
 
 const six = [1, 1, 1, 1, 1, 1];
@@ -105,9 +106,25 @@ describe('FinMaterial', () => {
 });
 
 describe('varyings', () => {
+	/** Lines that a compiler sees, as far as `#ifdef` decides it. */
+	function compiled({ vertexShader, defines }: PeltMaterial): string {
+		const kept: boolean[] = [];
+		return vertexShader
+			.split('\n')
+			.filter((line) => {
+				const [, directive, name = ''] = line.match(/^#(if\w*|else|endif)\b *(\w*)/) ?? [];
+				if (directive === 'ifdef') kept.push(name in defines);
+				else if (directive?.startsWith('if')) kept.push(true);
+				else if (directive === 'else') kept.push(!kept.pop());
+				else if (directive) kept.pop();
+				return kept.every(Boolean);
+			})
+			.join('\n');
+	}
+
 	/** Rows of the packing that GLSL ES fixes: a vec4, a vec3 and each column of a matrix take a row, the rest fits beside. */
-	function rows(vertexShader: string): number {
-		const found = [...vertexShader.matchAll(/^(?:flat )?out (\w+) (\w+);/gm)].map(([, type = '']) => type);
+	function rows(material: PeltMaterial): number {
+		const found = [...compiled(material).matchAll(/^(?:flat )?out (\w+) (\w+);/gm)].map(([, type = '']) => type);
 		const count = (type: string) => found.filter((name) => name === type).length;
 		const three = 3 * count('mat3') + count('vec3');
 		const four = count('vec4');
@@ -117,9 +134,13 @@ describe('varyings', () => {
 		return four + three + pairs + Math.ceil(scalars / 4);
 	}
 
-	it('are no more than WebGL2 promises', () => {
+	it('are no more than WebGL2 promises, and fewer without what is switched off', () => {
 		const { fins, shells } = grow(node(-2, 3));
-		for (const { material } of [fins, shells]) expect(rows(material.vertexShader)).toBeLessThanOrEqual(15);
-		expect(rows(shells.material.vertexShader)).toBe(15); // with a colour plane, 14 without
+		shells.material.environment = false;
+		expect([fins, shells].map(({ material }) => rows(material))).toEqual([8, 8]);
+		shells.material.setValues({ environment: true, gloss: 0.5, backlight: 6 });
+		expect([fins, shells].map(({ material }) => rows(material))).toEqual([15, 15]);
+		shells.material.lampsPerFragment = true;
+		for (const { material } of [fins, shells]) expect(rows(material)).toBeLessThanOrEqual(15);
 	});
 });

@@ -7,9 +7,11 @@ import {
 	NeutralToneMapping,
 	type PerspectiveCamera,
 	Scene,
+	Sphere,
 	Vector3,
 	WebGLRenderer,
 } from 'three';
+import { fitShadow } from '../fur/index.ts';
 import { backdrop, ContactShadow } from './backdrop.ts';
 import type { Model } from './models.ts';
 
@@ -35,6 +37,7 @@ export class Stage {
 			powerPreference: 'high-performance',
 		});
 		this.renderer.toneMapping = NeutralToneMapping;
+		this.renderer.shadowMap.enabled = true;
 		// One frame is several renders (scene, output): the counts are those of all of them.
 		this.renderer.info.autoReset = false;
 		this.key.color.setRGB(1, 0.95, 0.87);
@@ -57,6 +60,13 @@ export class Stage {
 		this.radius = model.radius;
 		this.#shadow.fit(model.box, model.fur?.asset.length ?? 0);
 		this.#shadow.visible = true;
+		const length = model.fur?.asset.length ?? 0.05 * this.radius;
+		this.light(this.key.position.sub(this.centre).normalize());
+		fitShadow(this.key, new Sphere(this.centre, this.radius + length), length);
+		if (model.fur) {
+			model.fur.shells.material.gloss = 0.5;
+			model.fur.shells.material.backlight = 6;
+		}
 	}
 
 	/** @param direction unit vector from the model to the lamp, world axes */

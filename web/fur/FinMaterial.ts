@@ -2,8 +2,7 @@ import { DoubleSide, type IUniform, type ShaderMaterialParameters } from 'three'
 import type { FurMaterial } from './FurMaterial.ts';
 import type { Fin } from './format.ts';
 import { type FurTextures, PeltMaterial } from './PeltMaterial.ts';
-import colour from './shaders/colour.glsl?raw';
-import fragmentMain from './shaders/fins.frag.glsl?raw';
+import fragmentShader from './shaders/fins.frag.glsl?raw';
 import vertexShader from './shaders/fins.vert.glsl?raw';
 
 /** Properties that a FinMaterial has beside those of every material. */
@@ -17,7 +16,10 @@ export interface FinMaterialParameters extends ShaderMaterialParameters {
 const MIRRORED = ['finLength', 'finOpacity'] as const satisfies (keyof FinMaterialParameters)[];
 
 /** What fins have from the shells that they stand between. */
-const SHARED = ['tiles', 'furLength', 'bodyRadius', 'skinColour', 'root', 'tip', 'tip2', 'rampPower'] as const;
+const SHARED = [
+	...['tiles', 'furLength', 'bodyRadius', 'lean', 'gloss', 'sharpness', 'backlight'],
+	...['skinColour', 'root', 'tip', 'tip2', 'rampPower'],
+];
 
 /**
  * Fins: the fur cut from the side, on quads that stand on the skin's edges, drawn where they make the outline.
@@ -37,7 +39,7 @@ export class FinMaterial extends PeltMaterial {
 			{
 				name: 'FinMaterial',
 				vertexShader,
-				fragmentShader: `${colour}\n${fragmentMain}`,
+				fragmentShader,
 				uniforms: {
 					...Object.fromEntries(shared),
 					finLength: { value: 1.05 },
@@ -49,6 +51,7 @@ export class FinMaterial extends PeltMaterial {
 				side: DoubleSide,
 			},
 			MIRRORED,
+			shells,
 		);
 		this.setValues(parameters);
 	}

@@ -90,6 +90,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 			shadeSkin(piece, shade, together ? furCover(piece.geometry, surface.geometry) : undefined),
 		);
 		for (const part of [fins, shells]) if (part) skin.parent?.add(part);
+		for (const piece of pieces) piece.castShadow = piece.receiveShadow = true;
 
 		return {
 			asset,

@@ -1,6 +1,5 @@
-import { Color, type ShaderMaterialParameters } from 'three';
+import { Color, type ShaderMaterialParameters, Vector2, Vector4 } from 'three';
 import type { FurAsset } from './format.ts';
-import { BODY_RADIUS } from './moments.ts';
 import { type FurTextures, PeltMaterial } from './PeltMaterial.ts';
 import opacity from './shaders/opacity.glsl?raw';
 import shell from './shaders/shell.glsl?raw';
@@ -14,8 +13,8 @@ export const ALPHA_CUT = 0.1;
 export interface FurMaterialParameters extends ShaderMaterialParameters {
 	/** Longest fur, the mesh's own units. */
 	furLength?: number;
-	/** Slabs of the pelt that one drawn shell stands for. */
-	slabsPerShell?: number;
+	/** Shells of one body; may lie between two whole numbers. */
+	shellCount?: number;
 	/** Coverage below which a fragment is dropped, 0..1. */
 	alphaCut?: number;
 	/** Radius of the body in lengths of its fur: where tips lose the light when it sinks below their horizon. */
@@ -28,11 +27,18 @@ export interface FurMaterialParameters extends ShaderMaterialParameters {
 	/** Colour of the other tips, to which the mesh's attributes lead over. */
 	tip2?: Color;
 	rampPower?: number;
+	/** Exponent of the highlights: 20 is matt, 200 wet. */
+	sharpness?: number;
+	/** As of PeltMaterial. */
+	environment?: boolean;
+	gloss?: number;
+	backlight?: number;
+	lampsPerFragment?: boolean;
 }
 
 const MIRRORED = [
 	'furLength',
-	'slabsPerShell',
+	'shellCount',
 	'alphaCut',
 	'bodyRadius',
 	'skinColour',
@@ -40,6 +46,7 @@ const MIRRORED = [
 	'tip',
 	'tip2',
 	'rampPower',
+	'sharpness',
 ] as const satisfies (keyof FurMaterialParameters)[];
 
 /**
@@ -50,7 +57,7 @@ const MIRRORED = [
  */
 export class FurMaterial extends PeltMaterial {
 	declare furLength: number;
-	declare slabsPerShell: number;
+	declare shellCount: number;
 	declare alphaCut: number;
 	declare bodyRadius: number;
 	declare skinColour: Color;
@@ -58,6 +65,7 @@ export class FurMaterial extends PeltMaterial {
 	declare tip: Color;
 	declare tip2: Color;
 	declare rampPower: number;
+	declare sharpness: number;
 
 	constructor(asset: FurAsset, textures: FurTextures, parameters: FurMaterialParameters = {}) {
 		const pelt = asset.pelts[0];
@@ -72,22 +80,31 @@ export class FurMaterial extends PeltMaterial {
 				fragmentShader: `${opacity}\n${fragmentMain}`,
 				uniforms: {
 					tiles: { value: asset.tiles ?? 1 },
-					layers: { value: asset.layers },
 					furLength: { value: asset.length },
-					slabsPerShell: { value: 1 },
+					shellCount: { value: asset.layers },
+					firstShell: { value: 0 },
+					drift: { value: driftKnots(asset.drift) },
+					lean: { value: new Vector2(...(asset.drift.at(-1) ?? [0, 0])).divideScalar(asset.height) },
 					alphaCut: { value: ALPHA_CUT },
-					bodyRadius: { value: BODY_RADIUS },
 					skinColour: { value: new Color(1, 1, 1) },
 					root: { value: new Color(...ramp.root) },
 					tip: { value: new Color(...ramp.tip) },
 					tip2: { value: new Color(...ramp.tip2) },
 					rampPower: { value: ramp.power },
 				},
-				defines: { MAX_SLANT: '6.0' },
+				defines: { MAX_SLANT: '6.0', LAYERS: asset.layers },
 				depthWrite: true,
 			},
 			MIRRORED,
 		);
 		this.setValues(parameters);
 	}
+}
+
+/** The hairs' mean displacement at the root and in every slab's middle, two to a vector. */
+function driftKnots(drift: FurAsset['drift']): Vector4[] {
+	const knots = [0, 0, ...drift.flat()];
+	return Array.from({ length: (drift.length + 2) >> 1 }, (_, i) =>
+		new Vector4().fromArray([...knots.slice(4 * i, 4 * i + 4), 0, 0]),
+	);
 }

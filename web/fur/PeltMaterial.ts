@@ -15,11 +15,19 @@ import {
 	Vector4,
 } from 'three';
 import { type Basis, channelOf } from './format.ts';
+import { BODY_RADIUS } from './moments.ts';
+import body from './shaders/body.glsl?raw';
 import colour from './shaders/colour.glsl?raw';
 import displacement from './shaders/displacement.glsl?raw';
+import lamps from './shaders/lamps.glsl?raw';
+import lightIn from './shaders/light.frag.glsl?raw';
+import lightOut from './shaders/light.vert.glsl?raw';
 import moments from './shaders/moments.glsl?raw';
 import output from './shaders/output.glsl?raw';
 import ptm from './shaders/ptm.glsl?raw';
+import shadow from './shaders/shadow.glsl?raw';
+import sky from './shaders/sky.glsl?raw';
+import view from './shaders/view.glsl?raw';
 
 export interface FurTextures {
 	plane0: Texture;
@@ -35,17 +43,23 @@ export interface Texels {
 	environment: number[][];
 }
 
+const lampChunks = ['#include <common>', '#include <lights_pars_begin>', view, moments, shadow, lamps];
+
 /** What the materials of shells and fins have in common: texels of coefficients that meet light moments. */
 export class PeltMaterial extends ShaderMaterial {
+	readonly #followers: PeltMaterial[] = [];
+
 	/**
 	 * @param parameters own shaders (after the common chunks), uniforms and defines
 	 * @param mirrored names of uniforms that are properties of the material, too
+	 * @param leader whose switches this material has, too
 	 */
 	constructor(
 		texels: Texels,
 		textures: FurTextures,
 		{ uniforms, defines, vertexShader, fragmentShader, ...parameters }: ShaderMaterialParameters,
 		mirrored: readonly string[],
+		leader?: PeltMaterial,
 	) {
 		const { scale, offset } = decoder(texels.scale, texels.bias);
 		super({
@@ -61,23 +75,22 @@ export class PeltMaterial extends ShaderMaterial {
 				scale1: { value: new Vector2(scale[1]?.x, scale[1]?.y) },
 				offset1: { value: new Vector2(offset[1]?.x, offset[1]?.y) },
 				...momentUniforms(texels),
+				bodyRadius: { value: BODY_RADIUS },
+				lean: { value: new Vector2() },
+				gloss: { value: 0 },
+				sharpness: { value: 60 },
+				backlight: { value: 0 },
 				...uniforms,
 			},
 			defines: {
 				...(texels.basis.kind === 'eigen' && { BASIS_EIGEN: texels.basis.degree }),
 				...(texels.scale.length > 3 && { TWO_PLANES: '' }),
 				...(textures.colour && { COLOUR_PLANE: '' }),
+				SKY: '',
 				...defines,
 			},
-			vertexShader: [
-				'#include <common>',
-				'#include <lights_pars_begin>',
-				displacement,
-				moments,
-				colour,
-				vertexShader,
-			].join('\n'),
-			fragmentShader: ['#include <common>', ptm, output, fragmentShader].join('\n'),
+			vertexShader: [...lampChunks, body, displacement, sky, lightOut, colour, vertexShader].join('\n'),
+			fragmentShader: [...lampChunks, lightIn, ptm, colour, output, fragmentShader].join('\n'),
 			transparent: true,
 			blending: CustomBlending,
 			blendSrc: OneFactor,
@@ -105,6 +118,62 @@ export class PeltMaterial extends ShaderMaterial {
 			});
 		}
 		this.setTextures(textures);
+		if (leader) leader.#followers.push(this);
+	}
+
+	/** Whether ambient and hemisphere lights and light probes are seen. Without them a fragment costs less. */
+	get environment(): boolean {
+		return 'SKY' in this.defines;
+	}
+
+	set environment(on: boolean) {
+		this.#switch('SKY', on);
+	}
+
+	/** Strength of the highlights along the hairs, one white and one of their colour; 0 costs nothing. */
+	get gloss(): number {
+		return this.uniforms.gloss?.value;
+	}
+
+	set gloss(strength: number) {
+		this.#strength('gloss', strength);
+	}
+
+	/** Strength of the light that comes through the hairs from behind; 0 costs nothing. */
+	get backlight(): number {
+		return this.uniforms.backlight?.value;
+	}
+
+	set backlight(strength: number) {
+		this.#strength('backlight', strength);
+	}
+
+	/**
+	 * Whether lamps are summed per fragment, not per vertex: the lamps' light on coarse meshes, and the edges of shadows on
+	 * them, to the pixel, for much of the frame.
+	 */
+	get lampsPerFragment(): boolean {
+		return 'LAMPS_PER_FRAGMENT' in this.defines;
+	}
+
+	set lampsPerFragment(on: boolean) {
+		this.#switch('LAMPS_PER_FRAGMENT', on);
+	}
+
+	#strength(name: 'gloss' | 'backlight', strength: number): void {
+		const uniform = this.uniforms[name];
+		if (uniform) uniform.value = strength;
+		this.#switch(name.toUpperCase(), strength > 0);
+	}
+
+	/** Has a part of the shaders compiled in or left out, here and in what follows this material. */
+	#switch(define: string, on: boolean): void {
+		for (const material of [this, ...this.#followers]) {
+			if (define in material.defines === on) continue;
+			if (on) material.defines[define] = '';
+			else delete material.defines[define];
+			material.needsUpdate = true;
+		}
 	}
 
 	/** Other planes of the same shape, of another state of the fur say. */

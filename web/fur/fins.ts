@@ -25,6 +25,7 @@ export class FurFins extends Mesh<BufferGeometry, FinMaterial> {
 	constructor(quads: BufferGeometry, material: FinMaterial) {
 		super(quads, material);
 		this.name = 'fins';
+		this.receiveShadow = true;
 	}
 
 	/**

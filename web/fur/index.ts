@@ -7,4 +7,5 @@ export { FurFins } from './fins.ts';
 export { type Basis, EXTENSION, type Fin, type FurAsset, type Pelt, VERSION } from './format.ts';
 export { BODY_RADIUS, type Direction, evaluateBasis, lightMoments, relight, smoothFunctions } from './moments.ts';
 export type { FurTextures } from './PeltMaterial.ts';
+export { fitShadow } from './shadow.ts';
 export { FurShells, MAX_SHELLS } from './shells.ts';

@@ -9,11 +9,6 @@ uniform float finLength; // lengths of the fur here
 out vec2 vAt; // tiles along the edge, height
 out vec4 vSkin; // RGB = factor of the hairs' colour, A = from tip to tip2
 out float vFade;
-// Light moments of coefficients 0..2 (low) and 3..5 (high), a column each.
-out mat3 vLampLow;
-out mat3 vLampHigh;
-out mat3 vSkyLow;
-out mat3 vSkyHigh;
 
 // How much of a fin is there: all of it at the silhouette, where one face looks to the viewer and the other away, less
 // where both look the same way, nothing where they look straight, nor where the fin itself is seen from its end.
@@ -29,9 +24,10 @@ void main() {
 	vec3 across = normalize(cross(edge, n));
 	vec3 upright = cross(across, edge);
 	mat3 frame = mat3(cross(n, across), n, across);
-	mat3 turn = mat3(modelViewMatrix) / length(modelViewMatrix[0].xyz);
+	mat4 placement = bodyModelView();
+	mat3 turn = mat3(placement) / length(placement[0].xyz);
 
-	vec3 viewer = normalize(-(modelViewMatrix * vec4(position, 1.0)).xyz) * turn;
+	vec3 viewer = viewerVS((placement * vec4(position, 1.0)).xyz) * turn;
 	vec2 angle = PI * _edge.xy;
 	float broadside = dot(across, viewer);
 	vFade = finFade(cos(angle) * dot(upright, viewer) + sin(angle) * broadside, broadside);
@@ -40,18 +36,13 @@ void main() {
 	// Where nothing is to be seen the quad falls onto its root, and no fragment is left of it.
 	float s = vFade > 0.0 ? min(vAt.y, 1.0) : 0.0;
 	vec3 comb = frame * vec3(_edge.z, 0.0, _edge.w);
-	vec4 pointVS = modelViewMatrix * vec4(furPoint(position, n, comb, _fur.y * finLength, s), 1.0);
-	gl_Position = projectionMatrix * pointVS;
-	vLampLow = vLampHigh = vSkyLow = vSkyHigh = mat3(0.0);
-	vSkin = vec4(0.0);
+	vec3 pointVS = (placement * vec4(furPoint(position, n, comb, _fur.y * finLength, s), 1.0)).xyz;
+	gl_Position = projectionMatrix * vec4(pointVS, 1.0);
+	vSkin = vec4(skinColour * color.rgb, _fur.w);
 	if (vFade > 0.0) {
-		mat3 frameVS = turn * furBend(n, comb, s) * frame;
-		Moments lamps = lampMoments(frameVS, pointVS.xyz, s);
-		Moments sky = environmentMoments(frameVS);
-		vLampLow = lamps.low;
-		vLampHigh = lamps.high;
-		vSkyLow = sky.low * _fur.z;
-		vSkyHigh = sky.high * _fur.z;
-		vSkin = vec4(skinColour * color.rgb, _fur.w);
+		vec3 tip = position + n * (furLength * _fur.y);
+		passLight(FurPoint(turn * furBend(n, comb, s) * frame, pointVS, (bodyModel() * vec4(tip, 1.0)).xyz, s), _fur.z);
+	} else {
+		passDarkness();
 	}
 }

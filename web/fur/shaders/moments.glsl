@@ -5,8 +5,10 @@
 
 #ifdef FIN
 #define UP y
+#define UPRIGHT 1
 #else
 #define UP z
+#define UPRIGHT 2 // the axis of UP
 #endif
 
 // Moments of coefficients 0..2 and 3..5: a column per coefficient, a row per colour channel.
@@ -15,16 +17,14 @@ struct Moments {
 	mat3 high;
 };
 
-// Spherical harmonics of the radiance → moments, for coefficients 0..2 (low) and 3..5 (high): a column per coefficient,
-// the fourth unused (three sends square matrices only).
-uniform mat4 environmentLow0; // harmonics 0..3
-uniform mat4 environmentHigh0;
-#ifdef USE_LIGHT_PROBES
-uniform mat4 environmentLow1; // harmonics 4..7
-uniform mat4 environmentHigh1;
-uniform vec3 environmentLow2; // harmonic 8
-uniform vec3 environmentHigh2;
-#endif
+// A point of the fur that is lit.
+struct FurPoint {
+	mat3 frameVS; // (T, B, N), bent with the hair; of a fin (along the edge, N, across it)
+	vec3 pointVS;
+	vec3 tipWS; // the hair's end, where shadows of others are caught
+	float s; // 0 at the skin, 1 at the tip
+};
+
 uniform float bodyRadius; // β, in lengths of the fur: where tips lose the light when it sinks below their horizon
 
 #ifdef BASIS_EIGEN // its degree
@@ -73,81 +73,4 @@ float horizon(inout vec3 lightTS, float s) {
 	lightTS.UP = 0.0;
 	lightTS /= max(length(lightTS), 1e-4);
 	return fade;
-}
-
-void addLight(inout Moments moments, mat3 frameVS, float s, vec3 lightVS, vec3 irradiance) {
-	vec3 lightTS = lightVS * frameVS;
-	irradiance *= horizon(lightTS, s);
-	vec3 low, high;
-	basis(lightTS, low, high);
-	moments.low += outerProduct(irradiance, low);
-	moments.high += outerProduct(irradiance, high);
-}
-
-// Moments of the radiance R(ω) = Σ_j radiance[j]·Y_j(ω) in the tangent frame (columns T, B, N), from three's ambient,
-// hemisphere and probe lights.
-Moments environmentMoments(mat3 frameVS) {
-	Moments moments;
-	const float Y0 = 0.28209479, Y1 = 0.48860251;
-	vec3 constant = ambientLightColor;
-	mat3 gradient = mat3(0.0); // column per axis of the tangent frame: how the radiance grows along it
-#if NUM_HEMI_LIGHTS > 0
-	for (int i = 0; i < NUM_HEMI_LIGHTS; i++) {
-		vec3 sky = hemisphereLights[i].skyColor, ground = hemisphereLights[i].groundColor;
-		constant += 0.5 * (sky + ground);
-		// A gradient g of radiance makes one of ⅔·g of irradiance, which is what three's light has.
-		gradient += outerProduct(0.75 * (sky - ground), hemisphereLights[i].direction * frameVS);
-	}
-#endif
-	gradient *= RECIPROCAL_PI / Y1;
-	mat4x3 radiance = mat4x3(constant * (RECIPROCAL_PI / Y0), gradient[1], gradient[2], gradient[0]);
-#ifdef USE_LIGHT_PROBES
-	// The probe's harmonics belong to world axes. Order 1 turns as a vector, order 2 as a traceless quadratic form.
-	const float C1 = 1.09254843, C2 = 0.31539157;
-	mat3 frameWS = transpose(mat3(viewMatrix)) * frameVS;
-	mat3 turned = mat3(lightProbe[3], lightProbe[1], lightProbe[2]) * frameWS;
-	radiance += mat4x3(lightProbe[0], turned[1], turned[2], turned[0]);
-	mat3x4 order2;
-	vec3 last;
-	for (int channel = 0; channel < 3; channel++) {
-		float zz = 2.0 * C2 * lightProbe[6][channel], d = 0.5 * C1 * lightProbe[8][channel];
-		vec3 mixed = 0.5 * C1 * vec3(lightProbe[4][channel], lightProbe[5][channel], lightProbe[7][channel]); // xy, yz, xz
-		mat3 world = mat3(d - 0.5 * zz, mixed.x, mixed.z, mixed.x, -d - 0.5 * zz, mixed.y, mixed.z, mixed.y, zz);
-		mat3 q = transpose(frameWS) * world * frameWS;
-		order2[channel] = vec4(2.0 * q[0][1] / C1, 2.0 * q[1][2] / C1, q[2][2] / (2.0 * C2), 2.0 * q[0][2] / C1);
-		last[channel] = (q[0][0] - q[1][1]) / C1;
-	}
-#endif
-	moments.low = radiance * mat3x4(environmentLow0);
-	moments.high = radiance * mat3x4(environmentHigh0);
-#ifdef USE_LIGHT_PROBES
-	moments.low += transpose(order2) * mat3x4(environmentLow1) + outerProduct(last, environmentLow2);
-	moments.high += transpose(order2) * mat3x4(environmentHigh1) + outerProduct(last, environmentHigh2);
-#endif
-	return moments;
-}
-
-// Moments of all lamps. s: height of the shell, 0 at the skin, 1 at the tips.
-Moments lampMoments(mat3 frameVS, vec3 pointVS, float s) {
-	Moments moments = Moments(mat3(0.0), mat3(0.0));
-	IncidentLight light;
-#if NUM_DIR_LIGHTS > 0
-	for (int i = 0; i < NUM_DIR_LIGHTS; i++) {
-		getDirectionalLightInfo(directionalLights[i], light);
-		addLight(moments, frameVS, s, light.direction, light.color);
-	}
-#endif
-#if NUM_POINT_LIGHTS > 0
-	for (int i = 0; i < NUM_POINT_LIGHTS; i++) {
-		getPointLightInfo(pointLights[i], pointVS, light);
-		addLight(moments, frameVS, s, light.direction, light.color);
-	}
-#endif
-#if NUM_SPOT_LIGHTS > 0
-	for (int i = 0; i < NUM_SPOT_LIGHTS; i++) {
-		getSpotLightInfo(spotLights[i], pointVS, light);
-		addLight(moments, frameVS, s, light.direction, light.color);
-	}
-#endif
-	return moments;
 }

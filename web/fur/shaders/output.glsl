@@ -1,9 +1,15 @@
-// What a fragment hands on: light as radiance, toned and encoded as the target wants it, premultiplied.
+// What a fragment hands on: 4π·radiance, toned and encoded as the target wants it, premultiplied; or, where the samples of
+// a pixel are covered by alpha, not.
 
-vec4 furOutput(vec3 colour, vec3 light, float alpha) {
-	vec3 radiance = colour * light * (0.25 * RECIPROCAL_PI);
+vec4 furOutput(vec3 radiance, float alpha) {
+	radiance *= 0.25 * RECIPROCAL_PI;
 #ifdef TONE_MAPPING
 	radiance = toneMapping(radiance);
 #endif
-	return linearToOutputTexel(vec4(radiance, 1.0)) * alpha;
+	vec4 encoded = linearToOutputTexel(vec4(radiance, 1.0));
+#ifdef ALPHA_TO_COVERAGE
+	return vec4(encoded.rgb, alpha);
+#else
+	return encoded * alpha;
+#endif
 }

@@ -8,6 +8,8 @@ uniform sampler2DArray plane1; // (a3, a4, α, tint)
 uniform vec2 scale1; // λ·255 of a3, a4
 uniform vec2 offset1; // −λ·Ω of a3, a4
 #endif
+uniform float gloss; // of both highlights
+uniform float backlight; // of the light that comes through from behind
 
 #ifndef LOD_BIAS
 #define LOD_BIAS 0.0
@@ -16,27 +18,51 @@ uniform vec2 offset1; // −λ·Ω of a3, a4
 struct FurTexel {
 	float alpha; // coverage of a slab of the baked thickness, seen from straight above
 	float tint;
-	vec3 light; // Σ over lights of E·L, L in the unit 4π·radiance / (albedo·irradiance)
+	vec3 low; // a0, a1, a2
+	vec3 high; // a3, a4, a5
 };
 
-// Light moments of coefficients 0..2 (low) and 3..5 (high), a column each. Lamps and environment are clamped apart: where
-// a polynomial dips below zero under a strong lamp it must not eat the light of the sky, which turns shadows blue.
-FurTexel furTexel(vec3 at, mat3 lampLow, mat3 lampHigh, mat3 skyLow, mat3 skyHigh) {
+FurTexel furTexel(vec3 at) {
 	FurTexel texel;
 	vec4 byte0 = texture(plane0, at, LOD_BIAS);
 	vec4 a = byte0 * scale0 + offset0;
-	vec3 lamps = lampLow * a.xyz, sky = skyLow * a.xyz;
+	texel.low = a.xyz;
 #ifdef TWO_PLANES
 	vec4 byte1 = texture(plane1, at, LOD_BIAS);
-	vec3 b = vec3(byte1.xy * scale1 + offset1, a.w);
-	lamps += lampHigh * b;
-	sky += skyHigh * b;
+	texel.high = vec3(byte1.xy * scale1 + offset1, a.w);
 	texel.alpha = byte1.z;
 	texel.tint = byte1.w;
 #else
 	texel.alpha = byte0.w;
 	texel.tint = 1.0;
 #endif
-	texel.light = max(lamps, 0.0) + max(sky, 0.0);
 	return texel;
+}
+
+// Σ over lights of E·L, L in the unit 4π·radiance / (albedo·irradiance); never negative.
+vec3 relight(FurTexel texel, Moments moments) {
+	vec3 light = moments.low * texel.low;
+#ifdef TWO_PLANES
+	light += moments.high * texel.high;
+#endif
+	return max(light, 0.0);
+}
+
+// 4π·radiance of a texel whose hairs have this colour. Lamps and environment are clamped apart: where a polynomial dips
+// below zero under a strong lamp it must not eat the light of the sky, which turns shadows blue.
+vec3 furRadiance(FurTexel texel, vec3 colour, Lamps lamps, Moments sky) {
+	vec3 lamp = relight(texel, lamps.moments);
+	vec3 light = lamp;
+#ifdef SKY
+	light += relight(texel, sky);
+#endif
+#ifdef BACKLIGHT
+	light += lamps.back * (backlight * texel.alpha);
+#endif
+#ifdef GLOSS
+	// The lamps' light on the texel is the highlights' shadow.
+	return colour * (light + lamp * (gloss * lamps.lobes.y)) + lamp * (gloss * texel.tint * lamps.lobes.x);
+#else
+	return colour * light;
+#endif
 }

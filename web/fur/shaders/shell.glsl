@@ -4,14 +4,11 @@ in vec4 tangent;
 in vec4 color; // of the skin, linear
 in vec4 _fur; // X = lapped weight, Y = share of the longest fur, Z = openness to the sky, W = from tip to tip2, all 0..1
 in vec3 _comb; // displacement of the tip in the tangent plane, share of the length, the mesh's own axes
-in vec4 shell; // per instance: X = s of the shell, Y = slab it shows, ZW = shear of the look-up, tile widths
-#ifdef BODIES
-in mat4 body; // per instance: the mesh's axes → the axes of all bodies together
-#endif
 
 uniform float tiles; // texture coordinates → tiles
-uniform float layers; // K: slabs stored
-uniform float slabsPerShell; // K / n: how much fur one drawn shell stands for
+uniform float shellCount; // n, of one body; may lie between two whole numbers
+uniform int firstShell; // that is drawn
+uniform vec4 drift[(LAYERS + 2) / 2]; // two knots each: mean displacement of the hairs at the root and in every slab's middle, tile widths
 
 out vec3 vAt; // XY = tiles, Z = slab
 out float vWeight; // slabs that the shell stands for here, of the patch's share
@@ -25,30 +22,44 @@ struct ShellPoint {
 	vec3 pointVS;
 };
 
-mat4 bodyModelView() {
-#ifdef BODIES
-	return modelViewMatrix * body;
-#else
-	return modelViewMatrix;
-#endif
+vec2 driftKnot(int k) {
+	vec4 two = drift[k >> 1];
+	return (k & 1) == 0 ? two.xy : two.zw;
+}
+
+// Mean displacement of the hairs: 0 at the root, linear between slab middles and on beyond the last.
+vec2 driftAt(float s) {
+	float x = s * float(LAYERS) + 0.5;
+	if (x < 1.0 || LAYERS == 1) return driftKnot(1) * (2.0 * x - 1.0);
+	int k = min(int(x), LAYERS - 1);
+	return mix(driftKnot(k), driftKnot(k + 1), x - float(k));
 }
 
 // Places the vertex and writes what every fragment of a shell needs, whatever it is lit by.
 ShellPoint shellPoint() {
 	ShellPoint point;
-	mat4 placement = bodyModelView();
-	point.s = shell.x;
+#ifdef BODIES
+	float i = float(firstShell + gl_InstanceID % int(ceil(shellCount)));
+#else
+	float i = float(firstShell + gl_InstanceID);
+#endif
+	// Shells lie in the middle of their share of the fur; the outermost has a smaller one where n is no whole number.
+	float share = min(1.0, shellCount - i) / shellCount;
+	point.s = i / shellCount + 0.5 * share;
 	vec3 n = normalize(normal);
 	vec3 t = normalize(tangent.xyz - n * dot(n, tangent.xyz));
+	mat4 placement = bodyModelView();
 	point.normal = n;
 	point.turn = mat3(placement) / length(placement[0].xyz);
 	point.frameVS = point.turn * furBend(n, _comb, point.s) * mat3(t, tangent.w * cross(n, t), n);
 	point.pointVS = (placement * vec4(furPoint(position, n, _comb, _fur.y, point.s), 1.0)).xyz;
 
-	vAt = vec3(uv * tiles - shell.zw, shell.y);
-	// The outermost shell may stand for less than the others, where their number is between two whole ones.
-	vWeight = _fur.x * min(slabsPerShell, 2.0 * (1.0 - point.s) * layers);
-	vFacing = dot(point.turn * n, normalize(-point.pointVS));
+	// A shell between two slabs' middles shows its slab sheared by how far the hairs have drifted since, so that they run
+	// on instead of standing in steps.
+	int slab = min(int(point.s * float(LAYERS)), LAYERS - 1);
+	vAt = vec3(uv * tiles - (driftAt(point.s) - driftKnot(slab + 1)), float(slab));
+	vWeight = _fur.x * float(LAYERS) * share;
+	vFacing = dot(point.turn * n, viewerVS(point.pointVS));
 	gl_Position = projectionMatrix * vec4(point.pointVS, 1.0);
 	return point;
 }

@@ -5,21 +5,19 @@ uniform sampler2DArray colourPlane; // the texel's original colour (paper, eq. 4
 in vec3 vAt;
 in vec3 vColour;
 #ifdef COLOUR_PLANE
-in vec4 vPlane;
+in float vTip2;
+in float vHeight;
 #endif
-in mat3 vLampLow;
-in mat3 vLampHigh;
-in mat3 vSkyLow;
-in mat3 vSkyHigh;
 
 out vec4 fragColour;
 
 void main() {
-	FurTexel texel = furTexel(vAt, vLampLow, vLampHigh, vSkyLow, vSkyHigh);
-	vec3 colour = vColour * texel.tint;
+	FurTexel texel = furTexel(vAt);
 #ifdef COLOUR_PLANE
-	colour = vPlane.a * colour + vPlane.rgb * texture(colourPlane, vAt).rgb;
+	vec3 colour = vColour * mix(texture(colourPlane, vAt).rgb, furRamp(1.0, vHeight) * texel.tint, vTip2);
+#else
+	vec3 colour = vColour * texel.tint;
 #endif
 	if (texel.alpha < alphaCut) discard;
-	fragColour = furOutput(colour, texel.light, shellOpacity(texel.alpha));
+	fragColour = furOutput(furRadiance(texel, colour, receivedLamps(), receivedSky()), shellOpacity(texel.alpha));
 }

@@ -1,26 +1,19 @@
-// WebGL2 promises no more than 15 vectors: four matrices, two vec3 with the scalars in their gaps, and a vec4.
-out vec3 vColour; // of the hairs but for the texel's tint, linear
+out vec3 vColour; // of the hairs but for the texel's tint, linear; with a colour plane what multiplies it
 #ifdef COLOUR_PLANE
-out vec4 vPlane; // RGB = factor of the texel's original colour, A = share of vColour
+out float vTip2; // from the texel's original colour to tip2
+out float vHeight; // 0 at the skin, 1 at the tip
 #endif
-// Light moments of coefficients 0..2 (low) and 3..5 (high), a column each.
-out mat3 vLampLow;
-out mat3 vLampHigh;
-out mat3 vSkyLow;
-out mat3 vSkyHigh;
 
 void main() {
-	ShellPoint point = shellPoint();
-	Moments lamps = lampMoments(point.frameVS, point.pointVS, point.s);
-	Moments sky = environmentMoments(point.frameVS);
-	vLampLow = lamps.low;
-	vLampHigh = lamps.high;
-	vSkyLow = sky.low * _fur.z;
-	vSkyHigh = sky.high * _fur.z;
+	ShellPoint shell = shellPoint();
+	vec3 tip = position + shell.normal * (furLength * _fur.y);
+	passLight(FurPoint(shell.frameVS, shell.pointVS, (bodyModel() * vec4(tip, 1.0)).xyz, shell.s), _fur.z);
 
-	vec3 skin = skinColour * color.rgb;
-	vColour = skin * furRamp(_fur.w, point.s);
+	vColour = skinColour * color.rgb;
 #ifdef COLOUR_PLANE
-	vPlane = vec4(skin * (1.0 - _fur.w), _fur.w);
+	vTip2 = _fur.w;
+	vHeight = shell.s;
+#else
+	vColour *= furRamp(_fur.w, shell.s);
 #endif
 }

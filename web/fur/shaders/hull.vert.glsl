@@ -1,0 +1,7 @@
+in vec4 _fur; // as of the shells
+in vec3 _comb;
+
+void main() {
+	vec3 point = furPoint(position, normalize(normal), _comb, _fur.y, 0.5);
+	gl_Position = projectionMatrix * bodyModelView() * vec4(point, 1.0);
+}

@@ -1,0 +1,87 @@
+// Light of lamps at a point of the fur: three's directional, point and spot lights, with their shadow maps.
+
+uniform vec2 lean; // mean displacement of the tips inside the tile, share of the length along (T, B)
+#ifdef GLOSS
+uniform float sharpness; // exponent of the white highlight; the coloured one's is a quarter of it
+#endif
+
+struct Lamps {
+	Moments moments;
+	vec3 back; // light that comes through the hairs from behind
+	vec2 lobes; // highlights: white, of the hair's colour; times the lamps' light on the texel
+};
+
+// Unit vector along the hairs.
+vec3 strandVS(FurPoint point) {
+#ifdef FIN
+	return point.frameVS[1];
+#else
+	return point.frameVS * normalize(vec3(2.0 * point.s * lean, 1.0));
+#endif
+}
+
+// Kajiya and Kay 1989 with the half vector; two lobes leaned to the tip and to the root (Marschner et al. 2003), since
+// scales of a hair tilt what its surface reflects one way and what comes back through it the other.
+vec2 highlights(vec3 strand, vec3 normalVS, vec3 light, vec3 viewer) {
+#ifdef GLOSS
+	vec3 halfway = normalize(light + viewer);
+	vec2 along = vec2(dot(normalize(strand - 0.1 * normalVS), halfway), dot(normalize(strand + 0.2 * normalVS), halfway));
+	vec2 across = sqrt(max(1.0 - along * along, 0.0));
+	return smoothstep(-1.0, 0.0, along) * vec2(pow(across.x, sharpness), pow(across.y, 0.25 * sharpness));
+#else
+	return vec2(0.0);
+#endif
+}
+
+void addLamp(inout Lamps lamps, inout float power, FurPoint point, vec3 lightVS, vec3 irradiance) {
+	vec3 lightTS = lightVS * point.frameVS;
+	irradiance *= horizon(lightTS, point.s);
+	vec3 low, high;
+	basis(lightTS, low, high);
+	lamps.moments.low += outerProduct(irradiance, low);
+	lamps.moments.high += outerProduct(irradiance, high);
+#if defined(GLOSS) || defined(BACKLIGHT)
+	vec3 strand = strandVS(point), viewer = viewerVS(point.pointVS);
+	float share = dot(irradiance, vec3(0.2126, 0.7152, 0.0722));
+	power += share;
+	lamps.lobes += share * highlights(strand, point.frameVS[UPRIGHT], lightVS, viewer);
+	float through = max(-dot(viewer, lightVS), 0.0);
+	lamps.back += irradiance * (through * through * through * length(cross(strand, lightVS)) * point.s);
+#endif
+}
+
+Lamps lampsAt(FurPoint point) {
+	Lamps lamps = Lamps(Moments(mat3(0.0), mat3(0.0)), vec3(0.0), vec2(0.0));
+	IncidentLight light;
+	float power = 0.0;
+#if NUM_DIR_LIGHTS > 0
+	#pragma unroll_loop_start
+	for (int i = 0; i < NUM_DIR_LIGHTS; i++) {
+		getDirectionalLightInfo(directionalLights[ i ], light);
+#if defined(USE_SHADOWMAP) && (UNROLLED_LOOP_INDEX < NUM_DIR_LIGHT_SHADOWS)
+		light.color *= shadow(directionalShadowMap[ i ], directionalLightShadows[ i ].shadowMapSize, directionalLightShadows[ i ].shadowIntensity, directionalLightShadows[ i ].shadowBias, directionalLightShadows[ i ].shadowRadius, directionalShadowMatrix[ i ] * vec4(point.tipWS, 1.0));
+#endif
+		addLamp(lamps, power, point, light.direction, light.color);
+	}
+	#pragma unroll_loop_end
+#endif
+#if NUM_POINT_LIGHTS > 0
+	for (int i = 0; i < NUM_POINT_LIGHTS; i++) {
+		getPointLightInfo(pointLights[i], point.pointVS, light);
+		addLamp(lamps, power, point, light.direction, light.color);
+	}
+#endif
+#if NUM_SPOT_LIGHTS > 0
+	#pragma unroll_loop_start
+	for (int i = 0; i < NUM_SPOT_LIGHTS; i++) {
+		getSpotLightInfo(spotLights[ i ], point.pointVS, light);
+#if defined(USE_SHADOWMAP) && (UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS)
+		light.color *= shadow(spotShadowMap[ i ], spotLightShadows[ i ].shadowMapSize, spotLightShadows[ i ].shadowIntensity, spotLightShadows[ i ].shadowBias, spotLightShadows[ i ].shadowRadius, spotLightMatrix[ i ] * vec4(point.tipWS, 1.0));
+#endif
+		addLamp(lamps, power, point, light.direction, light.color);
+	}
+	#pragma unroll_loop_end
+#endif
+	lamps.lobes /= max(power, 1e-6);
+	return lamps;
+}

@@ -1,0 +1,55 @@
+// What of the light has come from the vertices: see light.vert.glsl.
+
+#ifdef SKY
+in mat3 vSkyLow;
+#ifdef TWO_PLANES
+in mat3 vSkyHigh;
+#endif
+#endif
+#ifdef LAMPS_PER_FRAGMENT
+in mat3 vFrame;
+in vec3 vPoint;
+in vec3 vTip;
+in float vS;
+#else
+in mat3 vLampLow;
+#ifdef TWO_PLANES
+in mat3 vLampHigh;
+#endif
+#ifdef BACKLIGHT
+in vec3 vBack;
+#endif
+#ifdef GLOSS
+in float vLobe;
+in float vTintedLobe;
+#endif
+#endif
+
+Lamps receivedLamps() {
+#ifdef LAMPS_PER_FRAGMENT
+	return lampsAt(FurPoint(vFrame, vPoint, vTip, vS));
+#else
+	Lamps lamps = Lamps(Moments(vLampLow, mat3(0.0)), vec3(0.0), vec2(0.0));
+#ifdef TWO_PLANES
+	lamps.moments.high = vLampHigh;
+#endif
+#ifdef BACKLIGHT
+	lamps.back = vBack;
+#endif
+#ifdef GLOSS
+	lamps.lobes = vec2(vLobe, vTintedLobe);
+#endif
+	return lamps;
+#endif
+}
+
+Moments receivedSky() {
+	Moments sky = Moments(mat3(0.0), mat3(0.0));
+#ifdef SKY
+	sky.low = vSkyLow;
+#ifdef TWO_PLANES
+	sky.high = vSkyHigh;
+#endif
+#endif
+	return sky;
+}

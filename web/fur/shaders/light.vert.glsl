@@ -1,0 +1,84 @@
+// What of the light goes from vertex to fragment: moments, summed here; or, where lamps are summed per fragment, the point.
+// WebGL2 promises no more than 15 vectors: of a shell four matrices and three vec3, with scalars in their gaps.
+
+#ifdef SKY
+out mat3 vSkyLow;
+#ifdef TWO_PLANES
+out mat3 vSkyHigh;
+#endif
+#endif
+#ifdef LAMPS_PER_FRAGMENT
+out mat3 vFrame;
+out vec3 vPoint;
+out vec3 vTip;
+out float vS;
+#else
+// Light moments of coefficients 0..2 (low) and 3..5 (high), a column each.
+out mat3 vLampLow;
+#ifdef TWO_PLANES
+out mat3 vLampHigh;
+#endif
+#ifdef BACKLIGHT
+out vec3 vBack;
+#endif
+#ifdef GLOSS
+out float vLobe; // white highlight
+out float vTintedLobe;
+#endif
+#endif
+
+// openness: to the sky, 0..1.
+void passLight(FurPoint point, float openness) {
+#ifdef SKY
+	Moments sky = environmentMoments(point.frameVS);
+	vSkyLow = sky.low * openness;
+#ifdef TWO_PLANES
+	vSkyHigh = sky.high * openness;
+#endif
+#endif
+#ifdef LAMPS_PER_FRAGMENT
+	vFrame = point.frameVS;
+	vPoint = point.pointVS;
+	vTip = point.tipWS;
+	vS = point.s;
+#else
+	Lamps lamps = lampsAt(point);
+	vLampLow = lamps.moments.low;
+#ifdef TWO_PLANES
+	vLampHigh = lamps.moments.high;
+#endif
+#ifdef BACKLIGHT
+	vBack = lamps.back;
+#endif
+#ifdef GLOSS
+	vLobe = lamps.lobes.x;
+	vTintedLobe = lamps.lobes.y;
+#endif
+#endif
+}
+
+// For what nobody sees.
+void passDarkness() {
+#ifdef SKY
+	vSkyLow = mat3(0.0);
+#ifdef TWO_PLANES
+	vSkyHigh = mat3(0.0);
+#endif
+#endif
+#ifdef LAMPS_PER_FRAGMENT
+	vFrame = mat3(1.0);
+	vPoint = vTip = vec3(0.0);
+	vS = 0.0;
+#else
+	vLampLow = mat3(0.0);
+#ifdef TWO_PLANES
+	vLampHigh = mat3(0.0);
+#endif
+#ifdef BACKLIGHT
+	vBack = vec3(0.0);
+#endif
+#ifdef GLOSS
+	vLobe = vTintedLobe = 0.0;
+#endif
+#endif
+}
