@@ -21,11 +21,11 @@ from furbake.identity import bake_key, describe_input, library_versions
 from furbake.options import BakeOptions
 from furbake.pelt import basis as bases
 from furbake.pelt.basis import Basis, environment
-from furbake.pelt.fill import fill
+from furbake.pelt.fill import fill, fill_directions
 from furbake.pelt.fin import FIN_FRAME, fit_fin, side_view
 from furbake.pelt.fit import Judge, fit, relight
 from furbake.pelt.pelt import FinPelt, Pelt
-from furbake.pelt.quantise import byte_range, dequantise, quantise, srgb_bytes, unit_bytes
+from furbake.pelt.quantise import byte_range, dequantise, quantise, signed_bytes, srgb_bytes, unit_bytes
 from furbake.pelt.strands import Strands, grow
 from furbake.pelt.transport import LOWEST, LOWEST_FLAT, hemisphere, sample
 from furbake.pelt.volume import Volume, coarsen, fine_shape, voxelise
@@ -190,6 +190,7 @@ def fit_pelt(volume: Volume, lighting: Lighting, options: BakeOptions) -> tuple[
         drift=volume.drift,
         height=volume.height,
         ramp=options.ramp,
+        direction=signed_bytes(fill_directions(volume.tangent, alpha)) if options.directions else None,
     )
     judge = Judge(lighting.samples[lighting.held_out], alpha, volume.tint)
     fitted, stored = relight(coefficients, basis, unseen), relight(dequantise(codes, scale, bias), basis, unseen)

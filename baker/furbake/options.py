@@ -85,6 +85,8 @@ class BakeOptions:
     ramp: Ramp = field(default_factory=Ramp)
     colour_plane: bool = True
     """Store the paper's original colour of every texel as a third plane."""
+    directions: bool = False
+    """Store the hairs' mean direction in every texel, for renderers that compute the light themselves."""
     tile_share: float = 0.13
     """Default width of a tile as a share of the model's largest side, 0.001 to 10."""
     height_share: float = 0.5
@@ -126,8 +128,11 @@ class BakeOptions:
         return tile, height * tile
 
     def as_record(self) -> dict[str, Any]:
-        """Plain data, for bake.json."""
-        return asdict(self)
+        """Plain data, for bake.json. `directions` is in it only where it is on: other records stay what they were."""
+        record = asdict(self)
+        if not self.directions:
+            del record["directions"]
+        return record
 
     @classmethod
     def from_record(cls, record: dict[str, Any]) -> BakeOptions:

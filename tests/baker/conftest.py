@@ -55,7 +55,13 @@ def make_pelt() -> Callable[..., Pelt]:
     """A valid pelt of random bytes: make_pelt(layers=4, size=8, coefficients=6, kind="ptm", colour=True)."""
 
     def build(
-        layers: int = 4, size: int = 8, coefficients: int = 6, kind: Any = "ptm", colour: bool = True, seed: int = 0
+        layers: int = 4,
+        size: int = 8,
+        coefficients: int = 6,
+        kind: Any = "ptm",
+        colour: bool = True,
+        direction: bool = False,
+        seed: int = 0,
     ) -> Pelt:
         chance = np.random.default_rng(seed)
         texels = (layers, size, size)
@@ -77,6 +83,7 @@ def make_pelt() -> Callable[..., Pelt]:
             drift=chance.normal(size=(layers, 2)),
             height=0.6,
             ramp=Ramp(),
+            direction=noise(*texels, 3) if direction else None,
         )
 
     return build

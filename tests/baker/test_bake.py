@@ -10,10 +10,13 @@ import pytest
 
 from furbake import BakeOptions, bake, validate
 from furbake.asset.planes import Planes, read_png, unpack
+from furbake.asset.read import read_asset
+from furbake.asset.stored import read_pelt
 from furbake.bake import STAGES
 from furbake.pelt.basis import Basis
+from furbake.pelt.fill import SOLID
 from furbake.pelt.fit import Judge, relight
-from furbake.pelt.quantise import dequantise
+from furbake.pelt.quantise import dequantise, from_signed_bytes
 
 SMALL = replace(BakeOptions(), layers=6, size=32, lights=32)
 
@@ -76,6 +79,31 @@ def test_samples_hold_the_strands_and_lights_of_the_bake(tmp_path: Path) -> None
     assert (~samples["held_out"]).sum() == 32
     assert samples["tangent"].shape == (6, 32, 32, 3)
     np.testing.assert_allclose(np.linalg.norm(samples["tangent"], axis=-1), 1)
+
+
+@pytest.mark.parametrize(("basis", "coefficients", "colour"), [("ptm", 6, True), ("eigen", 3, False)])
+def test_directions_are_a_plane_more_and_nothing_else(
+    tmp_path: Path, basis: str, coefficients: int, colour: bool
+) -> None:
+    options = replace(SMALL, basis=basis, coefficients=coefficients, colour_plane=colour)
+    plain = bake("plane", tmp_path / "plain", options)
+    out = tmp_path / "out"
+    told = bake("plane", out, replace(options, directions=True), samples=tmp_path / "s.npz")
+    assert validate(out) == []
+    assert {path.name for path in out.iterdir()} - {path.name for path in plain.folder.iterdir()} == {"direction.png"}
+    for path in plain.folder.iterdir():
+        if path.suffix in (".png", ".bin"):
+            assert (out / path.name).read_bytes() == path.read_bytes()
+    assert told.record["key"] != plain.record["key"]
+
+    codes = read_pelt(read_asset(out)).direction
+    assert codes is not None
+    stored, samples = from_signed_bytes(codes), np.load(tmp_path / "s.npz")
+    covered = -np.expm1(-samples["sigma"] * samples["height"] / options.layers) >= SOLID
+    assert covered.mean() > 0.05
+    assert np.abs(stored - samples["tangent"])[covered].max() <= 0.5 / 127.5 + 1e-12
+    assert np.abs(np.linalg.norm(stored, axis=-1) - 1).max() <= np.sqrt(3) * 0.5 / 127.5
+    assert stored[..., 2].min() > -0.01  # from root to tip
 
 
 def test_fins_can_be_left_out_and_creases_have_none(tmp_path: Path, write_obj: Any, cube: Any) -> None:

@@ -116,6 +116,15 @@ def test_samples(run: Callable[..., Any]) -> None:
     assert listed() == ["out", "s.npz"]
 
 
+def test_directions_make_a_bake_without_them_stale(run: Callable[..., Any]) -> None:
+    told = [
+        json.loads(run("bake", "plane", "-o", "out", *TINY, "--if-stale", "--json", *more).out)
+        for more in ((), ("--directions",), ("--directions",), ())
+    ]
+    assert [record["baked"] for record in told] == [True, True, False, True]
+    assert ["direction.png" in record["asset"]["bytes"] for record in told] == [False, True, True, False]
+
+
 BAD_COMMANDS = {
     # Acceptance 9.
     (

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from furbake.pelt.fill import SOLID, fill
+from furbake.pelt.fill import SOLID, fill, fill_directions
 
 RNG = np.random.default_rng(0)
 
@@ -33,3 +33,12 @@ def test_nearest_hair_wins() -> None:
 
 def test_an_empty_layer_stays_finite() -> None:
     assert np.isfinite(fill(np.ones((1, 8, 8, 2)), np.zeros((1, 8, 8)))).all()
+
+
+def test_directions_stay_unit_and_empty_texels_lean_as_their_neighbours_do() -> None:
+    alpha = np.where(RNG.random((2, 32, 32)) < 0.1, 1.0, 0.0)
+    leaning = np.array([[0.6, 0.0, 0.8], [0.0, -0.28, 0.96]])[:, None, None]
+    tangent = np.where(alpha[..., None] > 0, leaning, [0.0, 0.0, 1.0])
+    filled = fill_directions(tangent, alpha)
+    np.testing.assert_allclose(np.linalg.norm(filled, axis=-1), 1)
+    np.testing.assert_allclose(filled, np.broadcast_to(leaning, filled.shape), atol=0.02)

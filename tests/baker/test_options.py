@@ -218,6 +218,13 @@ def test_a_record_gives_the_options_back_from_json() -> None:
     assert BakeOptions.from_record(json.loads(json.dumps(options.as_record()))) == options
 
 
+def test_only_a_record_of_a_bake_with_directions_names_them() -> None:
+    assert "directions" not in BakeOptions().as_record()
+    options = BakeOptions(directions=True)
+    assert options.as_record()["directions"] is True
+    assert BakeOptions.from_record(json.loads(json.dumps(options.as_record()))) == options
+
+
 def test_length_is_height_times_tile() -> None:
     def size(**given: float) -> tuple[float, float]:
         return replace(BakeOptions(height_share=0.5, tile_share=0.1), **given).dimensions(extent=20)

@@ -17,12 +17,13 @@ from furbake.pelt.pelt import Pelt
 
 @pytest.mark.parametrize("coefficients", [3, 4, 5, 6])
 def test_round_trip(make_pelt: Callable[..., Pelt], coefficients: int) -> None:
-    pelt = make_pelt(layers=3, coefficients=coefficients, kind="eigen")
+    pelt = make_pelt(layers=3, coefficients=coefficients, kind="eigen", direction=True)
     texels = unpack(pack(pelt), coefficients)
     np.testing.assert_array_equal(texels.codes, pelt.codes)
     np.testing.assert_array_equal(texels.alpha, pelt.alpha)
     np.testing.assert_array_equal(texels.tint, 255 if coefficients == 3 else pelt.tint)
     np.testing.assert_array_equal(texels.colour, pelt.colour)
+    np.testing.assert_array_equal(texels.direction, pelt.direction)
 
 
 def test_six_coefficients(make_pelt: Callable[..., Pelt]) -> None:
@@ -46,8 +47,10 @@ def test_fewer_coefficients(make_pelt: Callable[..., Pelt]) -> None:
     np.testing.assert_array_equal(second[9, 2, 0], four.codes[1, 1, 2, 3])
 
 
-def test_no_colour(make_pelt: Callable[..., Pelt]) -> None:
-    assert pack(make_pelt(colour=False)).colour is None
+def test_no_colour_and_no_direction(make_pelt: Callable[..., Pelt]) -> None:
+    planes = pack(make_pelt(colour=False))
+    assert (planes.colour, planes.direction) == (None, None)
+    assert unpack(planes, 6).direction is None
 
 
 @pytest.mark.parametrize("coefficients", [2, 7])

@@ -6,7 +6,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from furbake.pelt.basis import ptm
-from furbake.pelt.quantise import byte_range, dequantise, quantise, srgb_bytes, unit_bytes
+from furbake.pelt.quantise import (
+    byte_range,
+    dequantise,
+    from_signed_bytes,
+    quantise,
+    signed_bytes,
+    srgb_bytes,
+    unit_bytes,
+)
 from furbake.pelt.transport import hemisphere
 
 PHI = ptm(hemisphere(64))
@@ -52,3 +60,9 @@ def test_constant_coefficient_survives() -> None:
 def test_unit_and_srgb_bytes() -> None:
     np.testing.assert_array_equal(unit_bytes(np.array([-1, 0, 0.5, 1, 2])), [0, 0, 128, 255, 255])
     np.testing.assert_array_equal(srgb_bytes(np.array([0, 0.0031308, 0.2140411, 1])), [0, 10, 127, 255])
+
+
+def test_signed_bytes_come_back_within_half_a_step() -> None:
+    values = np.linspace(-1, 1, 4001)
+    assert np.abs(from_signed_bytes(signed_bytes(values)) - values).max() <= 0.5 / 127.5 + 1e-12
+    np.testing.assert_array_equal(signed_bytes(np.array([-2, -1, 1, 2])), [0, 0, 255, 255])

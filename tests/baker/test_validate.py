@@ -20,6 +20,7 @@ from furbake import BakeOptions, bake
 from furbake.asset.inspect import summary
 from furbake.asset.planes import write_png
 from furbake.asset.read import AssetError, read_asset
+from furbake.asset.stored import read_pelt
 from furbake.asset.validate import schema, validate
 
 
@@ -111,6 +112,25 @@ EDITS = {
     ),
     "old glTF": (lambda d: put(d["asset"], "version", "1.0"), "model.gltf: glTF 1.0, expected 2.0"),
 }
+
+
+def test_directions(tmp_path: Path) -> None:
+    folder = tmp_path / "asset"
+    bake("plane", folder, BakeOptions(layers=4, size=8, lights=8, directions=True))
+    assert validate(folder) == []
+    found = summary(read_asset(folder))["fur"]
+    assert found["direction plane"] is True
+    assert found["texture bytes"] == 4 * (4 * 4 * 64 + 3 * 8 * 8)
+    write_png(folder / "direction.png", np.zeros((24, 8, 3), np.uint8))
+    assert validate(folder) == ["direction.png: 8 × 24 texels with 3 channels, expected 8 × 32 with 3"]
+    with pytest.raises(AssetError, match="a plane is 8 x 24, expected 8 x 32"):
+        read_pelt(read_asset(folder))
+    path = folder / "model.gltf"
+    document = json.loads(path.read_text())
+    for reference, message in ((9, "a pelt uses image 9, expected one of 7"), ("up", "'up' is not of type 'integer'")):
+        put(fur(document)["pelts"][0], "direction", reference)
+        path.write_text(json.dumps(document))
+        assert any(message in problem for problem in validate(folder)), validate(folder)
 
 
 @pytest.mark.parametrize("name", EDITS)
@@ -228,6 +248,7 @@ def test_summary(good: Path) -> None:
     found = summary(read_asset(good))
     assert found["fur"]["layers"] == 4
     assert found["skin"] == {"vertices": 2562, "faces": 5120, "attributes": ["POSITION", "NORMAL"]}
+    assert found["fur"]["direction plane"] is False
     assert found["fur"]["texture bytes"] == 4 * 3 * (4 * 64 + 8 * 8)
     assert found["fins"]["attributes"] == ["POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "_EDGE"]
     assert 2 * 5120 < found["fins"]["faces"] < 2 * 7680

@@ -108,8 +108,9 @@ def extension(pelt: Pelt, length: float, tiles: float, images: list[str], nodes:
         "scale": numbers(pelt.scale),
         "bias": numbers(pelt.bias),
     }
-    if "colour.png" in images:
-        state["colour"] = images.index("colour.png")
+    for role in ("colour", "direction"):
+        if f"{role}.png" in images:
+            state[role] = images.index(f"{role}.png")
     if pelt.fin is not None:
         height, width = pelt.fin.alpha.shape
         state["fin"] = {
@@ -165,4 +166,7 @@ def _write_planes(folder: Path, pelt: Pelt) -> list[str]:
         if planes.colour is not None:
             written.append(f"{prefix}colour.png")
             write_png(folder / written[-1], planes.colour, srgb=True)
+        if planes.direction is not None:
+            written.append(f"{prefix}direction.png")
+            write_png(folder / written[-1], planes.direction)
     return written

@@ -21,8 +21,8 @@ def _summary(asset: Asset) -> dict[str, Any]:
     fur, record = asset.fur, asset.record
     states = fur["pelts"]
     images = sum(len(state["planes"]) for state in states)
-    colours = sum("colour" in state for state in states)
-    texels = fur["layers"] * fur["size"] ** 2 * (images + colours)
+    colours, directions = (sum(role in state for state in states) for role in ("colour", "direction"))
+    texels = fur["layers"] * fur["size"] ** 2 * (images + colours + directions)
     for fin in (state["fin"] for state in states if "fin" in state):
         texels += fin["width"] * fin["height"] * (len(fin["planes"]) + ("colour" in fin))
     names = [asset.document["buffers"][0]["uri"], *(image["uri"] for image in asset.document.get("images", []))]
@@ -42,6 +42,7 @@ def _summary(asset: Asset) -> dict[str, Any]:
             "tile": fur["length"] / fur["height"],
             "pelts": [state["name"] for state in states],
             "colour plane": colours > 0,
+            "direction plane": directions > 0,
             "texture bytes": 4 * texels,
         },
         "skin": _mesh(asset, "skin"),

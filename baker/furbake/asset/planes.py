@@ -1,7 +1,8 @@
 """A pelt as images: layers stacked into one column, layer 0 on top, every byte as it is.
 
 plane0 = (a0, a1, a2, a5), plane1 = (a3, a4, α, tint). Three coefficients take one plane: (a0, a1, a2, α), tint 1.
-With four or five the channels that are left over are 0. An optional third image has the original colour, sRGB.
+With four or five the channels that are left over are 0. An optional third image has the original colour, sRGB, another
+the hairs' direction, 127.5 + 127.5·t.
 A fin's images are its side view, row 0 at the roots.
 """
 
@@ -29,23 +30,25 @@ class PlaneError(ValueError):
 
 @dataclass(frozen=True)
 class Planes:
-    """The images of one pelt: (layers·size, size, 4) bytes each, the colour with 3 channels."""
+    """The images of one pelt: (layers·size, size, 4) bytes each, colour and direction with 3 channels."""
 
     coefficients: tuple[Bytes, ...]
     colour: Bytes | None
+    direction: Bytes | None = None
 
 
 @dataclass(frozen=True)
 class Texels:
     """What the images hold, per texel; the reverse of `pack`.
 
-    codes : (K, N, N, C), alpha, tint : (K, N, N), colour : (K, N, N, 3) bytes or None
+    codes : (K, N, N, C), alpha, tint : (K, N, N), colour, direction : (K, N, N, 3) bytes or None
     """
 
     codes: Bytes
     alpha: Bytes
     tint: Bytes
     colour: Bytes | None
+    direction: Bytes | None = None
 
 
 def pack(pelt: Pelt) -> Planes:
@@ -53,11 +56,12 @@ def pack(pelt: Pelt) -> Planes:
     count = pelt.coefficients
     if not 3 <= count <= 6:
         raise ValueError(f"coefficients: got {count}, expected 3 to 6")
-    colour = None if pelt.colour is None else _column(pelt.colour)
+    colour, direction = (None if texels is None else _column(texels) for texels in (pelt.colour, pelt.direction))
     if count == 3:
-        return Planes((_column(np.concatenate([pelt.codes, pelt.alpha[..., None]], axis=-1)),), colour)
+        single = np.concatenate([pelt.codes, pelt.alpha[..., None]], axis=-1)
+        return Planes((_column(single),), colour, direction)
     first, second = _two_planes(pelt.codes, pelt.alpha, pelt.tint)
-    return Planes((_column(first), _column(second)), colour)
+    return Planes((_column(first), _column(second)), colour, direction)
 
 
 def pack_fin(fin: FinPelt) -> Planes:
@@ -82,12 +86,14 @@ def unpack(planes: Planes, coefficients: int) -> Texels:
     if len(planes.coefficients) != (1 if coefficients == 3 else 2) or first.shape[0] % size or first.shape[2] != 4:
         raise ValueError(f"planes: got {[p.shape for p in planes.coefficients]} for {coefficients} coefficients")
     stacks = [plane.reshape(-1, size, size, 4) for plane in planes.coefficients]
-    colour = None if planes.colour is None else planes.colour.reshape(-1, size, size, 3)
+    colour, direction = (
+        None if plane is None else plane.reshape(-1, size, size, 3) for plane in (planes.colour, planes.direction)
+    )
     if coefficients == 3:
         alpha = stacks[0][..., 3]
-        return Texels(stacks[0][..., :3], alpha, np.full_like(alpha, 255), colour)
+        return Texels(stacks[0][..., :3], alpha, np.full_like(alpha, 255), colour, direction)
     codes = np.stack([stacks[plane][..., channel] for plane, channel in SLOTS[:coefficients]], axis=-1)
-    return Texels(codes, stacks[1][..., 2], stacks[1][..., 3], colour)
+    return Texels(codes, stacks[1][..., 2], stacks[1][..., 3], colour, direction)
 
 
 def write_png(path: Path, pixels: Bytes, srgb: bool = False) -> None:

@@ -52,8 +52,8 @@ def skin_colour(asset: Asset) -> RGB:
 def _pelt(fur: dict[str, Any], asset: Asset, state: int) -> Pelt:
     stored, layers, size, count = fur["pelts"][state], fur["layers"], fur["size"], fur["coefficients"]
     images = _images(stored, asset)
-    for image in (*images.coefficients, *([] if images.colour is None else [images.colour])):
-        if image.shape[:2] != (layers * size, size):
+    for image in (*images.coefficients, images.colour, images.direction):
+        if image is not None and image.shape[:2] != (layers * size, size):
             got = " x ".join(str(side) for side in image.shape[1::-1])
             raise AssetError(f"{asset.folder}: a plane is {got}, expected {size} x {layers * size}")
     texels = unpack(images, count)
@@ -77,6 +77,7 @@ def _pelt(fur: dict[str, Any], asset: Asset, state: int) -> Pelt:
         height=float(fur["height"]),
         ramp=Ramp(_rgb(ramp["root"]), _rgb(ramp["tip"]), _rgb(ramp["tip2"]), float(ramp["power"])),
         fin=_fin(stored["fin"], asset) if "fin" in stored else None,
+        direction=texels.direction,
     )
 
 
@@ -100,8 +101,8 @@ def _fin(stored: dict[str, Any], asset: Asset) -> FinPelt:
 
 def _images(stored: dict[str, Any], asset: Asset) -> Planes:
     """The planes of a state, or of its fin."""
-    colour = asset.image(stored["colour"]) if "colour" in stored else None
-    return Planes(tuple(asset.image(index) for index in stored["planes"]), colour)
+    colour, direction = (asset.image(stored[role]) if role in stored else None for role in ("colour", "direction"))
+    return Planes(tuple(asset.image(index) for index in stored["planes"]), colour, direction)
 
 
 def _array(values: Any, *shape: int) -> Floats:

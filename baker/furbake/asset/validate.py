@@ -243,8 +243,9 @@ def _pelts(asset: Asset) -> Iterator[str]:
         lists[f"pelts[{i}].planes"] = (pelt["planes"], 1 if count == 3 else 2)
         for index in pelt["planes"]:
             yield from _image(asset, index, (layers * size, size, 4))
-        if "colour" in pelt:
-            yield from _image(asset, pelt["colour"], (layers * size, size, 3))
+        for role in ("colour", "direction"):
+            if role in pelt:
+                yield from _image(asset, pelt[role], (layers * size, size, 3))
         if "fin" in pelt:
             yield from _fin(asset, pelt["fin"])
     for name, (values, expected) in lists.items():

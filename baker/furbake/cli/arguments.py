@@ -151,6 +151,7 @@ def _bake_arguments(parser: _Parser) -> None:
     add("--features", type=_path, default=unset, metavar="FILE.json", help="eyes, a nose and the like")
     add("--length-by-thickness", action="store_true", default=unset, help="shorter fur where the body is thin")
     add("--no-fins", dest="fins", action="store_false", default=unset, help="no quads on the edges")
+    add("--directions", action="store_true", default=unset, help="store the hairs' directions too, for other shaders")
     add("--flat", action="store_true", default=unset, help="a flat patch under a point at infinity, for checks")
     add("--samples", type=_path, metavar="FILE.npz", help="write the sampled physics too, for others to check")
     add("--force", action="store_true", help="replace DIR if it is a bake")

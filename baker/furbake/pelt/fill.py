@@ -29,3 +29,9 @@ def fill(values: Array, alpha: Array) -> Array:
         own = np.clip(weight / SOLID, 0, 1)
         filled = own * mean + (1 - own) * doubled(filled)
     return np.moveaxis(filled, 1, -1)
+
+
+def fill_directions(tangent: Array, alpha: Array) -> Array:
+    """`fill` for unit vectors that point out of the skin, (K, N, N, 3): unit again."""
+    filled = fill(tangent, alpha)
+    return np.asarray(filled / np.maximum(np.linalg.norm(filled, axis=-1, keepdims=True), 1e-9))

@@ -66,6 +66,7 @@ class Pelt:
     drift : (K, 2) mean sideways displacement of the hairs at each slab's middle, tile widths
     height : of the fur, tile widths
     fin : its side view, or None
+    direction : (K, N, N, 3) bytes of the hairs' mean tangent, or None
     """
 
     codes: Bytes
@@ -82,6 +83,7 @@ class Pelt:
     height: float
     ramp: Ramp
     fin: FinPelt | None = None
+    direction: Bytes | None = None
 
     @property
     def layers(self) -> int:

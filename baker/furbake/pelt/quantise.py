@@ -51,6 +51,16 @@ def unit_bytes(values: Array) -> Bytes:
     return np.round(np.clip(values, 0, 1) * 255).astype(np.uint8)
 
 
+def signed_bytes(vectors: Array) -> Bytes:
+    """Components -1..1 → 0..255, rounded: 127.5 + 127.5·t."""
+    return np.round(127.5 + 127.5 * np.clip(vectors, -1, 1)).astype(np.uint8)
+
+
+def from_signed_bytes(codes: Bytes) -> Array:
+    """The reverse of `signed_bytes`, within half a step of 1/127.5."""
+    return codes / 127.5 - 1
+
+
 def srgb_bytes(linear: Array) -> Bytes:
     """Linear 0..1 → sRGB bytes (IEC 61966-2-1)."""
     linear = np.clip(linear, 0, 1)
