@@ -33,6 +33,19 @@ for (const model of ['public/models/bunny', 'public/models/torus', 'tests/golden
 	});
 }
 
+test('directions are on the GPU byte for byte, linear, and are freed', async ({ page }) => {
+	await openStage(page);
+	for (const model of ['public/models/torus-512-colour', 'public/models/torus-512-eigen3']) {
+		const got = await page.evaluate((url) => stage.directions(url), served(`${model}/model.gltf`));
+		const { fur, images } = await readAsset(model);
+		const png = decode(await readFile(`${repository}${model}/${images[fur.pelts[0]?.direction ?? -1]?.uri}`));
+		expect(png.channels).toBe(3);
+		const gpu = Buffer.from(got.bytes, 'base64').filter((_, i) => i % 4 < 3);
+		expect(Buffer.compare(gpu, Buffer.from(png.data.buffer, png.data.byteOffset, png.data.byteLength))).toBe(0);
+		expect([got.colorSpace, got.levels, got.left]).toEqual(['', Math.log2(fur.size) + 1, 0]);
+	}
+});
+
 for (const name of GOLDEN) {
 	test(`the shader's L equals numpy's: ${name}`, async ({ page }) => {
 		await openStage(page);

@@ -130,6 +130,19 @@ const stage = {
 		return bytes;
 	},
 
+	/** The directions as the GPU holds them, base64; of the rest what must be so; how many textures are left at the end. */
+	async directions(url: string): Promise<{ bytes: string; colorSpace: string; levels: number; left: number }> {
+		const { asset, textures, shells, dispose } = await loadFur(url);
+		const texture = textures.direction;
+		if (!texture) throw new Error('no directions');
+		if (Object.values(shells.material.uniforms).some(({ value }) => value === texture)) throw new Error('a uniform');
+		const before = renderer.info.memory.textures;
+		const bytes = toBase64(readArray(texture, asset.size, asset.layers));
+		dispose();
+		const left = renderer.info.memory.textures - before;
+		return { bytes, colorSpace: texture.colorSpace, levels: texture.mipmaps?.length ?? 0, left };
+	},
+
 	/** The light of every texel of a golden asset under each of the lights, base64 of float32 [light, layer, row, column]. */
 	async light(url: string, lights: number[][]): Promise<string> {
 		const flat = new Flat(await loadFur(url));

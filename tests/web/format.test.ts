@@ -46,6 +46,15 @@ describe('parseFur', () => {
 		expect(() => parseFur(fur)).toThrow(message);
 	});
 
+	it('takes a pelt with directions, and refuses a reference that is none', () => {
+		const fur = golden();
+		expect(fur.pelts[0]).not.toHaveProperty('direction');
+		Object.assign(fur.pelts[0] ?? {}, { direction: 2 });
+		expect(parseFur(fur)?.pelts[0]?.direction).toBe(2);
+		Object.assign(fur.pelts[0] ?? {}, { direction: 'up' });
+		expect(() => parseFur(fur)).toThrow(/pelts\/0/);
+	});
+
 	it('leaves a newer major version alone and takes a newer minor one', () => {
 		expect(parseFur({ version: '2.0', whatever: 1 })).toBeUndefined();
 		expect(parseFur({ ...golden(), version: '1.7' })).toBeDefined();

@@ -74,6 +74,30 @@ describe('mipLevels', () => {
 		expect(Math.max(...values)).toBe(90);
 	});
 
+	it('average further planes like the coefficients, and take none of them for the coverage', () => {
+		const further = Uint8Array.from(alpha.flatMap((a) => (a ? [40, 128, 230, 255] : [255, 0, 255, 255])));
+		for (const [coefficients, planes] of [
+			[6, planesOf(alpha, 200)],
+			[3, [Uint8Array.from(alpha.flatMap((a) => [90, 90, 90, a]))]],
+		] as const) {
+			const alone = mipLevels([...planes], extent, coefficients, 0.1);
+			const together = mipLevels([...planes, further], extent, coefficients, 0.1);
+			expect(together.map((level) => level.slice(0, -1))).toEqual(alone);
+			const half = together[1]?.at(-1) ?? [];
+			for (let i = 0; i < half.length; i += 4) {
+				const covered = [0, 1, size, size + 1].some((step) => {
+					const [row, column] = [Math.floor(i / 4 / (size / 2)), (i / 4) % (size / 2)];
+					return alpha[row * 2 * size + column * 2 + step];
+				});
+				const wanted = covered ? [40, 128, 230] : [255, 0, 255];
+				wanted.forEach((value, c) => {
+					expect(Math.abs((half[i + c] ?? 0) - value)).toBeLessThanOrEqual(1);
+				});
+				expect(half[i + 3]).toBe(255);
+			}
+		}
+	});
+
 	it('halve width and height by themselves, down to one texel', () => {
 		const alpha = noise(8 * 3);
 		const planes = planesOf([...alpha], 77);

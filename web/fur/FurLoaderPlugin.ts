@@ -7,6 +7,7 @@ import {
 	Mesh,
 	type MeshStandardMaterial,
 	type Object3D,
+	type Texture,
 } from 'three';
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 import { FinMaterial } from './FinMaterial.ts';
@@ -24,6 +25,8 @@ const SKIN_SHADE = 0.35;
 /** The fur of a loaded asset; find it as `gltf.userData.fur`. */
 export interface Fur {
 	asset: FurAsset;
+	/** What the shells are drawn with, and what else the asset holds of them. */
+	textures: FurTextures;
 	/** Drawn in the scene beside the skin. */
 	shells: FurShells;
 	/** What makes the outline, drawn before the shells; the shells show without it, too: `fins.visible = false`. */
@@ -94,6 +97,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 
 		return {
 			asset,
+			textures,
 			shells,
 			fins,
 			skin,
@@ -136,28 +140,32 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 
 	async #peltTextures({ size, layers, coefficients }: FurAsset, pelt: Pelt): Promise<FurTextures> {
 		const extent = { width: size, height: size, layers };
-		return this.#textures(pelt.planes, pelt.colour, extent, coefficients, ALPHA_CUT);
+		return this.#textures(pelt, extent, coefficients, ALPHA_CUT);
 	}
 
 	/** Fins drop nothing by its coverage, and end at their tips. */
-	async #finTextures({ planes, colour, scale, width, height }: Fin): Promise<FurTextures> {
-		const textures = await this.#textures(planes, colour, { width, height, layers: 1 }, scale.length, 0);
+	async #finTextures(fin: Fin): Promise<FurTextures> {
+		const { width, height } = fin;
+		const textures = await this.#textures(fin, { width, height, layers: 1 }, fin.scale.length, 0);
 		for (const texture of Object.values(textures)) if (texture) texture.wrapT = ClampToEdgeWrapping;
 		return textures;
 	}
 
 	async #textures(
-		planes: number[],
-		colour: number | undefined,
+		{ planes: [plane0, plane1], colour, direction }: Pick<Pelt, 'planes' | 'colour' | 'direction'>,
 		extent: Extent,
 		coefficients: number,
 		cut: number,
 	): Promise<FurTextures> {
+		// Those with coefficients first: the mip levels look for the coverage there.
 		const files = await Promise.all(
-			[...planes, ...(colour === undefined ? [] : [colour])].map((index) => this.#image(index)),
+			Object.entries({ plane0, plane1, colour, direction }).flatMap(([role, index]) =>
+				index === undefined ? [] : this.#image(index).then((file) => ({ role, ...file })),
+			),
 		);
 		// In order, whichever came first: of several bad planes the first is named.
-		const images = files.map(({ name, bytes }) => ({
+		const images = files.map(({ role, name, bytes }) => ({
+			role,
 			name,
 			texels: decodePlane(name, bytes, extent.width, extent.height * extent.layers),
 		}));
@@ -167,12 +175,12 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 			coefficients,
 			cut,
 		);
-		const [plane0, ...others] = images.map(({ name }, p) => {
+		const textures: Record<string, Texture> = {};
+		for (const [p, { role, name }] of images.entries()) {
 			const levels = mips.flatMap((level) => level[p] ?? []);
-			return textureArray(name, levels, extent, p >= planes.length);
-		});
-		if (!plane0) throw new Error(`${EXTENSION}/pelts: got no planes, expected at least one`);
-		return { plane0, plane1: planes.length > 1 ? others[0] : undefined, colour: others[planes.length - 1] };
+			textures[role] = textureArray(name, levels, extent, role === 'colour');
+		}
+		return textures as unknown as FurTextures;
 	}
 
 	/** The file of an image as it is: what the loader would make of it has gone through the browser's own decoder. */

@@ -33,6 +33,8 @@ export interface FurTextures {
 	plane0: Texture;
 	plane1?: Texture | undefined;
 	colour?: Texture | undefined;
+	/** Mean tangent of the hairs, for renderers that don't light by coefficients; mips are means, shorter than 1. */
+	direction?: Texture | undefined;
 }
 
 /** What texels mean: how they are decoded, and what their coefficients multiply. */

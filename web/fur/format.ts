@@ -37,6 +37,8 @@ export interface Pelt {
 	planes: number[];
 	/** Index of an sRGB image: the texel's original colour. */
 	colour?: number;
+	/** Index of an RGB image: the hairs' mean tangent from root to tip in T, B, N, each component 2·byte/255 − 1. */
+	direction?: number;
 	/** The paper's λ, per coefficient: a = λ(byte − Ω). */
 	scale: number[];
 	/** The paper's Ω. */
