@@ -79,6 +79,15 @@ test('the menu changes the model, in the picture and in the address', async ({ p
 	expect(new URL(page.url()).searchParams.get('still')).toBe('1');
 });
 
+test('a model that the menu does not offer is shown by its name', async ({ page, watch }) => {
+	await page.setViewportSize({ width: 900, height: 600 });
+	await open(page, '?model=torus-512&shells=4&still=1');
+	expect(await state(page)).toBe('ready');
+	expect(watch.requests).toContain(`${site}models/torus-512/model.gltf`);
+	const offered = await page.locator('#panel select option').allTextContents();
+	expect(offered.filter((title) => title.startsWith('Torus'))).toEqual(['Torus']);
+});
+
 test('a path to a folder is a model, too', async ({ page, watch }) => {
 	await open(page, '?model=models/torus&still=1');
 	expect(await state(page)).toBe('ready');

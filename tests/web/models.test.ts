@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { parseAddress } from '../../web/demo/address.ts';
-import { folderOf, type MenuEntry } from '../../web/demo/models.ts';
+import { folderOf, type MenuEntry, offered } from '../../web/demo/models.ts';
 
 const menu: MenuEntry[] = JSON.parse(readFileSync(new URL('../../public/models/models.json', import.meta.url), 'utf8'));
 const base = 'https://example.org/fur/?model=x';
@@ -15,6 +15,14 @@ describe('the menu', () => {
 			expect(name).toMatch(/^[a-z][a-z0-9-]*$/);
 			expect(title).not.toBe('');
 		}
+	});
+
+	it('leaves out what is only for measuring, which has a name all the same', () => {
+		const names = offered(menu).map(({ name }) => name);
+		expect(names).toEqual(['bunny', 'bunny-eigen', 'torus', 'sphere']);
+		const others = menu.filter(({ name }) => !names.includes(name));
+		expect(others.length).toBeGreaterThan(0);
+		for (const { name } of others) expect(href(name)).toBe(`https://example.org/fur/models/${name}/`);
 	});
 
 	it('has first views that the address understands', () => {

@@ -8,7 +8,7 @@ import { hasWebGL2, showFallback } from './fallback.ts';
 import { listenToKeys } from './keys.ts';
 import { Lamp, lampDistance } from './lamp.ts';
 import { MovingLight, turned } from './light.ts';
-import { firstView, folderOf, loadMenu, loadModel, type MenuEntry } from './models.ts';
+import { firstView, folderOf, loadMenu, loadModel, type MenuEntry, offered } from './models.ts';
 import { notice } from './notice.ts';
 import { Overlay } from './overlay.ts';
 import { Panel } from './panel.ts';
@@ -170,14 +170,15 @@ function start(): void {
 	async function open(): Promise<void> {
 		try {
 			menu = await loadMenu();
-			panel.menu(menu);
+			panel.menu(offered(menu));
 		} catch (error) {
 			notice((error as Error).message, 'error');
 		}
 		const preset = menu[0]?.name ?? '';
 		let name = view.model ?? preset;
 		if (!folderOf(name, menu, document.baseURI) && preset) {
-			notice(`model=${name}: expected ${menu.map((item) => item.name).join(', ')} or a folder; showing ${preset}`);
+			const names = offered(menu).map((item) => item.name);
+			notice(`model=${name}: expected ${names.join(', ')} or a folder; showing ${preset}`);
 			name = preset;
 		}
 		if (view.camera) camera.chosen = true;

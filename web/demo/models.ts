@@ -9,6 +9,8 @@ import { parseAddress, type Triple } from './address.ts';
 export interface MenuEntry {
 	name: string;
 	title: string;
+	/** false: shown only where the address asks for it */
+	menu?: boolean;
 	/** first view and light, written as in the address */
 	view?: string;
 }
@@ -25,10 +27,16 @@ export interface Model {
 	dispose(): void;
 }
 
+/** All models that have a name, those that no menu offers too. */
 export async function loadMenu(): Promise<MenuEntry[]> {
 	const response = await fetch('models/models.json');
 	if (!response.ok) throw new Error(`models/models.json: got status ${response.status}, expected the list of models`);
 	return response.json();
+}
+
+/** What the menu lists. */
+export function offered(entries: readonly MenuEntry[]): MenuEntry[] {
+	return entries.filter(({ menu }) => menu !== false);
 }
 
 /** How a model of the menu wants to be seen first. */

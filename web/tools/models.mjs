@@ -15,6 +15,7 @@ const cache = join(root, 'node_modules', '.cache', 'furbake');
  * @property {string} title for the page's menu
  * @property {string} model what furbake bakes: a built-in, or `npm:` and a file that an npm package holds as a module
  * @property {string[]} options of `furbake bake`
+ * @property {boolean} [menu] false: not in the page's menu
  * @property {string} [view] first view and light, written as in the page's address
  */
 
