@@ -138,7 +138,7 @@ describe('varyings', () => {
 		const { fins, shells } = grow(node(-2, 3));
 		shells.material.environment = false;
 		expect([fins, shells].map(({ material }) => rows(material))).toEqual([8, 8]);
-		shells.material.setValues({ environment: true, gloss: 0.5, backlight: 6 });
+		Object.assign(shells.material, { environment: true, gloss: 0.5, backlight: 6 });
 		expect([fins, shells].map(({ material }) => rows(material))).toEqual([15, 15]);
 		shells.material.lampsPerFragment = true;
 		for (const { material } of [fins, shells]) expect(rows(material)).toBeLessThanOrEqual(15);

@@ -38,6 +38,19 @@ export function renderFloats(
 	return pixels;
 }
 
+/** Means of blocks of `samples` × `samples` pixels, rgba. */
+function averaged(fine: Float32Array, width: number, height: number, samples: number): Float32Array {
+	const mean = new Float32Array(width * height * 4);
+	const weight = 1 / samples ** 2;
+	for (let y = 0; y < height * samples; y++)
+		for (let x = 0; x < width * samples; x++) {
+			const to = (Math.floor(y / samples) * width + Math.floor(x / samples)) * 4;
+			const from = (y * width * samples + x) * 4;
+			for (let c = 0; c < 4; c++) mean[to + c] = (mean[to + c] ?? 0) + weight * (fine[from + c] ?? 0);
+		}
+	return mean;
+}
+
 /** A whole model over nothing, centred and filling the picture's height, lit from the left and by the sky. */
 export class Studio {
 	/** Of the skin, model units. */
@@ -75,7 +88,7 @@ export class Studio {
 		const slope = Math.tan(((FIELD_OF_VIEW / 2) * Math.PI) / 180);
 		this.#distance = (1.25 * body.radius) / slope;
 		this.scale = height / (2 * this.#distance * slope);
-		this.#camera = new PerspectiveCamera(FIELD_OF_VIEW, width / height, 0.1 * body.radius, 20 * body.radius);
+		this.#camera = new PerspectiveCamera(FIELD_OF_VIEW, width / height, 0.1 * body.radius, 100 * body.radius);
 		this.#picture = new WebGLRenderTarget(width, height, { type: FloatType });
 		this.#frame = new WebGLRenderTarget(width, height, { type: HalfFloatType });
 		this.look();
@@ -84,22 +97,31 @@ export class Studio {
 	/**
 	 * @param azimuth radians from the front to the model's left
 	 * @param polar radians from straight above
+	 * @param distance in units of that at which the model fills the picture
 	 */
-	look(azimuth = 0, polar = Math.PI / 2): void {
-		this.#camera.position.setFromSphericalCoords(this.#distance, polar, azimuth).add(this.#centre);
+	look(azimuth = 0, polar = Math.PI / 2, distance = 1): void {
+		this.#camera.position.setFromSphericalCoords(this.#distance * distance, polar, azimuth).add(this.#centre);
 		this.#camera.lookAt(this.#centre);
 	}
 
-	/** @param shells 0: none */
-	wear(shells: number, fins: boolean): void {
-		this.fur.shells.visible = shells > 0;
-		if (shells > 0) this.fur.shells.shellCount = shells;
+	/** @param shells 0: none; 'auto': as many as the picture needs */
+	wear(shells: number | 'auto', fins: boolean): void {
+		this.fur.shells.visible = shells !== 0;
+		if (shells === 'auto') this.fur.shells.automatic = true;
+		else if (shells > 0) this.fur.shells.shellCount = shells;
 		if (this.fur.fins) this.fur.fins.visible = fins;
 	}
 
-	/** @returns rgba, premultiplied; row by row from the bottom */
-	draw(): Float32Array {
-		return renderFloats(this.#renderer, this.#scene, this.#camera, this.#picture);
+	/**
+	 * @param samples per pixel and axis
+	 * @returns rgba, premultiplied; row by row from the bottom
+	 */
+	draw(samples = 1): Float32Array {
+		const { width, height } = this.#picture;
+		this.#picture.setSize(width * samples, height * samples);
+		const pixels = renderFloats(this.#renderer, this.#scene, this.#camera, this.#picture);
+		this.#picture.setSize(width, height);
+		return samples > 1 ? averaged(pixels, width, height, samples) : pixels;
 	}
 
 	/** Milliseconds of one frame, until the GPU has finished it: a pixel of it is read. */

@@ -11,11 +11,12 @@ import {
 } from 'three';
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 import { FinMaterial } from './FinMaterial.ts';
-import { ALPHA_CUT, FurMaterial } from './FurMaterial.ts';
+import { FurMaterial } from './FurMaterial.ts';
 import { FurFins } from './fins.ts';
 import { EXTENSION, type Fin, type FurAsset, type Pelt, parseFur, VERSION } from './format.ts';
+import { ALPHA_CUT } from './lod.ts';
 import type { FurTextures } from './PeltMaterial.ts';
-import { decodePlane, type Extent, mipLevels, textureArray } from './planes.ts';
+import { decodePlane, type Extent, mipLevels, textureArray, type View } from './planes.ts';
 import { FurShells } from './shells.ts';
 import { furCover, shadeSkin } from './skin.ts';
 
@@ -138,15 +139,15 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		return object;
 	}
 
-	async #peltTextures({ size, layers, coefficients }: FurAsset, pelt: Pelt): Promise<FurTextures> {
+	async #peltTextures({ size, layers, coefficients, height }: FurAsset, pelt: Pelt): Promise<FurTextures> {
 		const extent = { width: size, height: size, layers };
-		return this.#textures(pelt, extent, coefficients, ALPHA_CUT);
+		return this.#textures(pelt, extent, coefficients, { cut: ALPHA_CUT, rise: height });
 	}
 
 	/** Fins drop nothing by its coverage, and end at their tips. */
 	async #finTextures(fin: Fin): Promise<FurTextures> {
 		const { width, height } = fin;
-		const textures = await this.#textures(fin, { width, height, layers: 1 }, fin.scale.length, 0);
+		const textures = await this.#textures(fin, { width, height, layers: 1 }, fin.scale.length, { cut: 0, rise: 0 });
 		for (const texture of Object.values(textures)) if (texture) texture.wrapT = ClampToEdgeWrapping;
 		return textures;
 	}
@@ -155,7 +156,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		{ planes: [plane0, plane1], colour, direction }: Pick<Pelt, 'planes' | 'colour' | 'direction'>,
 		extent: Extent,
 		coefficients: number,
-		cut: number,
+		view: View,
 	): Promise<FurTextures> {
 		// Those with coefficients first: the mip levels look for the coverage there.
 		const files = await Promise.all(
@@ -173,7 +174,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 			images.map(({ texels }) => texels),
 			extent,
 			coefficients,
-			cut,
+			view,
 		);
 		const textures: Record<string, Texture> = {};
 		for (const [p, { role, name }] of images.entries()) {

@@ -1,13 +1,11 @@
 import { Color, type ShaderMaterialParameters, Vector2, Vector4 } from 'three';
 import type { FurAsset } from './format.ts';
+import { ALPHA_CUT } from './lod.ts';
 import { type FurTextures, PeltMaterial } from './PeltMaterial.ts';
 import opacity from './shaders/opacity.glsl?raw';
 import shell from './shaders/shell.glsl?raw';
 import fragmentMain from './shaders/shells.frag.glsl?raw';
 import vertexMain from './shaders/shells.vert.glsl?raw';
-
-/** Coverage below which a fragment is dropped; the mip levels of the planes are made for it. */
-export const ALPHA_CUT = 0.1;
 
 /** Properties that a FurMaterial has beside those of every material. */
 export interface FurMaterialParameters extends ShaderMaterialParameters {
@@ -15,7 +13,7 @@ export interface FurMaterialParameters extends ShaderMaterialParameters {
 	furLength?: number;
 	/** Shells of one body; may lie between two whole numbers. */
 	shellCount?: number;
-	/** Coverage below which a fragment is dropped, 0..1. */
+	/** Coverage below which a fragment is dropped, 0..1; FurShells sets it for every picture. */
 	alphaCut?: number;
 	/** Radius of the body in lengths of its fur: where tips lose the light when it sinks below their horizon. */
 	bodyRadius?: number;

@@ -51,44 +51,65 @@ export interface Extent {
 	layers: number;
 }
 
+/** How the texels are looked at. */
+export interface View {
+	/** Coverage below which nothing of level 0 is drawn. */
+	cut: number;
+	/** Height of the fur, widths of the tile. */
+	rise: number;
+}
+
 interface Level {
 	/** Texels of one layer. */
 	width: number;
 	height: number;
-	/** Values 0..255, as floats so that errors don't add up from level to level. */
+	/** Values 0..255, as floats so that errors don't add up from level to level; means by what is seen of them. */
 	planes: Float32Array[];
 	/** Coverage 0..1 per texel. */
 	alpha: Float32Array;
+	/** Light that comes down to a texel, and what of it the texel stops; 0..1. */
+	open: Float32Array;
+	seen: Float32Array;
 }
+
+/** Ways of looking at the fur that mip levels are made for: slopes, in heights of the fur along u and v. */
+const VIEWS = [
+	[0, 0],
+	[0.7, 0],
+	[-0.7, 0],
+	[0, 0.7],
+	[0, -0.7],
+] as const;
 
 /**
  * Mip levels of all planes of a pelt together, level 0 first, as bytes.
  *
- * What belongs to hairs is averaged by coverage. Coverage itself is averaged, then scaled per layer so that the alpha
- * cut passes the same share of texels as at level 0: fur neither thins out nor fills up with distance. A cut of 0 lets
- * everything through and scales nothing.
+ * A texel of a coarser level stands for a bundle of hairs that partly stand behind each other from layer to layer; mean
+ * coverages would composite as if they didn't. So coverage is what keeps the light that gets through: of the light that
+ * comes down to the bundle, the share that it stops. What belongs to hairs is averaged by how much of them is seen.
  */
 export function mipLevels(
 	planes: Texels[],
 	{ width, height, layers }: Extent,
 	coefficients: number,
-	cut: number,
+	{ cut, rise }: View,
 ): Texels[][] {
 	const { plane: alphaPlane, channel } = alphaChannel(coefficients);
 	const base = planes[alphaPlane] as Texels;
 	const alpha = Float32Array.from({ length: base.length / 4 }, (_, i) => (base[i * 4 + channel] as number) / 255);
-	const shares = Array.from({ length: layers }, (_, k) => shareAbove(layerOf(alpha, k, layers), cut));
+	const drawn = alpha.map((value) => (value < cut ? 0 : value));
+	const open = openness(drawn, { width, height, layers }, rise);
+	const seen = open.map((share, i) => share * (drawn[i] as number));
 
-	let level: Level = { width, height, planes: planes.map((plane) => Float32Array.from(plane)), alpha };
+	let level: Level = { width, height, planes: planes.map((plane) => Float32Array.from(plane)), alpha, open, seen };
 	const levels = [planes];
 	while (level.width > 1 || level.height > 1) {
 		level = halve(level, layers);
-		const kept = level.alpha.slice();
-		for (let k = 0; k < layers; k++) keepShare(layerOf(kept, k, layers), shares[k] as number, cut);
+		const { alpha: covered } = level;
 		levels.push(
 			level.planes.map((plane, p) =>
 				Uint8Array.from(plane, (value, i) =>
-					Math.round(p === alphaPlane && i % 4 === channel ? (kept[i >> 2] as number) * 255 : value),
+					Math.round(p === alphaPlane && i % 4 === channel ? (covered[i >> 2] as number) * 255 : value),
 				),
 			),
 		);
@@ -96,26 +117,31 @@ export function mipLevels(
 	return levels;
 }
 
-function layerOf(values: Float32Array, layer: number, layers: number): Float32Array {
-	const length = values.length / layers;
-	return values.subarray(layer * length, (layer + 1) * length);
-}
-
-function shareAbove(values: Float32Array, cut: number): number {
-	return values.reduce((count, value) => count + (value > cut ? 1 : 0), 0) / values.length;
-}
-
-/** Scales values in place (at most threefold) so that a given share of them lies above the cut. */
-function keepShare(values: Float32Array, share: number, cut: number): void {
-	if (share <= 0 || share >= 1) return;
-	const sorted = values.slice().sort();
-	const quantile = sorted[Math.min(Math.floor((1 - share) * sorted.length), sorted.length - 1)] as number;
-	const factor = Math.min(Math.max((cut * 1.001) / Math.max(quantile, 1e-3), 1), 3);
-	for (let i = 0; i < values.length; i++) values[i] = Math.min((values[i] as number) * factor, 1);
+/** Share of the light that gets down to each texel, mean over the views. */
+function openness(alpha: Float32Array, { width, height, layers }: Extent, rise: number): Float32Array {
+	const open = new Float32Array(alpha.length);
+	const size = width * height;
+	for (const [slopeU, slopeV] of VIEWS) {
+		const shift = (slope: number, texels: number) => Math.round((slope * rise * texels) / layers);
+		const [right, down] = [shift(slopeU, width), shift(slopeV, height)];
+		let above = new Float32Array(size).fill(1);
+		for (let k = layers - 1; k >= 0; k--) {
+			const below = new Float32Array(size);
+			for (let i = 0; i < size; i++) {
+				const [column, row] = [(i % width) + right, Math.floor(i / width) + down];
+				const from = ((row + height) % height) * width + ((column + width) % width);
+				const share = k === layers - 1 ? 1 : (above[from] as number);
+				open[k * size + i] = (open[k * size + i] as number) + share / VIEWS.length;
+				below[i] = share * (1 - (alpha[k * size + i] as number));
+			}
+			above = below;
+		}
+	}
+	return open;
 }
 
 /** The next level: half as wide and half as high, rounded down, at least one texel. */
-function halve({ width, height, planes, alpha }: Level, layers: number): Level {
+function halve({ width, height, planes, open, seen, alpha }: Level, layers: number): Level {
 	const [columns, rows] = [Math.max(width >> 1, 1), Math.max(height >> 1, 1)];
 	const count = columns * rows * layers;
 	const coarse: Level = {
@@ -123,6 +149,8 @@ function halve({ width, height, planes, alpha }: Level, layers: number): Level {
 		height: rows,
 		planes: planes.map(() => new Float32Array(count * 4)),
 		alpha: new Float32Array(count),
+		open: new Float32Array(count),
+		seen: new Float32Array(count),
 	};
 	const [right, down] = [width > 1 ? 1 : 0, height > 1 ? width : 0];
 	const four = [0, right, down, right + down];
@@ -131,20 +159,25 @@ function halve({ width, height, planes, alpha }: Level, layers: number): Level {
 		const row = Math.floor(i / columns) % rows;
 		const layer = Math.floor(i / (columns * rows));
 		const first = (layer * height + row * 2) * width + column * 2;
-		let total = 0;
+		let [total, stopped, came, covered] = [0, 0, 0, 0];
 		for (const step of four) {
-			const weight = (alpha[first + step] as number) + 1e-4;
+			const at = first + step;
+			stopped += seen[at] as number;
+			came += open[at] as number;
+			covered += alpha[at] as number;
+			// Roots that nobody sees and empty texels count a little, so that there is something to divide by.
+			const weight = (seen[at] as number) + 1e-3 * (alpha[at] as number) + 1e-6;
 			total += weight;
 			for (let p = 0; p < planes.length; p++) {
 				const from = planes[p] as Float32Array;
 				const to = coarse.planes[p] as Float32Array;
-				for (let c = 0; c < 4; c++) {
-					to[i * 4 + c] = (to[i * 4 + c] as number) + weight * (from[(first + step) * 4 + c] as number);
-				}
+				for (let c = 0; c < 4; c++) to[i * 4 + c] = (to[i * 4 + c] as number) + weight * (from[at * 4 + c] as number);
 			}
 		}
 		for (const plane of coarse.planes) for (let c = i * 4; c < i * 4 + 4; c++) plane[c] = (plane[c] as number) / total;
-		coarse.alpha[i] = total / 4 - 1e-4;
+		coarse.seen[i] = stopped / 4;
+		coarse.open[i] = came / 4;
+		coarse.alpha[i] = came > 4e-3 ? stopped / came : covered / 4;
 	}
 	return coarse;
 }

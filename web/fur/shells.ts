@@ -1,18 +1,38 @@
-import { type BufferGeometry, InstancedBufferGeometry, Mesh, type Object3D, Sphere, Vector3 } from 'three';
+import {
+	type BufferGeometry,
+	type Camera,
+	InstancedBufferGeometry,
+	Mesh,
+	type Object3D,
+	type Scene,
+	Sphere,
+	Vector3,
+	Vector4,
+	type WebGLRenderer,
+} from 'three';
 import { sharedComb } from './comb.ts';
 import type { FurMaterial } from './FurMaterial.ts';
 import type { FurAsset } from './format.ts';
 import { HullMaterial } from './HullMaterial.ts';
+import { cutFor, pixelsPerUnit, shellsFor } from './lod.ts';
 
 /** The most shells that can be drawn. */
 export const MAX_SHELLS = 256;
 
-/** Shells per slab by default: side by side hairs turn from strings of beads into hairs. */
-const SHELLS_PER_SLAB = 3;
+const eye = new Vector3();
+const middle = new Vector3();
+const viewport = new Vector4();
 
 /** The shells of a furry surface: one instanced draw, instance = shell, the innermost first. */
 export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 	override readonly customDepthMaterial: HullMaterial;
+	/** Whether there are as many shells as the picture needs, or as many as `shellCount` was last set to. */
+	automatic = true;
+	/** Spacing of automatic shells over what looks best: 2 draws half as many. */
+	coarseness = 1;
+	/** Of the longest hairs and of a texel, model units. */
+	readonly #length: number;
+	readonly #texel: number;
 
 	/**
 	 * @param surface the skin's vertices with normal, tangent, uv (tiles), _fur, _comb and color
@@ -36,7 +56,9 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 		surface.computeBoundingSphere();
 		const { center, radius } = surface.boundingSphere ?? new Sphere(new Vector3(), 0);
 		geometry.boundingSphere = new Sphere(center.clone(), radius + material.furLength);
-		this.shellCount = asset.layers * SHELLS_PER_SLAB;
+		const { size, length, height } = asset;
+		this.#length = length;
+		this.#texel = length / (height * size);
 	}
 
 	/** How many shells are drawn, 1 to 256: any number, whatever the number of stored slabs, and between whole ones, too. */
@@ -45,9 +67,29 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 	}
 
 	set shellCount(value: number) {
+		this.automatic = false;
+		this.#draw(value);
+	}
+
+	#draw(value: number): void {
 		const count = Math.min(Math.max(value, 1), MAX_SHELLS);
 		this.material.shellCount = count;
 		this.geometry.instanceCount = Math.ceil(count);
+	}
+
+	/** As many shells, and cut as low, as this picture needs. */
+	override onBeforeRender(renderer: WebGLRenderer, _scene: Scene, camera: Camera): void {
+		const { center, radius } = this.geometry.boundingSphere as Sphere;
+		const unit = this.matrixWorld.getMaxScaleOnAxis() / this.scale.x; // of the model, world units
+		const away = eye
+			.setFromMatrixPosition(camera.matrixWorld)
+			.distanceTo(middle.copy(center).applyMatrix4(this.matrixWorld));
+		const near = Math.max(away - radius * this.scale.x * unit, 0.1 * away);
+		const height = renderer.getCurrentViewport(viewport).w;
+		if (this.automatic)
+			this.#draw(shellsFor(this.#length * unit * pixelsPerUnit(camera, height, near)) / this.coarseness);
+		this.material.alphaCut = cutFor(this.#texel * unit * pixelsPerUnit(camera, height, away));
+		this.material.uniformsNeedUpdate = true;
 	}
 
 	/** One hull casts the shadow of all shells. */
