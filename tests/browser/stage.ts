@@ -82,6 +82,7 @@ class Flat {
 		this.#camera.lookAt(centre);
 		this.#target = new WebGLRenderTarget(asset.size, asset.size, { type: FloatType });
 		shells.material.blending = NoBlending;
+		shells.automatic = false;
 		shells.geometry.instanceCount = 1;
 	}
 
@@ -106,11 +107,11 @@ class Flat {
 		geometry.setAttribute(name, new BufferAttribute(values, value.length));
 	}
 
-	/** One layer's texels, [row, column]. */
-	render(layer: number): Float32Array {
-		const { asset, shells } = this.fur;
-		shells.material.shellCount = asset.layers;
-		(shells.material.uniforms.firstShell as { value: number }).value = layer;
+	/** Texels of one shell, [row, column]; of as many as there are layers it is that layer. */
+	render(shell: number, count = this.fur.asset.layers): Float32Array {
+		const { shells } = this.fur;
+		shells.material.shellCount = count;
+		(shells.material.uniforms.firstShell as { value: number }).value = shell;
 		return renderFloats(renderer, this.#scene, this.#camera, this.#target);
 	}
 
@@ -195,6 +196,48 @@ const stage = {
 		}
 		for (const fur of drawn) fur.dispose();
 		return counts;
+	},
+
+	/**
+	 * Coverage of one shell of a golden asset, [row, column], base64.
+	 *
+	 * @param shift of the look-up, tile widths along u and v
+	 */
+	async shell(url: string, shell: number, count: number, [u, v]: number[]): Promise<string> {
+		const flat = new Flat(await loadFur(url));
+		const { asset, shells } = flat.fur;
+		const uv = shells.geometry.getAttribute('uv');
+		const moved = new Float32Array(uv.count * 2);
+		for (let i = 0; i < uv.count; i++) {
+			moved[2 * i] = uv.getX(i) + (u ?? 0) / (asset.tiles ?? 1);
+			moved[2 * i + 1] = uv.getY(i) + (v ?? 0) / (asset.tiles ?? 1);
+		}
+		shells.geometry.setAttribute('uv', new BufferAttribute(moved, 2));
+		const alpha = channel(flat.render(shell, count), 3);
+		flat.fur.dispose();
+		return toBase64(new Uint8Array(alpha.buffer));
+	},
+
+	/**
+	 * The same view of a model under its lamp and sky, once per setting.
+	 *
+	 * @returns pixels (rgba as floats, premultiplied, base64), and how many shells there were
+	 */
+	async pictures(
+		url: string,
+		size: number,
+		settings: { shells: number | 'auto'; lampsPerFragment?: boolean; distance?: number; samples?: number; skin?: boolean }[],
+	): Promise<{ rgba: string; shells: number }[]> {
+		const studio = new Studio(renderer, await loadFur(url), size, size);
+		const pictures = settings.map(({ shells, lampsPerFragment = false, distance = 1, samples = 1 }) => {
+			studio.look(-0.4, 1.2, distance);
+			studio.wear(shells, true);
+			studio.fur.shells.material.lampsPerFragment = lampsPerFragment;
+			const rgba = toBase64(new Uint8Array(studio.draw(samples).buffer));
+			return { rgba, shells: studio.fur.shells.shellCount };
+		});
+		studio.dispose();
+		return pictures;
 	},
 
 	/** One layer of a golden asset whose vertices all have these attributes: red channel and coverage per texel. */
