@@ -76,10 +76,10 @@ const BUNNY = '/models/bunny/model.gltf';
 test('the number of shells changes without a jump', async ({ page }) => {
 	await openStage(page);
 	const counts = Array.from({ length: 9 }, (_, i) => 19.6 + i * 0.1);
-	const pictures = await page.evaluate(
-		([url, settings]) => stage.pictures(url, 200, settings),
-		[BUNNY, counts.map((shells) => ({ shells }))] as const,
-	);
+	const pictures = await page.evaluate(([url, settings]) => stage.pictures(url, 200, settings), [
+		BUNNY,
+		counts.map((shells) => ({ shells })),
+	] as const);
 	const steps = pictures.slice(1).map(({ rgba }, i) => psnr(floats(rgba), floats(pictures[i]?.rgba ?? '')));
 	test.info().annotations.push({ type: 'steps', description: steps.map((step) => step.toFixed(1)).join(', ') });
 	console.log(steps.map((step) => step.toFixed(1)).join(', '));

@@ -226,7 +226,13 @@ const stage = {
 	async pictures(
 		url: string,
 		size: number,
-		settings: { shells: number | 'auto'; lampsPerFragment?: boolean; distance?: number; samples?: number; skin?: boolean }[],
+		settings: {
+			shells: number | 'auto';
+			lampsPerFragment?: boolean;
+			distance?: number;
+			samples?: number;
+			skin?: boolean;
+		}[],
 	): Promise<{ rgba: string; shells: number }[]> {
 		const studio = new Studio(renderer, await loadFur(url), size, size);
 		const pictures = settings.map(({ shells, lampsPerFragment = false, distance = 1, samples = 1 }) => {

@@ -32,6 +32,7 @@ export interface FurMaterialParameters extends ShaderMaterialParameters {
 	gloss?: number;
 	backlight?: number;
 	lampsPerFragment?: boolean;
+	multisampled?: boolean;
 }
 
 const MIRRORED = [
@@ -90,7 +91,7 @@ export class FurMaterial extends PeltMaterial {
 					tip2: { value: new Color(...ramp.tip2) },
 					rampPower: { value: ramp.power },
 				},
-				defines: { MAX_SLANT: '6.0', LAYERS: asset.layers },
+				defines: { MAX_SLANT: '6.0', HAIR: '0.2', LAYERS: asset.layers },
 				depthWrite: true,
 			},
 			MIRRORED,

@@ -13,6 +13,7 @@ import {
 	Vector2,
 	Vector3,
 	Vector4,
+	ZeroFactor,
 } from 'three';
 import { type Basis, channelOf } from './format.ts';
 import { BODY_RADIUS } from './moments.ts';
@@ -160,6 +161,25 @@ export class PeltMaterial extends ShaderMaterial {
 
 	set lampsPerFragment(on: boolean) {
 		this.#switch('LAMPS_PER_FRAGMENT', on);
+	}
+
+	/**
+	 * Whether hairs cover samples of a multisampled target instead of being blended: right whatever is drawn first, with grain
+	 * for it. What lies behind has to be opaque: the target's own alpha stays as it is.
+	 */
+	get multisampled(): boolean {
+		return this.alphaToCoverage;
+	}
+
+	set multisampled(on: boolean) {
+		for (const material of [this, ...this.#followers]) {
+			if (material.alphaToCoverage === on) continue;
+			material.alphaToCoverage = on;
+			material.blendDst = on ? ZeroFactor : OneMinusSrcAlphaFactor;
+			material.blendSrcAlpha = on ? ZeroFactor : null;
+			material.blendDstAlpha = on ? OneFactor : null;
+			material.needsUpdate = true;
+		}
 	}
 
 	#strength(name: 'gloss' | 'backlight', strength: number): void {

@@ -1,5 +1,4 @@
-// What a fragment hands on: 4π·radiance, toned and encoded as the target wants it, premultiplied; or, where the samples of
-// a pixel are covered by alpha, not.
+// What a fragment hands on: 4π·radiance, toned and encoded as the target wants it, premultiplied if it is blended.
 
 vec4 furOutput(vec3 radiance, float alpha) {
 	radiance *= 0.25 * RECIPROCAL_PI;
