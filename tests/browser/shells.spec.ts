@@ -82,7 +82,6 @@ test('the number of shells changes without a jump', async ({ page }) => {
 	] as const);
 	const steps = pictures.slice(1).map(({ rgba }, i) => psnr(floats(rgba), floats(pictures[i]?.rgba ?? '')));
 	test.info().annotations.push({ type: 'steps', description: steps.map((step) => step.toFixed(1)).join(', ') });
-	console.log(steps.map((step) => step.toFixed(1)).join(', '));
 	expect(Math.min(...steps)).toBeGreaterThan(36);
 });
 
@@ -105,7 +104,6 @@ test('lamps summed per vertex look as if summed per fragment, even on 512 triang
 		count++;
 	});
 	const rmse = Math.sqrt(sum / count);
-	console.log(rmse);
 	test.info().annotations.push({ type: 'rmse', description: `${rmse.toFixed(2)} of 255` });
 	expect(rmse).toBeLessThanOrEqual(1.5);
 	expect(rmse, 'that it is another program').toBeGreaterThan(0);
