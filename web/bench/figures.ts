@@ -38,3 +38,19 @@ export interface FinFigures {
 	views: FinView[];
 	costs: FinCost[];
 }
+
+/** A frame with as many shells as it needs, against 64 shells and 16 samples per pixel. */
+export interface Quality {
+	/** Units of that at which the model fills the picture. */
+	distance: number;
+	/** Radians from the front to the model's left. */
+	azimuth: number;
+	/** That the frame had. */
+	shells: number;
+	/** dB, of what a display shows over a mid grey. */
+	psnr: number;
+	/** Mean linear light over the reference's. */
+	brightness: number;
+	/** That were compared: those that the reference's fur covers at least half. */
+	pixels: number;
+}
