@@ -1,5 +1,7 @@
 /** furbake for three.js: load baked fur, light it with three's own lights. */
 
+export { type FurMethod, furMethod, type MethodOptions } from './baselines/method.ts';
+export { METHODS, type MethodName } from './baselines/names.ts';
 export { FinMaterial, type FinMaterialParameters } from './FinMaterial.ts';
 export { type Fur, FurLoaderPlugin } from './FurLoaderPlugin.ts';
 export { FurMaterial, type FurMaterialParameters } from './FurMaterial.ts';

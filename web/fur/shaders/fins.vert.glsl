@@ -1,7 +1,7 @@
 in vec4 tangent; // along the edge
-in vec4 color; // of the skin, linear
-in vec4 _fur; // as of the shells
-in vec4 _edge; // XY = angles of the two faces' normals about the edge, over π; ZW = comb along the edge and across it
+layout(location = 12) in vec4 color; // of the skin, linear
+layout(location = 13) in vec4 _fur; // as of the shells
+layout(location = 15) in vec4 _edge; // XY = angles of the two faces' normals about the edge, over π; ZW = comb along the edge and across it
 
 uniform float tiles; // texture coordinates → tiles
 uniform float finLength; // lengths of the fur here

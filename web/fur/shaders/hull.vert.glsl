@@ -1,5 +1,5 @@
-in vec4 _fur; // as of the shells
-in vec3 _comb;
+layout(location = 13) in vec4 _fur; // as of the shells
+layout(location = 14) in vec3 _comb;
 
 void main() {
 	vec3 point = furPoint(position, normalize(normal), _comb, _fur.y, 0.5);

@@ -1,9 +1,10 @@
 // A vertex of a shell: where it stands, which texels it shows, and how much fur it stands for.
 
 in vec4 tangent;
-in vec4 color; // of the skin, linear
-in vec4 _fur; // X = lapped weight, Y = share of the longest fur, Z = openness to the sky, W = from tip to tip2, all 0..1
-in vec3 _comb; // displacement of the tip in the tangent plane, share of the length, the mesh's own axes
+// The value of an attribute that the mesh lacks is kept by location, for all programs together: each has one of its own.
+layout(location = 12) in vec4 color; // of the skin, linear
+layout(location = 13) in vec4 _fur; // X = lapped weight, Y = share of the longest fur, Z = openness to the sky, W = from tip to tip2, all 0..1
+layout(location = 14) in vec3 _comb; // displacement of the tip in the tangent plane, share of the length, the mesh's own axes
 
 uniform float tiles; // texture coordinates → tiles
 uniform float shellCount; // n, of one body; may lie between two whole numbers

@@ -1,0 +1,43 @@
+import { Material, ShaderMaterial, type ShaderMaterialParameters, UniformsLib, UniformsUtils } from 'three';
+import type { FurMaterial } from '../FurMaterial.ts';
+import body from '../shaders/body.glsl?raw';
+import colour from '../shaders/colour.glsl?raw';
+import displacement from '../shaders/displacement.glsl?raw';
+import opacity from '../shaders/opacity.glsl?raw';
+import output from '../shaders/output.glsl?raw';
+import shell from '../shaders/shell.glsl?raw';
+import view from '../shaders/view.glsl?raw';
+import coverage from './coverage.glsl?raw';
+import hairIn from './hair.frag.glsl?raw';
+import hairOut from './hair.vert.glsl?raw';
+
+/**
+ * The shells of a FurMaterial in another light: geometry, coverage, colour, blending and output are the same chunks with the
+ * same uniforms, so that only the light differs, and what is set on either holds for both. Switches of the FurMaterial that
+ * compile something in or out, and its blending, are taken as they stand when the rival is made.
+ */
+export class RivalMaterial extends ShaderMaterial {
+	/**
+	 * @param shells whose textures, lengths, colours and number of shells this material has
+	 * @param parameters own shaders (after the common chunks), uniforms and defines
+	 */
+	constructor(
+		readonly shells: FurMaterial,
+		{ uniforms, defines, vertexShader, fragmentShader, ...parameters }: ShaderMaterialParameters,
+	) {
+		super({
+			glslVersion: shells.glslVersion,
+			uniforms: { ...shells.uniforms, ...UniformsUtils.clone(UniformsLib.lights), ...uniforms },
+			defines: { ...shells.defines, ...defines },
+			vertexShader: ['#include <common>', view, body, displacement, shell, colour, hairOut, vertexShader].join('\n'),
+			fragmentShader: ['#include <common>', coverage, opacity, colour, hairIn, output, fragmentShader].join('\n'),
+		});
+		// Blending, depth and the like: those of every material, no shaders.
+		Material.prototype.copy.call(this, shells);
+		Object.assign(this.defaultAttributeValues, shells.defaultAttributeValues);
+		for (const [name, { get, set }] of Object.entries(Object.getOwnPropertyDescriptors(shells))) {
+			if (get && set) Object.defineProperty(this, name, { enumerable: true, get, set });
+		}
+		this.setValues(parameters);
+	}
+}

@@ -1,0 +1,14 @@
+// How much of the lamp's light comes through to a hair: what deepOpacity.glsl has stored, looked up.
+
+uniform highp sampler2D lightOpacity; // per layer
+uniform float extinction; // κ: below 1, since light that hairs scatter forwards is not lost
+
+// mapped: XY of the maps, Z = depth in them, 0..1.
+float deepTransmittance(vec3 mapped) {
+	vec2 depths = texture(lightDepths, mapped.xy).xy;
+	vec4 opacity = texture(lightOpacity, mapped.xy);
+	vec2 below = (mapped.z - depths) * mapDepth;
+	vec4 passed = clamp((below.x - LAYER_FROM) / LAYER_DEPTH, 0.0, 1.0);
+	float behind = clamp(2.0 * below.y - 0.2, 0.0, 1.0); // the skin's own shadow, over half a length of the fur
+	return exp(-extinction * opacityUnit * dot(opacity, passed)) * (1.0 - behind);
+}

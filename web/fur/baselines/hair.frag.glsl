@@ -1,0 +1,19 @@
+// The hairs' colour: see hair.vert.glsl.
+
+#ifdef COLOUR_PLANE
+uniform sampler2DArray colourPlane; // the texel's original colour
+#endif
+
+in vec3 vColour;
+#ifdef COLOUR_PLANE
+in float vTip2;
+in float vHeight;
+#endif
+
+vec3 hairColour(vec3 at, float tint) {
+#ifdef COLOUR_PLANE
+	return vColour * mix(texture(colourPlane, at).rgb, furRamp(1.0, vHeight) * tint, vTip2);
+#else
+	return vColour * tint;
+#endif
+}

@@ -1,0 +1,11 @@
+in vec3 vAt;
+
+out vec4 fragColour;
+
+void main() {
+	vec2 hair = furCoverage(vAt);
+	vec3 strand = strandTS(vAt);
+	vec3 colour = hairColour(vAt, hair.y);
+	if (hair.x < alphaCut) discard;
+	fragColour = furOutput(localRadiance(colour, strand, 1.0), shellOpacity(hair.x));
+}

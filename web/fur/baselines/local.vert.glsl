@@ -1,0 +1,87 @@
+// Local light on the hairs, as far as it is found per vertex: the sky's, that of lamps beyond the fourth, and of the first
+// four the direction in the hair's own frame. Lengyel et al. 2001: what is deeper in the fur is darker.
+
+#if NUM_DIR_LIGHTS > 4
+#define LAMPS 4
+#else
+#define LAMPS NUM_DIR_LIGHTS
+#endif
+
+uniform vec2 lean; // mean displacement of the tips inside the tile, share of the length along (T, B)
+uniform float diffuse; // of a lamp, 4π·radiance / (albedo·irradiance)
+uniform float skyDiffuse; // of the sky, likewise
+uniform vec2 darkness; // share of a lamp's light (X) and of the sky's (Y) that is missing at the roots
+
+#ifdef MEAN_STRAND
+flat out vec3 vStrand; // mean unit vector along the hairs, (T, B, N)
+#endif
+out vec3 vSoft; // light found here, as of FurTexel
+#if LAMPS > 0
+out vec4 vLamp[LAMPS]; // XYZ = unit vector to the lamp, (T, B, N); W = share of its light that reaches the hair
+#endif
+#ifdef HIGHLIGHT
+out vec3 vViewer; // unit vector to the eye, (T, B, N)
+#endif
+
+// Hairs shade the roots, and more smoothly than they do it one by one.
+vec2 darkened(float s) {
+	return 1.0 - darkness * (1.0 - s) * (1.0 - s);
+}
+
+// A body shades itself (D. C. Banks: Illumination in Diverse Codimensions, SIGGRAPH 1994), tips less than roots.
+float lampShare(vec3 normalVS, vec3 lightVS, float s) {
+	return smoothstep(-0.35 * s, 0.65, dot(normalVS, lightVS)) * darkened(s).x;
+}
+
+vec3 skyIrradiance(vec3 normalVS) {
+	vec3 irradiance = ambientLightColor;
+#if NUM_HEMI_LIGHTS > 0
+	for (int i = 0; i < NUM_HEMI_LIGHTS; i++) irradiance += getHemisphereLightIrradiance(hemisphereLights[i], normalVS);
+#endif
+#ifdef USE_LIGHT_PROBES
+	irradiance += getLightProbeIrradiance(lightProbe, normalVS);
+#endif
+	return irradiance;
+}
+
+// openness: to the sky, 0..1. shaded: whether the first lamp's shadows are found elsewhere.
+void passLocalLight(ShellPoint shell, float openness, bool shaded) {
+	vec3 strand = normalize(vec3(2.0 * shell.s * lean, 1.0));
+	vec3 normalVS = normalize(shell.turn * shell.normal);
+	vSoft = skyIrradiance(normalVS) * (skyDiffuse * openness * darkened(shell.s).y);
+#ifdef MEAN_STRAND
+	vStrand = strand;
+#endif
+#ifdef HIGHLIGHT
+	vViewer = viewerVS(shell.pointVS) * shell.frameVS;
+#endif
+	IncidentLight light;
+#if LAMPS > 0
+	for (int i = 0; i < LAMPS; i++) {
+		getDirectionalLightInfo(directionalLights[i], light);
+		float share = shaded && i == 0 ? 1.0 : lampShare(normalVS, light.direction, shell.s);
+		vLamp[i] = vec4(light.direction * shell.frameVS, diffuse * share);
+	}
+#endif
+#if NUM_DIR_LIGHTS > LAMPS
+	for (int i = LAMPS; i < NUM_DIR_LIGHTS; i++) {
+		getDirectionalLightInfo(directionalLights[i], light);
+		float share = lampShare(normalVS, light.direction, shell.s);
+		vSoft += light.color * (diffuse * share * kajiyaKayDiffuse(strand, light.direction * shell.frameVS));
+	}
+#endif
+#if NUM_POINT_LIGHTS > 0
+	for (int i = 0; i < NUM_POINT_LIGHTS; i++) {
+		getPointLightInfo(pointLights[i], shell.pointVS, light);
+		float share = lampShare(normalVS, light.direction, shell.s);
+		vSoft += light.color * (diffuse * share * kajiyaKayDiffuse(strand, light.direction * shell.frameVS));
+	}
+#endif
+#if NUM_SPOT_LIGHTS > 0
+	for (int i = 0; i < NUM_SPOT_LIGHTS; i++) {
+		getSpotLightInfo(spotLights[i], shell.pointVS, light);
+		float share = lampShare(normalVS, light.direction, shell.s);
+		vSoft += light.color * (diffuse * share * kajiyaKayDiffuse(strand, light.direction * shell.frameVS));
+	}
+#endif
+}

@@ -1,0 +1,13 @@
+in vec3 vAt;
+in vec3 vMapped;
+
+out vec4 fragColour;
+
+void main() {
+	vec2 hair = furCoverage(vAt);
+	vec3 strand = strandTS(vAt);
+	float through = deepTransmittance(vMapped);
+	vec3 colour = hairColour(vAt, hair.y);
+	if (hair.x < alphaCut) discard;
+	fragColour = furOutput(localRadiance(colour, strand, through), shellOpacity(hair.x));
+}
