@@ -10,12 +10,14 @@ const web = fileURLToPath(new URL('../../web/', import.meta.url));
 /** The library from the ground up; modules of one floor do not import each other. A new module gets its floor here. */
 const floors = [
 	['format'],
-	['planes', 'moments', 'comb', 'skin', 'shadow', 'lod'],
+	['planes', 'moments', 'comb', 'skin', 'shadow', 'lod', 'bodies', 'pieces', 'places'],
 	['PeltMaterial'],
 	['FurMaterial'],
 	['FinMaterial', 'HullMaterial'],
 	['shells', 'fins'],
 	['FurLoaderPlugin'],
+	['level'],
+	['instances'],
 	['index'],
 ];
 const pages = ['demo', 'learn', 'bench'];

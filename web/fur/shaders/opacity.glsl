@@ -1,8 +1,14 @@
 // One law of opacity for the patch's weight, the number of shells and the slant of the view.
 
+#ifdef BODIES
+in vec2 vDetail; // of this body
+#define shellCount vDetail.x
+#define alphaCut vDetail.y
+#else
 uniform float alphaCut; // coverage below which a fragment is dropped
 #ifdef ALPHA_TO_COVERAGE
 uniform float shellCount;
+#endif
 #endif
 
 in float vWeight;
