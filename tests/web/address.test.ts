@@ -7,6 +7,7 @@ describe('a view and its address', () => {
 		{ still: true, ui: false },
 		{ model: 'bunny', light: [0, 0.6, 0.8], camera: [30, -12.5, 1.25], shells: 48, fins: false, still: true, ui: true },
 		{ model: 'https://example.org/a b/ä&c=d/', still: false, ui: true },
+		{ model: 'bunny', crowd: 100, still: false, ui: true },
 		{ model: '../out/fox/', camera: [-179.9, 90, 0.1], still: false, ui: false },
 	];
 
@@ -62,6 +63,9 @@ describe('reading an address', () => {
 		'shells=1.5',
 		'shells=-3',
 		'shells=0x10',
+		'crowd=0',
+		'crowd=401',
+		'crowd=ten',
 		'fins=no',
 		'still=yes',
 		'ui=',

@@ -8,6 +8,7 @@
  * - camera: azimuth and elevation in degrees, distance in units of the distance at which the model fits the window.
  *   So a link shows the same view in a window of any shape. 0,0,1 looks along -z.
  * - shells: number of drawn shells; fins=0: none
+ * - crowd: so many bodies of the model, on a meadow
  * - still=1: nothing moves by itself; ui=0: the picture alone
  */
 
@@ -23,6 +24,8 @@ export interface View {
 	/** 1..256 */
 	shells?: number;
 	fins?: boolean;
+	/** 1..400 */
+	crowd?: number;
 	still: boolean;
 	ui: boolean;
 }
@@ -88,6 +91,15 @@ const parameters: Record<keyof View, [expected: string, read: Reader]> = {
 				view.fins = value;
 			}),
 	],
+	crowd: [
+		'a whole number from 1 to 400',
+		(text, view) => {
+			const crowd = Number(text);
+			if (!/^\d+$/.test(text) || crowd < 1 || crowd > 400) return false;
+			view.crowd = crowd;
+			return true;
+		},
+	],
 	still: [
 		'0 or 1',
 		(text, view) =>
@@ -143,6 +155,7 @@ export function formatAddress(view: View): string {
 	}
 	if (view.shells !== undefined) parts.push(`shells=${view.shells}`);
 	if (view.fins !== undefined) parts.push(`fins=${Number(view.fins)}`);
+	if (view.crowd !== undefined) parts.push(`crowd=${view.crowd}`);
 	if (view.still) parts.push('still=1');
 	if (!view.ui) parts.push('ui=0');
 	return parts.length ? `?${parts.join('&')}` : '';

@@ -13,6 +13,9 @@ const farthest = 4;
 export class OrbitCamera extends PerspectiveCamera {
 	readonly #controls: OrbitControls;
 	#fit = 1;
+	/** Radii of what is framed, and of one body in it. */
+	#radius = 1;
+	#closest = 1;
 	/** True once a visitor or a link has chosen the view. */
 	chosen = false;
 
@@ -27,7 +30,10 @@ export class OrbitCamera extends PerspectiveCamera {
 		this.#controls.addEventListener('start', () => {
 			this.chosen = true;
 		});
-		this.#controls.addEventListener('change', moved);
+		this.#controls.addEventListener('change', () => {
+			this.#reach();
+			moved();
+		});
 		this.dragTurns = false;
 	}
 
@@ -60,20 +66,32 @@ export class OrbitCamera extends PerspectiveCamera {
 		this.#controls.update();
 	}
 
-	/** Aims at a model and fits it into a window, keeping the view as it is: angles and relative distance. */
-	frame(centre: Vector3, radius: number, width: number, height: number): void {
+	/**
+	 * Aims at a model and fits it into a window, keeping the view as it is: angles and relative distance.
+	 *
+	 * @param closest radius of one body, where `radius` is that of a crowd
+	 */
+	frame(centre: Vector3, radius: number, width: number, height: number, closest = radius): void {
 		const orbit = this.orbit;
 		this.aspect = width / height;
 		const vertical = Math.tan(MathUtils.degToRad(fieldOfView / 2));
 		const narrow = Math.atan(vertical * Math.min(this.aspect, 1));
 		this.#fit = (margin * radius) / Math.sin(narrow);
-		this.near = radius / 50;
-		this.far = this.#fit * (farthest + 1) + radius * 4;
-		this.updateProjectionMatrix();
+		this.#radius = radius;
+		this.#closest = closest;
 		this.#controls.target.copy(centre);
-		this.#controls.minDistance = this.#fit * nearest;
+		this.#controls.minDistance = (this.#fit * nearest * closest) / radius;
 		this.#controls.maxDistance = this.#fit * farthest;
 		this.orbit = orbit;
+		this.#reach();
+	}
+
+	/** As near and far as there is something to see: what lies between shares one range of depth. */
+	#reach(): void {
+		const distance = this.position.distanceTo(this.#controls.target);
+		this.near = Math.max(distance - 4 * this.#radius, this.#closest / 50);
+		this.far = distance + 6 * this.#radius;
+		this.updateProjectionMatrix();
 	}
 
 	/** Turns and comes nearer, for the keyboard: degrees, degrees, factor. */

@@ -17,6 +17,7 @@ import { Stage } from './scene.ts';
 /** From the side: light from the front is flat. */
 const defaultLight: Triple = [-0.82, 0.57, -0.02];
 const defaultCamera: Triple = [0, 8, 1];
+const crowdCamera: Triple = [10, 13, 0.5];
 
 function element<T extends HTMLElement>(id: string): T {
 	const found = document.getElementById(id);
@@ -43,7 +44,11 @@ function start(): void {
 	stage.scene.add(lamp);
 	const overlay = view.ui ? new Overlay(element('overlay'), stage.renderer) : undefined;
 	const write = addressWriter();
-	const panel = new Panel(element('panel'), { model: (name) => void show(name), shells: setShells });
+	const panel = new Panel(element('panel'), {
+		model: (name) => void show(name),
+		shells: setShells,
+		crowd: setCrowd,
+	});
 
 	// Frames: one after the other, or with still=1 only where something has changed.
 	let before = performance.now();
@@ -74,7 +79,7 @@ function start(): void {
 		const { clientWidth: width, clientHeight: height } = canvas;
 		if (width === 0 || height === 0) return;
 		stage.resize(width, height);
-		camera.frame(stage.centre, stage.radius, width, height);
+		camera.frame(stage.centre, stage.radius, width, height, stage.closest);
 		request();
 	}
 	function cameraMoved(): void {
@@ -97,6 +102,18 @@ function start(): void {
 		write(view);
 		request();
 	}
+	function setCrowd(count: number): void {
+		view.crowd = count;
+		stage.gather(count);
+		updatePanel();
+		placeLight();
+		resize();
+		write(view);
+	}
+	function updatePanel(): void {
+		const fur = stage.model?.fur;
+		panel.update(shown, fur?.shells.shellCount, fur && (view.crowd ?? 1));
+	}
 
 	// Models.
 	let menu: MenuEntry[] = [];
@@ -115,8 +132,10 @@ function start(): void {
 			const entry = menu.find((item) => item.name === name);
 			const preferred = firstView(entry);
 			stage.show(model);
+			stage.gather(view.crowd ?? 1);
 			lamp.visible = view.ui;
-			if (!camera.chosen) camera.orbit = view.camera ?? preferred.camera ?? defaultCamera;
+			if (!camera.chosen)
+				camera.orbit = view.camera ?? (view.crowd && view.crowd > 1 ? crowdCamera : preferred.camera) ?? defaultCamera;
 			if (first || light.drifting) light.put(view.light ?? preferred.light ?? defaultLight, !view.light);
 			if (model.fur && view.shells) model.fur.shells.shellCount = view.shells;
 			if (model.fur?.fins) model.fur.fins.visible = view.fins ?? true;
@@ -132,7 +151,7 @@ function start(): void {
 			if (turn !== latest) return;
 			notice(`${name} cannot be shown: ${(error as Error).message}`, 'error');
 		}
-		panel.update(shown, stage.model?.fur?.shells.shellCount);
+		updatePanel();
 		if (!stage.model) setState('failed');
 		else requestAnimationFrame(() => requestAnimationFrame(() => turn === latest && setState('ready')));
 	}

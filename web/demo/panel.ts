@@ -1,6 +1,7 @@
-/** The small panel: which model, how many shells. */
+/** The small panel: which model, how many shells, how many bodies. */
 
 import GUI from 'lil-gui';
+import { maxCrowd } from './crowd.ts';
 import type { MenuEntry } from './models.ts';
 
 /** Shells that the slider reaches; the address may ask for more. */
@@ -9,13 +10,15 @@ const sliderEnd = 128;
 export interface PanelHandlers {
 	model(name: string): void;
 	shells(count: number): void;
+	crowd(count: number): void;
 }
 
 export class Panel {
-	readonly #values = { model: '', shells: 1 };
+	readonly #values = { model: '', shells: 1, crowd: 1 };
 	readonly #gui: GUI;
 	readonly #model;
 	readonly #shells;
+	readonly #crowd;
 	#titles: Record<string, string> = {};
 
 	constructor(container: HTMLElement, handlers: PanelHandlers) {
@@ -28,6 +31,8 @@ export class Panel {
 			.onChange((name: string) => name && handlers.model(name));
 		this.#shells = this.#gui.add(this.#values, 'shells', 1, sliderEnd, 1).name('Shells').onChange(handlers.shells);
 		this.#shells.disable();
+		this.#crowd = this.#gui.add(this.#values, 'crowd', 1, maxCrowd, 1).name('Crowd').onChange(handlers.crowd);
+		this.#crowd.disable();
 		if (matchMedia('(max-width: 620px), (max-height: 420px)').matches) this.#gui.close();
 	}
 
@@ -41,13 +46,16 @@ export class Panel {
 	 *
 	 * @param model a name of the menu, or any other address, which then gets an entry of its own; '' for none
 	 * @param shells undefined where the model has no fur
+	 * @param crowd bodies, of which each of several has shells by its size; undefined where there can be one only
 	 */
-	update(model: string, shells: number | undefined): void {
+	update(model: string, shells: number | undefined, crowd: number | undefined): void {
 		this.#values.model = model;
 		if (model && !Object.values(this.#titles).includes(model)) this.#titles[model] = model;
 		this.#model.options(model ? this.#titles : { '–': '', ...this.#titles });
 		this.#values.shells = shells ?? 1;
 		this.#shells.max(Math.max(sliderEnd, shells ?? 1));
-		this.#shells.updateDisplay().enable(shells !== undefined);
+		this.#shells.updateDisplay().enable(shells !== undefined && crowd === 1);
+		this.#values.crowd = crowd ?? 1;
+		this.#crowd.updateDisplay().enable(crowd !== undefined);
 	}
 }

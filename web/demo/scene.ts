@@ -13,6 +13,7 @@ import {
 } from 'three';
 import { fitShadow } from '../fur/index.ts';
 import { backdrop, ContactShadow } from './backdrop.ts';
+import { Crowd } from './crowd.ts';
 import type { Model } from './models.ts';
 
 const maxPixelRatio = 2;
@@ -26,7 +27,10 @@ export class Stage {
 	/** Of the model on show. */
 	readonly centre = new Vector3();
 	radius = 1;
+	/** Of one body. */
+	closest = 1;
 	model: Model | undefined;
+	#crowd: Crowd | undefined;
 	readonly #shadow = new ContactShadow();
 
 	constructor(canvas: HTMLCanvasElement) {
@@ -51,22 +55,40 @@ export class Stage {
 	/** Puts a model in the place of the one before, which is disposed of. */
 	show(model: Model): void {
 		if (this.model) {
+			this.#crowd?.dispose();
+			this.#crowd = undefined;
 			this.scene.remove(this.model.object);
 			this.model.dispose();
 		}
 		this.model = model;
 		this.scene.add(model.object);
-		model.box.getCenter(this.centre);
-		this.radius = model.radius;
 		this.#shadow.fit(model.box, model.fur?.asset.length ?? 0);
-		this.#shadow.visible = true;
-		const length = model.fur?.asset.length ?? 0.05 * this.radius;
-		this.light(this.key.position.sub(this.centre).normalize());
-		fitShadow(this.key, new Sphere(this.centre, this.radius + length), length);
 		if (model.fur) {
 			model.fur.shells.material.gloss = 0.5;
 			model.fur.shells.material.backlight = 6;
 		}
+	}
+
+	/** Has so many bodies of the model on show. A model without fur is alone. */
+	gather(count: number): void {
+		const { model } = this;
+		if (!model) return;
+		const { fur } = model;
+		const many = fur !== undefined && count > 1;
+		if (many && !this.#crowd) {
+			this.#crowd = new Crowd(model, fur);
+			this.scene.add(this.#crowd);
+		}
+		const crowd = many ? this.#crowd : undefined;
+		if (crowd) crowd.count = count;
+		if (this.#crowd) this.#crowd.visible = many;
+		model.object.visible = this.#shadow.visible = !many;
+		this.closest = model.radius;
+		this.radius = crowd?.radius ?? model.radius;
+		model.box.getCenter(this.centre);
+		const length = fur?.asset.length ?? 0.05 * this.radius;
+		this.light(this.key.position.clone().sub(this.key.target.position).normalize());
+		fitShadow(this.key, new Sphere(this.centre, (crowd?.reach ?? this.radius) + length), length);
 	}
 
 	/** @param direction unit vector from the model to the lamp, world axes */

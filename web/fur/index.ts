@@ -7,6 +7,7 @@ export { type Fur, FurLoaderPlugin } from './FurLoaderPlugin.ts';
 export { FurMaterial, type FurMaterialParameters } from './FurMaterial.ts';
 export { FurFins } from './fins.ts';
 export { type Basis, EXTENSION, type Fin, type FurAsset, type Pelt, VERSION } from './format.ts';
+export { FurInstances } from './instances.ts';
 export { BODY_RADIUS, type Direction, evaluateBasis, lightMoments, relight, smoothFunctions } from './moments.ts';
 export type { FurTextures } from './PeltMaterial.ts';
 export { fitShadow } from './shadow.ts';

@@ -1,8 +1,15 @@
 // One law of opacity for the patch's weight, the number of shells and the slant of the view.
 
+#ifdef BODIES
+in float vShells; // of this body
+in float vCut;
+#define shellCount vShells
+#define alphaCut vCut
+#else
 uniform float alphaCut; // coverage below which a fragment is dropped
 #ifdef ALPHA_TO_COVERAGE
 uniform float shellCount;
+#endif
 #endif
 
 in float vWeight;

@@ -6,8 +6,15 @@ layout(location = 12) in vec4 color; // of the skin, linear
 layout(location = 13) in vec4 _fur; // X = lapped weight, Y = share of the longest fur, Z = openness to the sky, W = from tip to tip2, all 0..1
 layout(location = 14) in vec3 _comb; // displacement of the tip in the tangent plane, share of the length, the mesh's own axes
 
+#ifdef BODIES
+in vec2 bodyDetail; // per instance: X = shells of this body, no more than shellCount; Y = its alphaCut
+
+out float vShells;
+out float vCut;
+#endif
+
 uniform float tiles; // texture coordinates → tiles
-uniform float shellCount; // n, of one body; may lie between two whole numbers
+uniform float shellCount; // n, of one body, or the most that one of many has; may lie between two whole numbers
 uniform int firstShell; // that is drawn
 uniform vec4 drift[(LAYERS + 2) / 2]; // two knots each: mean displacement of the hairs at the root and in every slab's middle, tile widths
 
@@ -16,6 +23,7 @@ out float vWeight; // slabs that the shell stands for here, of the patch's share
 out float vFacing; // n·v
 
 struct ShellPoint {
+	bool there; // whether the body has this shell
 	float s; // 0 at the skin, 1 at the tip
 	vec3 normal; // of the skin, the mesh's own axes
 	mat3 turn; // the mesh's own axes → view space, without scale
@@ -40,13 +48,16 @@ vec2 driftAt(float s) {
 ShellPoint shellPoint() {
 	ShellPoint point;
 #ifdef BODIES
-	float i = float(firstShell + gl_InstanceID % int(ceil(shellCount)));
+	float i = float(firstShell + gl_InstanceID % int(ceil(shellCount))), count = bodyDetail.x;
+	vShells = bodyDetail.x;
+	vCut = bodyDetail.y;
 #else
-	float i = float(firstShell + gl_InstanceID);
+	float i = float(firstShell + gl_InstanceID), count = shellCount;
 #endif
+	point.there = i < count;
 	// Shells lie in the middle of their share of the fur; the outermost has a smaller one where n is no whole number.
-	float share = min(1.0, shellCount - i) / shellCount;
-	point.s = i / shellCount + 0.5 * share;
+	float share = clamp(count - i, 0.0, 1.0) / count;
+	point.s = min(i / count + 0.5 * share, 1.0);
 	vec3 n = normalize(normal);
 	vec3 t = normalize(tangent.xyz - n * dot(n, tangent.xyz));
 	mat4 placement = bodyModelView();
@@ -56,11 +67,13 @@ ShellPoint shellPoint() {
 	point.pointVS = (placement * vec4(furPoint(position, n, _comb, _fur.y, point.s), 1.0)).xyz;
 
 	// A shell between two slabs' middles shows its slab sheared by how far the hairs have drifted since, so that they run
-	// on instead of standing in steps.
-	int slab = min(int(point.s * float(LAYERS)), LAYERS - 1);
+	// on instead of standing in steps. Where two slabs are as near, which of them it is differs from shell to shell: all at
+	// once would be seen when their number changes.
+	float unlike = 0.4 * (fract(0.618034 * i) - 0.5);
+	int slab = clamp(int(point.s * float(LAYERS) + unlike), 0, LAYERS - 1);
 	vAt = vec3(uv * tiles - (driftAt(point.s) - driftKnot(slab + 1)), float(slab));
 	vWeight = _fur.x * float(LAYERS) * share;
 	vFacing = dot(point.turn * n, viewerVS(point.pointVS));
-	gl_Position = projectionMatrix * vec4(point.pointVS, 1.0);
+	gl_Position = point.there ? projectionMatrix * vec4(point.pointVS, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 	return point;
 }

@@ -7,7 +7,9 @@ out float vHeight; // 0 at the skin, 1 at the tip
 void main() {
 	ShellPoint shell = shellPoint();
 	vec3 tip = position + shell.normal * (furLength * _fur.y);
-	passLight(FurPoint(shell.frameVS, shell.pointVS, (bodyModel() * vec4(tip, 1.0)).xyz, shell.s), _fur.z);
+	if (shell.there)
+		passLight(FurPoint(shell.frameVS, shell.pointVS, (bodyModel() * vec4(tip, 1.0)).xyz, shell.s), _fur.z);
+	else passDarkness();
 
 	vColour = skinColour * color.rgb;
 #ifdef COLOUR_PLANE

@@ -1,0 +1,54 @@
+import { difference, expect, open, picture, state, test } from './harness.ts';
+
+test('crowd=8 shows eight bodies in a few draw calls more than one', async ({ page }) => {
+	const drawn = async (query: string) => {
+		await open(page, `?model=sphere&still=1${query}`);
+		expect(await state(page)).toBe('ready');
+		await expect(page.locator('#overlay')).toContainText(/draw calls · [\d,]+ triangles/);
+		const text = (await page.locator('#overlay').textContent()) ?? '';
+		const [, calls, triangles] = /(\d+) draw calls · ([\d,]+) triangles/.exec(text) ?? [];
+		return { calls: Number(calls), triangles: Number(triangles?.replaceAll(',', '')) };
+	};
+	const one = await drawn('&crowd=1&shells=6');
+	const plain = await drawn('&shells=6');
+	expect(one).toEqual(plain);
+	const eight = await drawn('&crowd=8');
+	// The lawn; and shadows, skin, fins and shells of two levels at most.
+	expect(eight.calls).toBeLessThanOrEqual(one.calls + 4);
+	expect(eight.triangles).toBeGreaterThan(5 * one.triangles);
+});
+
+test('the light goes round a crowd, too', async ({ page }) => {
+	const at = '?model=sphere&crowd=6&still=1&ui=0&camera=0,20,0.6';
+	await open(page, `${at}&light=-1,0.2,0.1`);
+	const left = await picture(page);
+	await open(page, `${at}&light=1,0.2,0.1`);
+	expect(difference(left, await picture(page))).toBeGreaterThan(3);
+});
+
+test('the panel makes a crowd, and makes it go', async ({ page }) => {
+	await page.setViewportSize({ width: 900, height: 600 });
+	await open(page, '?model=sphere&shells=6&still=1&light=1,.3,.5&camera=0,10,1');
+	const before = await picture(page);
+	const count = page.locator('#panel .lil-controller', { hasText: 'Crowd' }).locator('input');
+	const shells = page.locator('#panel .lil-controller', { hasText: 'Shells' }).locator('input');
+	await count.fill('5');
+	await count.press('Enter');
+	await expect.poll(() => new URL(page.url()).searchParams.get('crowd')).toBe('5');
+	await expect(shells).toBeDisabled();
+	expect(difference(before, await picture(page))).toBeGreaterThan(3);
+	await count.fill('1');
+	await count.press('Enter');
+	await expect.poll(() => new URL(page.url()).searchParams.get('crowd')).toBe('1');
+	await expect(shells).toBeEnabled();
+	await expect.poll(async () => difference(before, await picture(page))).toBeLessThan(1);
+});
+
+test('another model comes as the same crowd', async ({ page }) => {
+	await page.setViewportSize({ width: 900, height: 600 });
+	await open(page, '?model=sphere&crowd=3&still=1&light=1,.3,.5');
+	await page.locator('#panel select').selectOption('Torus');
+	await expect.poll(() => new URL(page.url()).searchParams.get('model')).toBe('torus');
+	await expect.poll(() => state(page)).toBe('ready');
+	expect(new URL(page.url()).searchParams.get('crowd')).toBe('3');
+});
