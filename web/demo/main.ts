@@ -1,6 +1,7 @@
 /** The demo page: composes address, scene, camera, light and panel. */
 
 import { MathUtils } from 'three';
+import { FurGovernor } from '../fur/index.ts';
 import { addressWriter, parseAddress, type Triple } from './address.ts';
 import { directionUnder, listenToDrags } from './aim.ts';
 import { OrbitCamera } from './camera.ts';
@@ -13,6 +14,8 @@ import { notice } from './notice.ts';
 import { Overlay } from './overlay.ts';
 import { Panel } from './panel.ts';
 import { Stage } from './scene.ts';
+import { watchSize } from './size.ts';
+import { GpuTimer } from './timer.ts';
 
 /** From the side: light from the front is flat. */
 const defaultLight: Triple = [-0.82, 0.57, -0.02];
@@ -42,7 +45,10 @@ function start(): void {
 	const lamp = new Lamp();
 	lamp.visible = false;
 	stage.scene.add(lamp);
-	const overlay = view.ui ? new Overlay(element('overlay'), stage.renderer) : undefined;
+	const timer = new GpuTimer(stage.gl);
+	// In time at 60 Hz, with room for the browser's own work; intervals are 17 ms there at best.
+	const governor = new FurGovernor(timer.works ? { target: 14 } : { target: 20, capped: true });
+	const overlay = view.ui ? new Overlay(element('overlay'), stage, timer) : undefined;
 	const write = addressWriter();
 	const panel = new Panel(element('panel'), {
 		model: (name) => void show(name),
@@ -53,16 +59,29 @@ function start(): void {
 	// Frames: one after the other, or with still=1 only where something has changed.
 	let before = performance.now();
 	let requested = false;
-	const render = () => stage.render(camera);
+	/** Whether the canvas has another size than the picture; whether it has any; whether anything has moved. */
+	let stale = false;
+	let visible = false;
+	let moving = false;
+	const render = () => {
+		timer.begin();
+		stage.render(camera);
+		timer.end();
+	};
 	function frame(now: number): void {
 		requested = false;
-		const elapsed = Math.min((now - before) / 1000, 0.1);
+		const interval = now - before;
+		const elapsed = Math.min(interval / 1000, 0.1);
 		before = now;
+		if (stale) resize();
 		camera.glide();
 		if (light.step(elapsed)) placeLight();
 		lamp.glide(camera, calm ? Number.POSITIVE_INFINITY : elapsed);
-		if (overlay) overlay.frame(render);
-		else render();
+		const time = timer.read();
+		if (!view.still) stage.scale = governor.frame(timer.works ? time : interval, now, moving);
+		moving = false;
+		if (visible && overlay) overlay.frame(render);
+		else if (visible) render();
 		if (!view.still) request();
 	}
 	function request(): void {
@@ -72,17 +91,21 @@ function start(): void {
 	}
 
 	function placeLight(): void {
+		moving = true;
 		stage.light(light.direction);
 		lamp.place(light.direction, stage.centre, stage.radius);
 	}
 	function resize(): void {
 		const { clientWidth: width, clientHeight: height } = canvas;
-		if (width === 0 || height === 0) return;
+		stale = false;
+		visible = width > 0 && height > 0;
+		if (!visible) return;
 		stage.resize(width, height);
 		camera.frame(stage.centre, stage.radius, width, height, stage.closest);
 		request();
 	}
 	function cameraMoved(): void {
+		moving = true;
 		request();
 		if (!camera.chosen) return;
 		view.camera = camera.orbit;
@@ -118,15 +141,25 @@ function start(): void {
 	// Models.
 	let menu: MenuEntry[] = [];
 	let latest = 0;
+	let loading = false;
 	let shown = '';
+	/** Says so when the picture is on show. */
+	function settle(): void {
+		const turn = latest;
+		const ready = () => turn === latest && !stage.gl.isContextLost() && setState('ready');
+		if (loading) return;
+		if (stage.model) requestAnimationFrame(() => requestAnimationFrame(ready));
+		else setState('failed');
+	}
 	/** Shows a model of the menu or of the address; where that fails, says why and keeps the one before. */
 	async function show(name: string): Promise<void> {
 		const turn = ++latest;
+		loading = true;
 		setState('loading');
 		try {
 			const folder = folderOf(name, menu, document.baseURI);
 			if (!folder) throw new Error('it is neither a model of the menu nor the address of a folder');
-			const model = await loadModel(folder);
+			const model = await loadModel(folder, stage.limits);
 			if (turn !== latest) return model.dispose();
 			const first = stage.model === undefined;
 			const entry = menu.find((item) => item.name === name);
@@ -152,8 +185,8 @@ function start(): void {
 			notice(`${name} cannot be shown: ${(error as Error).message}`, 'error');
 		}
 		updatePanel();
-		if (!stage.model) setState('failed');
-		else requestAnimationFrame(() => requestAnimationFrame(() => turn === latest && setState('ready')));
+		loading = false;
+		settle();
 	}
 
 	// Hands on the picture.
@@ -182,8 +215,16 @@ function start(): void {
 		orbit.setAttribute('aria-pressed', String(camera.dragTurns));
 	});
 	canvas.addEventListener('contextmenu', (event) => event.preventDefault());
-	canvas.addEventListener('webglcontextrestored', request);
-	addEventListener('resize', resize);
+	canvas.addEventListener('webglcontextlost', () => stage.model && setState('loading'));
+	canvas.addEventListener('webglcontextrestored', () => {
+		timer.restore();
+		request();
+		settle();
+	});
+	watchSize(canvas, () => {
+		stale = true;
+		request();
+	});
 	resize();
 
 	async function open(): Promise<void> {

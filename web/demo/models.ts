@@ -2,7 +2,7 @@
 
 import { Box3, Material, Mesh, type Object3D, Texture, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
-import { type Fur, FurLoaderPlugin } from '../fur/index.ts';
+import { type Fur, FurLoaderPlugin, type TextureLimits } from '../fur/index.ts';
 import { parseAddress, type Triple } from './address.ts';
 
 /** An entry of models/models.json; its other fields are for the command that bakes it. */
@@ -57,10 +57,13 @@ export function folderOf(model: string, menu: readonly MenuEntry[], base: string
 	return /^https?:$/.test(url.protocol) ? url : undefined;
 }
 
-/** @throws Error that names the file and says what is wrong with it */
-export async function loadModel(folder: URL): Promise<Model> {
+/**
+ * @param limits of the GPU that is to show it
+ * @throws Error that names the file and says what is wrong with it
+ */
+export async function loadModel(folder: URL, limits: TextureLimits): Promise<Model> {
 	const loader = new GLTFLoader();
-	loader.register((parser) => new FurLoaderPlugin(parser));
+	loader.register((parser) => new FurLoaderPlugin(parser, { limits }));
 	const gltf = await loader.loadAsync(new URL('model.gltf', folder).href).catch((error: unknown) => {
 		throw new Error(reason(error));
 	});

@@ -8,10 +8,11 @@ import {
 	type PerspectiveCamera,
 	Scene,
 	Sphere,
+	UnsignedByteType,
 	Vector3,
 	WebGLRenderer,
 } from 'three';
-import { fitShadow } from '../fur/index.ts';
+import { fitShadow, limitsOf, type TextureLimits } from '../fur/index.ts';
 import { backdrop, ContactShadow } from './backdrop.ts';
 import { Crowd } from './crowd.ts';
 import type { Model } from './models.ts';
@@ -32,14 +33,18 @@ export class Stage {
 	model: Model | undefined;
 	#crowd: Crowd | undefined;
 	readonly #shadow = new ContactShadow();
+	/** Of the window, CSS pixels. */
+	#width = 1;
+	#height = 1;
+	#scale = 1;
 
 	constructor(canvas: HTMLCanvasElement) {
-		this.renderer = new WebGLRenderer({
-			canvas,
-			antialias: false,
-			outputBufferType: HalfFloatType,
-			powerPreference: 'high-performance',
-		});
+		const attributes: WebGLContextAttributes = { antialias: false, powerPreference: 'high-performance' };
+		// The renderer, which wants to know its output beforehand, is given this same context by the canvas.
+		const gl = canvas.getContext('webgl2', attributes) as WebGL2RenderingContext | null;
+		const half = gl?.getExtension('EXT_color_buffer_float') ?? gl?.getExtension('EXT_color_buffer_half_float');
+		const outputBufferType = half ? HalfFloatType : UnsignedByteType;
+		this.renderer = new WebGLRenderer({ canvas, outputBufferType, ...attributes });
 		this.renderer.toneMapping = NeutralToneMapping;
 		this.renderer.shadowMap.enabled = true;
 		// One frame is several renders (scene, output): the counts are those of all of them.
@@ -97,13 +102,41 @@ export class Stage {
 		this.key.position.copy(this.centre).addScaledVector(direction, 4 * this.radius);
 	}
 
+	get gl(): WebGL2RenderingContext {
+		return this.renderer.getContext() as WebGL2RenderingContext;
+	}
+
+	get limits(): TextureLimits {
+		return limitsOf(this.gl);
+	}
+
 	/** @param width of the window in CSS pixels */
 	resize(width: number, height: number): void {
-		this.renderer.setPixelRatio(Math.min(devicePixelRatio, maxPixelRatio));
-		this.renderer.setSize(width, height, false);
+		this.#width = width;
+		this.#height = height;
+		this.#size();
+	}
+
+	/** Share of the resolution per side that is drawn. */
+	get scale(): number {
+		return this.#scale;
+	}
+
+	set scale(scale: number) {
+		if (scale === this.#scale) return;
+		this.#scale = scale;
+		this.#size();
+	}
+
+	#size(): void {
+		const ratio = Math.min(devicePixelRatio, maxPixelRatio) * this.#scale;
+		// A pixel is left of the narrowest window.
+		this.renderer.setPixelRatio(Math.max(ratio, 1 / Math.min(this.#width, this.#height)));
+		this.renderer.setSize(this.#width, this.#height, false);
 	}
 
 	render(camera: PerspectiveCamera): void {
+		if (this.gl.isContextLost()) return;
 		this.renderer.info.reset();
 		this.renderer.render(this.scene, camera);
 	}

@@ -14,6 +14,7 @@ import { FinMaterial } from './FinMaterial.ts';
 import { FurMaterial } from './FurMaterial.ts';
 import { FurFins } from './fins.ts';
 import { EXTENSION, type Fin, type FurAsset, type Pelt, parseFur, VERSION } from './format.ts';
+import { checkLimits, type TextureLimits } from './limits.ts';
 import { ALPHA_CUT } from './lod.ts';
 import type { FurTextures } from './PeltMaterial.ts';
 import { decodePlane, type Extent, mipLevels, textureArray, type View } from './planes.ts';
@@ -38,6 +39,11 @@ export interface Fur {
 	dispose(): void;
 }
 
+export interface FurLoaderOptions {
+	/** What the GPU takes, by `limitsOf`: an asset that asks for more is refused before its planes are decoded. */
+	limits?: TextureLimits;
+}
+
 /**
  * Plugin for three's GLTFLoader: an asset with `FUR_ptm_shells` grows its fur, any other loads as ever.
  *
@@ -51,9 +57,11 @@ export interface Fur {
 export class FurLoaderPlugin implements GLTFLoaderPlugin {
 	readonly name = EXTENSION;
 	readonly #parser: GLTFParser;
+	readonly #options: FurLoaderOptions;
 
-	constructor(parser: GLTFParser) {
+	constructor(parser: GLTFParser, options: FurLoaderOptions = {}) {
 		this.#parser = parser;
+		this.#options = options;
 	}
 
 	async afterRoot(gltf: GLTF): Promise<void> {
@@ -64,6 +72,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 			console.warn(`${EXTENSION}: version ${extension.version} is newer than ${VERSION}; showing the skin alone`);
 			return;
 		}
+		if (this.#options.limits) checkLimits(asset, this.#options.limits);
 		gltf.userData.fur = await this.#grow(asset);
 	}
 

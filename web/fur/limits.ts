@@ -1,0 +1,26 @@
+/** What a GPU's textures can hold, and whether an asset asks for more. */
+
+import { EXTENSION, type FurAsset } from './format.ts';
+
+export interface TextureLimits {
+	/** Texels per side. */
+	size: number;
+	/** Layers of a texture array. */
+	layers: number;
+}
+
+export function limitsOf(gl: WebGL2RenderingContext): TextureLimits {
+	return { size: gl.getParameter(gl.MAX_TEXTURE_SIZE), layers: gl.getParameter(gl.MAX_ARRAY_TEXTURE_LAYERS) };
+}
+
+/** @throws Error where the asset's planes do not fit into this GPU's textures */
+export function checkLimits({ size, layers, fins, pelts }: FurAsset, limits: TextureLimits): void {
+	const expected = `expected at most ${limits.size} × ${limits.size} on this GPU`;
+	if (size > limits.size) throw new Error(`${EXTENSION}/size: got tiles of ${size} × ${size} texels, ${expected}`);
+	if (layers > limits.layers)
+		throw new Error(`${EXTENSION}/layers: got ${layers} layers, expected at most ${limits.layers} on this GPU`);
+	for (const { fin } of fins === undefined ? [] : pelts) {
+		if (fin && Math.max(fin.width, fin.height) > limits.size)
+			throw new Error(`${EXTENSION}/pelts/fin: got ${fin.width} × ${fin.height} texels, ${expected}`);
+	}
+}
