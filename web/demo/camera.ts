@@ -10,6 +10,9 @@ const margin = 1.2;
 const nearest = 0.25; // in units of the distance at which the model fits
 const farthest = 4;
 
+const offset = new Vector3();
+const spherical = new Spherical();
+
 export class OrbitCamera extends PerspectiveCamera {
 	readonly #controls: OrbitControls;
 	#fit = 1;
@@ -53,16 +56,14 @@ export class OrbitCamera extends PerspectiveCamera {
 
 	/** Azimuth and elevation in degrees, distance in units of the one at which the model fits. */
 	get orbit(): Triple {
-		const { theta, phi, radius } = new Spherical().setFromVector3(
-			new Vector3().subVectors(this.position, this.#controls.target),
-		);
+		const { theta, phi, radius } = spherical.setFromVector3(offset.subVectors(this.position, this.#controls.target));
 		return [MathUtils.radToDeg(theta), 90 - MathUtils.radToDeg(phi), radius / this.#fit];
 	}
 
 	set orbit([azimuth, elevation, distance]: Triple) {
 		const phi = MathUtils.degToRad(90 - elevation);
-		const offset = new Spherical(distance * this.#fit, phi, MathUtils.degToRad(azimuth)).makeSafe();
-		this.position.setFromSpherical(offset).add(this.#controls.target);
+		spherical.set(distance * this.#fit, phi, MathUtils.degToRad(azimuth)).makeSafe();
+		this.position.setFromSpherical(spherical).add(this.#controls.target);
 		this.#controls.update();
 	}
 

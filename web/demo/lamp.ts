@@ -70,6 +70,9 @@ export class Lamp extends Group {
 	readonly #faint: (LineMaterial | MeshBasicMaterial)[] = [];
 	readonly #eye = new Vector3();
 	#strength = resting;
+	readonly #dim = (material: LineMaterial | MeshBasicMaterial) => {
+		material.opacity = this.#strength;
+	};
 	/** Whether somebody moves the light just now: ray and rail are brighter then. */
 	active = false;
 
@@ -86,6 +89,8 @@ export class Lamp extends Group {
 			new MeshBasicMaterial({
 				map: lightMap(64, 16, (u, v) => (1 - v * v) ** 2 * ((u + 1) / 2) ** 1.2),
 				side: DoubleSide,
+				// Both sides at once: in two passes three would look its program up anew in every frame.
+				forceSinglePass: true,
 				...additive,
 			}),
 		);
@@ -131,6 +136,6 @@ export class Lamp extends Group {
 		this.#ray.rotation.x = Math.atan2(-eye.y, eye.z);
 		const goal = this.active ? 1 : resting;
 		this.#strength += (goal - this.#strength) * (1 - Math.exp(-elapsed / easing));
-		for (const material of this.#faint) material.opacity = this.#strength;
+		this.#faint.forEach(this.#dim);
 	}
 }

@@ -4,51 +4,69 @@ import Stats from 'stats-gl';
 import type { Stage } from './scene.ts';
 import type { GpuTimer } from './timer.ts';
 
-const pause = 250; // milliseconds between two readings of the counts
+const pause = 250; // milliseconds between two readings
 
-export class Overlay {
-	readonly #stats = new Stats({ precision: 1 });
-	readonly #gpu: InstanceType<typeof Stats.Panel> | undefined;
-	readonly #counts = document.createElement('div');
-	readonly #stage: Stage;
-	readonly #timer: GpuTimer;
-	#read = 0;
+/** One figure with its graph. */
+class Meter {
+	readonly #panel: InstanceType<typeof Stats.Panel>;
+	readonly #digits: number;
 	#longest = 0;
 
-	/** @param timer whose time is shown; it is read elsewhere */
+	constructor(parent: HTMLElement, name: string, colour: string, dark: string, digits: number) {
+		this.#panel = new Stats.Panel(name, colour, dark);
+		this.#digits = digits;
+		parent.append(this.#panel.canvas as HTMLCanvasElement);
+	}
+
+	show(value: number): void {
+		if (!Number.isFinite(value)) return;
+		this.#longest = Math.max(this.#longest, value);
+		this.#panel.update(value, this.#longest, this.#digits);
+		this.#panel.updateGraph(value, this.#longest);
+	}
+}
+
+/** The panels are those of stats-gl; its own loop makes objects and a GPU query per frame, so this one counts for itself. */
+export class Overlay {
+	readonly #stage: Stage;
+	readonly #timer: GpuTimer;
+	readonly #counts = document.createElement('div');
+	readonly #fps: Meter;
+	readonly #cpu: Meter;
+	readonly #gpu: Meter | undefined;
+	#read = performance.now();
+	#frames = 0;
+	#busy = 0;
+
+	/** @param timer whose latest time is shown; it is read elsewhere */
 	constructor(parent: HTMLElement, stage: Stage, timer: GpuTimer) {
 		this.#stage = stage;
 		this.#timer = timer;
-		// Its own timer makes a query per frame, and does not survive a lost context.
-		if (timer.works) this.#gpu = this.#stats.addPanel(new Stats.Panel('GPU', '#ff0', '#220'));
-		// It would fix itself to the corner of the window, above everything.
-		this.#stats.dom.style.cssText = 'position: relative';
 		const graphs = document.createElement('div');
 		graphs.className = 'graphs';
 		graphs.setAttribute('aria-hidden', 'true');
-		graphs.append(this.#stats.dom);
+		this.#fps = new Meter(graphs, 'FPS', '#0ff', '#002', 0);
+		this.#cpu = new Meter(graphs, 'CPU', '#0f0', '#020', 1);
+		if (timer.works) this.#gpu = new Meter(graphs, 'GPU', '#ff0', '#220', 1);
 		parent.append(graphs, this.#counts);
 	}
 
 	/** Draws one frame and measures it. @param render draws it */
 	frame(render: () => void): void {
-		this.#stats.begin();
+		const start = performance.now();
 		render();
-		this.#stats.end();
-		this.#stats.update();
 		const now = performance.now();
+		this.#busy += now - start;
+		this.#frames++;
 		if (now < this.#read + pause) return;
+		this.#fps.show((this.#frames * 1000) / (now - this.#read));
+		this.#cpu.show(this.#busy / this.#frames);
+		this.#gpu?.show(this.#timer.latest);
 		this.#read = now;
-		this.#showTime(this.#timer.latest);
+		this.#frames = 0;
+		this.#busy = 0;
 		const { calls, triangles } = this.#stage.renderer.info.render;
 		const resolution = this.#stage.scale < 1 ? `${Math.round(this.#stage.scale * 100)} %` : 'full';
 		this.#counts.textContent = `${calls} draw calls · ${triangles.toLocaleString('en')} triangles · ${resolution} resolution`;
-	}
-
-	#showTime(time: number): void {
-		if (!(time >= 0)) return;
-		this.#longest = Math.max(this.#longest, time);
-		this.#gpu?.update(time, this.#longest, 1);
-		this.#gpu?.updateGraph(time, this.#longest);
 	}
 }
