@@ -13,6 +13,7 @@ import {
 	MeshBasicMaterial,
 	PlaneGeometry,
 	SRGBColorSpace,
+	UnsignedByteType,
 	Vector3,
 } from 'three';
 
@@ -35,28 +36,34 @@ function smoothstep(t: number): number {
 	return x * x * (3 - 2 * x);
 }
 
-/** Radial gradient for `scene.background`; half floats and a grain of one eighth-bit step, or dark slopes band. */
-export function backdrop(size = 384): DataTexture {
+/**
+ * Radial gradient for `scene.background`, with a grain of one eighth-bit step, or dark slopes band.
+ *
+ * @param half whether in half floats, which hold it to the bit
+ */
+export function backdrop(half: boolean, size = 384): DataTexture {
 	const inner = new Color(middle).convertLinearToSRGB();
 	const outer = new Color(rim).convertLinearToSRGB();
 	const colour = new Color();
-	const texels = new Uint16Array(size * size * 4);
+	const texels = new (half ? Uint16Array : Uint8Array)(size * size * 4);
+	const stored = half ? DataUtils.toHalfFloat : (value: number) => value * 255 + 0.5;
 	for (let y = 0; y < size; y++) {
 		for (let x = 0; x < size; x++) {
 			const away = Math.hypot((x + 0.5) / size - 0.5, ((y + 0.5) / size - 0.47) * 1.1) / 0.72;
 			colour.lerpColors(inner, outer, smoothstep(away));
 			colour.addScalar((Math.random() + Math.random() - 1) / 255);
 			beforeNeutral(colour.convertSRGBToLinear());
+			if (!half) colour.convertLinearToSRGB();
 			const at = (y * size + x) * 4;
-			texels[at] = DataUtils.toHalfFloat(colour.r);
-			texels[at + 1] = DataUtils.toHalfFloat(colour.g);
-			texels[at + 2] = DataUtils.toHalfFloat(colour.b);
-			texels[at + 3] = DataUtils.toHalfFloat(1);
+			texels[at] = stored(colour.r);
+			texels[at + 1] = stored(colour.g);
+			texels[at + 2] = stored(colour.b);
+			texels[at + 3] = stored(1);
 		}
 	}
 	const texture = new DataTexture(texels, size, size);
-	texture.type = HalfFloatType;
-	texture.colorSpace = LinearSRGBColorSpace;
+	texture.type = half ? HalfFloatType : UnsignedByteType;
+	texture.colorSpace = half ? LinearSRGBColorSpace : SRGBColorSpace;
 	texture.minFilter = LinearFilter;
 	texture.magFilter = LinearFilter;
 	texture.needsUpdate = true;

@@ -215,7 +215,10 @@ function start(): void {
 		orbit.setAttribute('aria-pressed', String(camera.dragTurns));
 	});
 	canvas.addEventListener('contextmenu', (event) => event.preventDefault());
-	canvas.addEventListener('webglcontextlost', () => stage.model && setState('loading'));
+	canvas.addEventListener('webglcontextlost', () => {
+		stage.forget();
+		if (stage.model) setState('loading');
+	});
 	canvas.addEventListener('webglcontextrestored', () => {
 		timer.restore();
 		request();

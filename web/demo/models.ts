@@ -1,6 +1,6 @@
 /** From a name or a path in the address to a model in memory. */
 
-import { Box3, Material, Mesh, type Object3D, Texture, Vector3 } from 'three';
+import { Box3, Material, Mesh, type Object3D, Scene, ShaderMaterial, Sprite, Texture, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { type Fur, FurLoaderPlugin, type TextureLimits } from '../fur/index.ts';
 import { parseAddress, type Triple } from './address.ts';
@@ -107,13 +107,17 @@ function radiusAround(object: Object3D, centre: Vector3): number {
 	return radius;
 }
 
-function disposeAll(object: Object3D): void {
+/** Frees geometries, materials and textures; what is drawn again comes back by itself. */
+export function disposeAll(object: Object3D): void {
 	object.traverse((child) => {
-		if (!(child instanceof Mesh)) return;
+		if (child instanceof Scene && child.background instanceof Texture) child.background.dispose();
+		if (!(child instanceof Mesh || child instanceof Sprite)) return;
 		child.geometry.dispose();
 		for (const material of [child.material].flat()) {
 			if (!(material instanceof Material)) continue;
-			for (const value of Object.values(material)) if (value instanceof Texture) value.dispose();
+			const uniforms = material instanceof ShaderMaterial ? Object.values(material.uniforms) : [];
+			for (const value of [...Object.values(material), ...uniforms.map((uniform) => uniform.value)])
+				if (value instanceof Texture) value.dispose();
 			material.dispose();
 		}
 	});

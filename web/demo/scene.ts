@@ -15,7 +15,7 @@ import {
 import { fitShadow, limitsOf, type TextureLimits } from '../fur/index.ts';
 import { backdrop, ContactShadow } from './backdrop.ts';
 import { Crowd } from './crowd.ts';
-import type { Model } from './models.ts';
+import { disposeAll, type Model } from './models.ts';
 
 const maxPixelRatio = 2;
 
@@ -52,7 +52,7 @@ export class Stage {
 		this.key.color.setRGB(1, 0.95, 0.87);
 		this.sky.color.setRGB(0.55, 0.65, 0.8);
 		this.sky.groundColor.setRGB(0.28, 0.24, 0.2);
-		this.scene.background = backdrop();
+		this.scene.background = backdrop(Boolean(half));
 		this.#shadow.visible = false;
 		this.scene.add(this.key, this.key.target, this.sky, this.#shadow);
 	}
@@ -133,6 +133,15 @@ export class Stage {
 		// A pixel is left of the narrowest window.
 		this.renderer.setPixelRatio(Math.max(ratio, 1 / Math.min(this.#width, this.#height)));
 		this.renderer.setSize(this.#width, this.#height, false);
+	}
+
+	/** To be called while the context is lost: three would later ask the new one to delete what belonged to the old one. */
+	forget(): void {
+		disposeAll(this.scene);
+		this.key.shadow.dispose();
+		// The targets of the output go when their size changes.
+		this.renderer.setSize(1, 1, false);
+		this.#size();
 	}
 
 	render(camera: PerspectiveCamera): void {

@@ -1,0 +1,93 @@
+/** Runs inside the page, before its own scripts: counts what is asked of the GPU, and takes away what a poorer one lacks. */
+
+import type { Page } from '@playwright/test';
+
+/** What `watchGpu` leaves in the page. */
+export interface Gpu {
+	/** Objects that were made and not deleted, by kind. */
+	live(): Record<string, number>;
+	/** Calls that bring data to textures or buffers, or make room for it, by name. */
+	uploads: Record<string, number>;
+	/** Answers of `getParameter` in place of the GPU's own, by the parameter's name. */
+	parameters: Record<string, number>;
+	/** Milliseconds that every timer query tells, by the width of the canvas; undefined: what it measured. */
+	time: ((width: number) => number) | undefined;
+}
+
+declare global {
+	interface Window {
+		gpu: Gpu;
+	}
+}
+
+/** @param missing names of extensions that this GPU is not to have */
+export async function watchGpu(page: Page, missing: string[] = []): Promise<void> {
+	await page.addInitScript((missing) => {
+		type Call = (this: WebGL2RenderingContext, ...args: unknown[]) => unknown;
+		const proto = WebGL2RenderingContext.prototype as unknown as Record<string, Call>;
+		const kinds = 'Buffer Framebuffer Program Query Renderbuffer Sampler Shader Texture TransformFeedback VertexArray';
+		const objects = new Map<string, Set<unknown>>();
+		const gpu: Gpu = {
+			live: () => Object.fromEntries([...objects].map(([kind, set]) => [kind, set.size])),
+			uploads: {},
+			parameters: {},
+			time: undefined,
+		};
+		window.gpu = gpu;
+		const wrap = (
+			name: string,
+			around: (call: () => unknown, args: unknown[], gl: WebGL2RenderingContext) => unknown,
+		) => {
+			const own = proto[name] as Call;
+			proto[name] = function (...args) {
+				return around(() => own.apply(this, args), args, this);
+			};
+		};
+		for (const kind of kinds.split(' ')) {
+			const live = new Set<unknown>();
+			objects.set(kind, live);
+			wrap(`create${kind}`, (call) => {
+				const object = call();
+				if (object) live.add(object);
+				return object;
+			});
+			wrap(`delete${kind}`, (call, [object]) => {
+				live.delete(object);
+				return call();
+			});
+		}
+		for (const name of Object.getOwnPropertyNames(proto)) {
+			if (!/^(compressed)?Tex(Sub)?Image|^tex(Sub)?Image|^texStorage|^copyTex|^bufferData|^bufferSubData/i.test(name))
+				continue;
+			wrap(name, (call) => {
+				gpu.uploads[name] = (gpu.uploads[name] ?? 0) + 1;
+				return call();
+			});
+		}
+		wrap('getExtension', (call, [name]) => (missing.includes(name as string) ? null : call()));
+		wrap('getSupportedExtensions', (call) => (call() as string[] | null)?.filter((name) => !missing.includes(name)));
+		wrap('getParameter', (call, [asked], gl) => {
+			for (const [name, value] of Object.entries(gpu.parameters))
+				if ((gl as unknown as Record<string, number>)[name] === asked) return value;
+			return call();
+		});
+		wrap('getQueryParameter', (call, [, asked], gl) =>
+			asked === gl.QUERY_RESULT && gpu.time ? gpu.time(gl.canvas.width) * 1e6 : call(),
+		);
+	}, missing);
+}
+
+/** @param width of the picture in CSS pixels; the page around it keeps its own size */
+export async function shrinkPicture(page: Page, width: number, height: number): Promise<void> {
+	await page.addInitScript(
+		([width, height]) => {
+			addEventListener('DOMContentLoaded', () => {
+				const style = document.createElement('style');
+				style.id = 'shrink';
+				style.textContent = `#picture { width: ${width}px !important; height: ${height}px !important }`;
+				document.head.append(style);
+			});
+		},
+		[width, height],
+	);
+}
