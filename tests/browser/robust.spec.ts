@@ -33,6 +33,16 @@ function middle(png: Buffer): { mean: number; spread: number } {
 
 const canvasWidth = (page: Page) => page.evaluate(() => document.querySelector('canvas')?.width);
 
+interface Allocations {
+	callFrame: { url: string };
+	selfSize: number;
+	children: Allocations[];
+}
+
+/** Bytes that the page's and the library's own files have asked for. */
+const own = ({ callFrame, selfSize, children }: Allocations): number =>
+	(/\/(demo|fur)\/\w+\.ts/.test(callFrame.url) ? selfSize : 0) + children.reduce((sum, child) => sum + own(child), 0);
+
 /** @param count of the page's own frames */
 const frames = (page: Page, count: number) =>
 	page.evaluate(
@@ -140,24 +150,26 @@ test('steady frames under a moving light allocate nothing', async ({ page }) => 
 		for (let i = 0; i < 2; i++) await devtools.send('HeapProfiler.collectGarbage');
 		return (await devtools.send('Runtime.getHeapUsage')).usedSize;
 	};
-	// Until the engine has compiled what runs often: before that every fraction is an object.
-	await frames(page, 600);
-	const before = await heap();
-	await devtools.send('HeapProfiler.startSampling', {
+	const sampling = {
 		samplingInterval: 256,
 		includeObjectsCollectedByMajorGC: true,
 		includeObjectsCollectedByMinorGC: true,
-	});
-	await frames(page, 600);
-	const { profile } = await devtools.send('HeapProfiler.stopSampling');
-	const perFrame = ((await heap()) - before) / 600;
-
-	type Node = typeof profile.head;
-	const own = ({ callFrame, selfSize, children }: Node): number =>
-		(/\/(demo|fur)\/\w+\.ts/.test(callFrame.url) ? selfSize : 0) + children.reduce((sum, child) => sum + own(child), 0);
-	// Kept per frame, less than any object would be; thrown away by the page's own code, a few fractions.
-	expect(perFrame, 'bytes kept').toBeLessThan(100);
-	expect(own(profile.head) / 600, 'bytes thrown away').toBeLessThan(1000);
+	};
+	// Until the engine has compiled what runs often: before that every fraction is an object.
+	await frames(page, 400);
+	let [kept, thrown] = [Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY];
+	// Its code and notes take room, too, now and then; what the page keeps it keeps every time.
+	for (let stretch = 0; stretch < 4 && (kept > 40 || thrown > 1000); stretch++) {
+		const before = await heap();
+		await devtools.send('HeapProfiler.startSampling', sampling);
+		await frames(page, 600);
+		const { profile } = await devtools.send('HeapProfiler.stopSampling');
+		kept = Math.min(kept, ((await heap()) - before) / 600);
+		thrown = Math.min(thrown, own(profile.head) / 600);
+	}
+	// Fewer bytes per frame than the smallest object; and in the page's own files a few fractions, no more.
+	expect(kept, 'bytes kept per frame').toBeLessThan(40);
+	expect(thrown, 'bytes thrown away per frame').toBeLessThan(1000);
 });
 
 test('the picture follows the window, the layout and the pixels of the screen', async ({ page }) => {
