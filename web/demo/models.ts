@@ -113,7 +113,7 @@ export function disposeAll(object: Object3D): void {
 		if (child instanceof Scene && child.background instanceof Texture) child.background.dispose();
 		if (!(child instanceof Mesh || child instanceof Sprite)) return;
 		child.geometry.dispose();
-		for (const material of [child.material].flat()) {
+		for (const material of [child.material, child.customDepthMaterial, child.customDistanceMaterial].flat()) {
 			if (!(material instanceof Material)) continue;
 			const uniforms = material instanceof ShaderMaterial ? Object.values(material.uniforms) : [];
 			for (const value of [...Object.values(material), ...uniforms.map((uniform) => uniform.value)])
