@@ -8,6 +8,8 @@ export interface Gpu {
 	live(): Record<string, number>;
 	/** Calls that bring data to textures or buffers, or make room for it, by name. */
 	uploads: Record<string, number>;
+	/** What was asked for as anisotropy of a texture. */
+	anisotropy: number[];
 	/** Answers of `getParameter` in place of the GPU's own, by the parameter's name. */
 	parameters: Record<string, number>;
 	/** Milliseconds that every timer query tells, by the width of the canvas; undefined: what it measured. */
@@ -30,6 +32,7 @@ export async function watchGpu(page: Page, missing: string[] = []): Promise<void
 		const gpu: Gpu = {
 			live: () => Object.fromEntries([...objects].map(([kind, set]) => [kind, set.size])),
 			uploads: {},
+			anisotropy: [],
 			parameters: {},
 			time: undefined,
 		};
@@ -64,6 +67,10 @@ export async function watchGpu(page: Page, missing: string[] = []): Promise<void
 				return call();
 			});
 		}
+		wrap('texParameterf', (call, [, name, value]) => {
+			if (name === 0x84fe) gpu.anisotropy.push(value as number);
+			return call();
+		});
 		wrap('getExtension', (call, [name]) => (missing.includes(name as string) ? null : call()));
 		wrap('getSupportedExtensions', (call) => (call() as string[] | null)?.filter((name) => !missing.includes(name)));
 		wrap('getParameter', (call, [asked], gl) => {

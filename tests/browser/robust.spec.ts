@@ -296,6 +296,14 @@ test.describe('poorer GPUs', () => {
 		await expect(page.locator('#overlay canvas')).toHaveCount(2);
 		await frames(page, 30);
 		expect(middle(await shot(page)).spread).toBeGreaterThan(1);
+		expect(await page.evaluate(() => window.gpu.anisotropy)).toEqual([]);
+	});
+
+	test('planes of shells are filtered along their slant', async ({ page }) => {
+		await watchGpu(page);
+		await open(page, calm);
+		// The sphere's have a colour plane, too; those of its fins, and everything else, are not.
+		expect(await page.evaluate(() => window.gpu.anisotropy)).toEqual([2, 2, 2]);
 	});
 
 	for (const [parameter, least, words] of [

@@ -1,6 +1,6 @@
 /** From a name or a path in the address to a model in memory. */
 
-import { Box3, Material, Mesh, type Object3D, Scene, ShaderMaterial, Sprite, Texture, Vector3 } from 'three';
+import { Box3, type IUniform, Material, Mesh, type Object3D, Scene, Sprite, Texture, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { type Fur, FurLoaderPlugin, type TextureLimits } from '../fur/index.ts';
 import { parseAddress, type Triple } from './address.ts';
@@ -115,7 +115,7 @@ export function disposeAll(object: Object3D): void {
 		child.geometry.dispose();
 		for (const material of [child.material, child.customDepthMaterial, child.customDistanceMaterial].flat()) {
 			if (!(material instanceof Material)) continue;
-			const uniforms = material instanceof ShaderMaterial ? Object.values(material.uniforms) : [];
+			const uniforms = 'uniforms' in material ? Object.values(material.uniforms as Record<string, IUniform>) : [];
 			for (const value of [...Object.values(material), ...uniforms.map((uniform) => uniform.value)])
 				if (value instanceof Texture) value.dispose();
 			material.dispose();

@@ -24,6 +24,12 @@ import { furCover, shadeSkin } from './skin.ts';
 /** How much of the roots' colour the skin shows: it lies in the shadow of all the fur above it. */
 const SKIN_SHADE = 0.35;
 
+/**
+ * Of the shells' planes. In close-ups of the bunny 2 is worth 1.4 dB against a supersampled picture, 4 and more 0.2 dB on
+ * top; a software rasteriser pays 8 % of the frame, for 4 11 %. Fins gain nothing by it.
+ */
+const ANISOTROPY = 2;
+
 /** The fur of a loaded asset; find it as `gltf.userData.fur`. */
 export interface Fur {
 	asset: FurAsset;
@@ -42,6 +48,8 @@ export interface Fur {
 export interface FurLoaderOptions {
 	/** What the GPU takes, by `limitsOf`: an asset that asks for more is refused before its planes are decoded. */
 	limits?: TextureLimits;
+	/** Most texels that are averaged along the slant in which a shell is seen, 1 to 16, where the GPU can; 2 by default. */
+	anisotropy?: number;
 }
 
 /**
@@ -150,7 +158,10 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 
 	async #peltTextures({ size, layers, coefficients, height }: FurAsset, pelt: Pelt): Promise<FurTextures> {
 		const extent = { width: size, height: size, layers };
-		return this.#textures(pelt, extent, coefficients, { cut: ALPHA_CUT, rise: height });
+		const textures = await this.#textures(pelt, extent, coefficients, { cut: ALPHA_CUT, rise: height });
+		for (const texture of Object.values(textures))
+			if (texture) texture.anisotropy = this.#options.anisotropy ?? ANISOTROPY;
+		return textures;
 	}
 
 	/** Fins drop nothing by its coverage, and end at their tips. */
