@@ -1,6 +1,17 @@
 /** From a name or a path in the address to a model in memory. */
 
-import { Box3, type IUniform, Material, Mesh, type Object3D, Scene, Sprite, Texture, Vector3 } from 'three';
+import {
+	Box3,
+	InstancedMesh,
+	type IUniform,
+	Material,
+	Mesh,
+	type Object3D,
+	Scene,
+	Sprite,
+	Texture,
+	Vector3,
+} from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { type Fur, FurLoaderPlugin, type TextureLimits } from '../fur/index.ts';
 import { parseAddress, type Triple } from './address.ts';
@@ -112,6 +123,7 @@ export function disposeAll(object: Object3D): void {
 	object.traverse((child) => {
 		if (child instanceof Scene && child.background instanceof Texture) child.background.dispose();
 		if (!(child instanceof Mesh || child instanceof Sprite)) return;
+		if (child instanceof InstancedMesh) child.dispose();
 		child.geometry.dispose();
 		for (const material of [child.material, child.customDepthMaterial, child.customDistanceMaterial].flat()) {
 			if (!(material instanceof Material)) continue;
