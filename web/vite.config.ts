@@ -29,7 +29,7 @@ export default defineConfig({
 	build: {
 		outDir: at('../dist'),
 		emptyOutDir: true,
-		rolldownOptions: { input: [at('index.html')] },
+		rolldownOptions: { input: [at('index.html'), at('bench.html')] },
 		// three.js alone is larger than the default limit.
 		chunkSizeWarningLimit: 1200,
 	},

@@ -46,8 +46,18 @@ test.afterAll(() => {
 	rmSync(dist, { recursive: true, force: true });
 });
 
+const originOf = () => `http://127.0.0.1:${(server.address() as AddressInfo).port}`;
+
+test('the built bench measures from a sub-folder of a static host', async ({ page, watch }) => {
+	const address = `${originOf()}${folder}bench.html`;
+	await page.goto(`${address}?run=1&size=48x32&rounds=1&triangles=512&parts=results&methods=unlit,ptm`);
+	await expect.poll(() => state(page), { timeout: 60_000 }).toBe('done');
+	await expect(page.locator('table').first()).toContainText('PTM');
+	expect(watch.requests.filter((url) => !url.startsWith('data:') && !url.startsWith(originOf() + folder))).toEqual([]);
+});
+
 test('the built site works from a sub-folder of a static host', async ({ page, watch }) => {
-	const origin = `http://127.0.0.1:${(server.address() as AddressInfo).port}`;
+	const origin = originOf();
 	await open(page, '?still=1', origin + folder);
 	expect(await state(page)).toBe('ready');
 	const elsewhere = watch.requests.filter((url) => !url.startsWith('data:') && !url.startsWith(origin + folder));

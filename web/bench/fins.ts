@@ -2,6 +2,7 @@
 
 import { WebGLRenderer } from 'three';
 import type { Coverage, FinCost, FinFigures, FinView } from './figures.ts';
+import { median } from './statistics.ts';
 import { loadFur, Studio } from './studio.ts';
 
 const IDEAL = 64; // shells that show the outline without fins
@@ -20,12 +21,6 @@ const covered = (rgba: Float32Array) =>
 function coverage(wanted: boolean[], without: Float32Array, fins: Float32Array): Coverage {
 	const count = (mask: boolean[]) => wanted.filter((want, i) => want && mask[i]).length;
 	return { pixels: count(wanted), without: count(covered(without)), fins: count(covered(fins)) };
-}
-
-function median(values: number[]): number {
-	const sorted = values.toSorted((a, b) => a - b);
-	const middle = sorted.length / 2;
-	return ((sorted[Math.ceil(middle) - 1] ?? Number.NaN) + (sorted[Math.floor(middle)] ?? Number.NaN)) / 2;
 }
 
 /** Whether a pixel of the mask lies within `radius` pixels of pixel `i`. */

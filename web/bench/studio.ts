@@ -22,15 +22,16 @@ export async function loadFur(url: string): Promise<Fur> {
 	return (await loader.loadAsync(url)).userData.fur;
 }
 
-/** Renders as floats, rgba, premultiplied, over nothing; row by row from the bottom. */
+/** Renders as floats, rgba, premultiplied, over nothing or, with a `ground` of 1, over white; row by row from the bottom. */
 export function renderFloats(
 	renderer: WebGLRenderer,
 	scene: Scene,
 	camera: Camera,
 	target: WebGLRenderTarget,
+	ground: 0 | 1 = 0,
 ): Float32Array {
 	renderer.setRenderTarget(target);
-	renderer.setClearColor(0, 0);
+	renderer.setClearColor(ground && 0xffffff, ground);
 	renderer.clear();
 	renderer.render(scene, camera);
 	const pixels = new Float32Array(target.width * target.height * 4);

@@ -7,6 +7,7 @@ import { parseArgs } from 'node:util';
 import { browserArgs, ensureBrowser, openModule } from './browser.mjs';
 import { ensureNode } from './environment.mjs';
 import { command, Failure, root, say } from './process.mjs';
+import { table } from './table.mjs';
 import { serve } from './vite.mjs';
 
 /** @import { FinFigures } from '../bench/figures.ts' */
@@ -44,14 +45,6 @@ async function measure(folder) {
 		await browser.close();
 		await server.close();
 	}
-}
-
-/** @param {string[][]} rows the first column to the left, all others to the right; @returns {string} */
-function table(rows) {
-	const widths = rows[0].map((_, c) => Math.max(...rows.map((row) => row[c].length)));
-	const line = (/** @type {string[]} */ row) =>
-		row.map((cell, c) => (c ? cell.padStart(widths[c]) : cell.padEnd(widths[c]))).join('   ');
-	return rows.map((row) => line(row).trimEnd()).join('\n');
 }
 
 const percent = (/** @type {number} */ part, /** @type {number} */ whole) =>

@@ -12,13 +12,15 @@ export function vite(args) {
 /**
  * Serves web/ as `npm start` does, on a port of its own, and never reloads a page.
  *
+ * @param {import('vite').Plugin[]} [plugins] what else this server does
  * @returns {Promise<{ url: string, close: () => Promise<void> }>} the address, which ends in a slash, and what ends it
  */
-export async function serve() {
+export async function serve(plugins = []) {
 	const { createServer } = await import('vite');
 	const server = await createServer({
 		configFile: join(root, 'web', 'vite.config.ts'),
 		logLevel: 'error',
+		plugins,
 		server: { port: 0, host: '127.0.0.1', hmr: false, watch: null },
 	});
 	await server.listen();
