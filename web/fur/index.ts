@@ -2,12 +2,27 @@
 
 export { type FurMethod, furMethod, type MethodOptions } from './baselines/method.ts';
 export { METHODS, type MethodName } from './baselines/names.ts';
+export {
+	type EnvironmentLight,
+	environmentLight,
+	type Lamp,
+	luminance,
+	visitEnvironment,
+} from './environment.ts';
 export { FinMaterial, type FinMaterialParameters } from './FinMaterial.ts';
 export { type Fur, FurLoaderPlugin } from './FurLoaderPlugin.ts';
 export { FurMaterial, type FurMaterialParameters } from './FurMaterial.ts';
 export { FurFins } from './fins.ts';
 export { type Basis, EXTENSION, type Fin, type FurAsset, type Pelt, VERSION } from './format.ts';
-export { BODY_RADIUS, type Direction, evaluateBasis, lightMoments, relight, smoothFunctions } from './moments.ts';
+export {
+	BODY_RADIUS,
+	type Direction,
+	environmentMoments,
+	evaluateBasis,
+	lightMoments,
+	relight,
+	smoothFunctions,
+} from './moments.ts';
 export type { FurTextures } from './PeltMaterial.ts';
 export { fitShadow } from './shadow.ts';
 export { FurShells, MAX_SHELLS } from './shells.ts';
