@@ -1,6 +1,7 @@
-/** The small panel: which model, how many shells. */
+/** The small panel: which model, in which place, how many shells. */
 
 import GUI from 'lil-gui';
+import { type EnvironmentName, environments } from './environments.ts';
 import type { MenuEntry } from './models.ts';
 
 /** Shells that the slider reaches; the address may ask for more. */
@@ -8,13 +9,15 @@ const sliderEnd = 128;
 
 export interface PanelHandlers {
 	model(name: string): void;
+	environment(name: EnvironmentName | 'none'): void;
 	shells(count: number): void;
 }
 
 export class Panel {
-	readonly #values = { model: '', shells: 1 };
+	readonly #values = { model: '', environment: 'none' as EnvironmentName | 'none', shells: 1 };
 	readonly #gui: GUI;
 	readonly #model;
+	readonly #environment;
 	readonly #shells;
 	#titles: Record<string, string> = {};
 
@@ -26,6 +29,11 @@ export class Panel {
 			.add(this.#values, 'model', [])
 			.name('Model')
 			.onChange((name: string) => name && handlers.model(name));
+		const places = Object.entries(environments).map(([name, title]) => [title, name]);
+		this.#environment = this.#gui
+			.add(this.#values, 'environment', { None: 'none', ...Object.fromEntries(places) })
+			.name('Environment')
+			.onChange(handlers.environment);
 		this.#shells = this.#gui.add(this.#values, 'shells', 1, sliderEnd, 1).name('Shells').onChange(handlers.shells);
 		this.#shells.disable();
 		if (matchMedia('(max-width: 620px), (max-height: 420px)').matches) this.#gui.close();
@@ -34,6 +42,12 @@ export class Panel {
 	menu(entries: readonly MenuEntry[]): void {
 		this.#titles = Object.fromEntries(entries.map(({ name, title }) => [title, name]));
 		this.#model.options(this.#titles);
+	}
+
+	/** Shows where the model stands. */
+	place(name: EnvironmentName | 'none'): void {
+		this.#values.environment = name;
+		this.#environment.updateDisplay();
 	}
 
 	/**

@@ -1,7 +1,9 @@
 /** The picture: renderer, lights, backdrop and the one model on show. */
 
 import {
+	Color,
 	DirectionalLight,
+	Group,
 	HalfFloatType,
 	HemisphereLight,
 	NeutralToneMapping,
@@ -13,21 +15,28 @@ import {
 } from 'three';
 import { fitShadow } from '../fur/index.ts';
 import { backdrop, ContactShadow } from './backdrop.ts';
+import type { Environment } from './environments.ts';
 import type { Model } from './models.ts';
 
 const maxPixelRatio = 2;
 
+/** Linear colour times irradiance: 2.8π makes a white matt surface facing it 2.8 bright. */
+const keyColour = new Color(1, 0.95, 0.87).multiplyScalar(2.8 * Math.PI);
+
 export class Stage {
 	readonly renderer: WebGLRenderer;
 	readonly scene = new Scene();
-	/** Linear colour times irradiance: 2.8π makes a white matt surface facing it 2.8 bright. */
-	readonly key = new DirectionalLight(0xffffff, 2.8 * Math.PI);
-	readonly sky = new HemisphereLight(0xffffff, 0xffffff, 0.85 * Math.PI);
+	readonly key = new DirectionalLight();
+	readonly sky = new HemisphereLight(0xffffff, 0xffffff, 0.7 * Math.PI);
 	/** Of the model on show. */
 	readonly centre = new Vector3();
 	radius = 1;
 	model: Model | undefined;
 	readonly #shadow = new ContactShadow();
+	readonly #backdrop = backdrop();
+	/** Light of the place. */
+	readonly #around = new Group();
+	#environment: Environment | undefined;
 
 	constructor(canvas: HTMLCanvasElement) {
 		this.renderer = new WebGLRenderer({
@@ -40,12 +49,11 @@ export class Stage {
 		this.renderer.shadowMap.enabled = true;
 		// One frame is several renders (scene, output): the counts are those of all of them.
 		this.renderer.info.autoReset = false;
-		this.key.color.setRGB(1, 0.95, 0.87);
 		this.sky.color.setRGB(0.55, 0.65, 0.8);
 		this.sky.groundColor.setRGB(0.28, 0.24, 0.2);
-		this.scene.background = backdrop();
 		this.#shadow.visible = false;
-		this.scene.add(this.key, this.key.target, this.sky, this.#shadow);
+		this.scene.add(this.key, this.key.target, this.sky, this.#around, this.#shadow);
+		this.surround(undefined);
 	}
 
 	/** Puts a model in the place of the one before, which is disposed of. */
@@ -66,6 +74,23 @@ export class Stage {
 		if (model.fur) {
 			model.fur.shells.material.gloss = 0.5;
 			model.fur.shells.material.backlight = 6;
+		}
+	}
+
+	/** @param environment instead of the page's own sky, lamp colour and backdrop; undefined: these */
+	surround(environment: Environment | undefined): void {
+		this.#environment?.background.dispose();
+		this.#environment = environment;
+		this.sky.visible = !environment;
+		this.key.color.copy(environment?.key.colour ?? keyColour);
+		this.scene.background = environment?.background ?? this.#backdrop;
+		this.#around.clear();
+		if (!environment) return;
+		this.#around.add(environment.probe);
+		for (const { direction, colour } of environment.others) {
+			const lamp = new DirectionalLight(colour);
+			lamp.position.copy(direction);
+			this.#around.add(lamp);
 		}
 	}
 
