@@ -23,8 +23,11 @@ export default defineConfig({
 			'stats-gl',
 			'three',
 			'three/addons/controls/OrbitControls.js',
+			'three/addons/loaders/EXRLoader.js',
 			'three/addons/loaders/GLTFLoader.js',
 		],
+		// Modules of one picture each, fetched when wanted.
+		exclude: ['@pmndrs/assets'],
 	},
 	build: {
 		outDir: at('../dist'),

@@ -1,4 +1,4 @@
-import { createReadStream, mkdtempSync, rmSync, statSync } from 'node:fs';
+import { createReadStream, mkdtempSync, readFileSync, rmSync, statSync } from 'node:fs';
 import { createServer, type Server } from 'node:http';
 import type { AddressInfo } from 'node:net';
 import { tmpdir } from 'node:os';
@@ -60,6 +60,14 @@ test('the built site works from a sub-folder of a static host', async ({ page, w
 	const origin = originOf();
 	await open(page, '?still=1', origin + folder);
 	expect(await state(page)).toBe('ready');
+	expect(watch.requests.filter((url) => url.includes('.exr'))).toEqual([]);
+	const scripts = watch.requests.filter((url) => url.endsWith('.js')).map((url) => url.slice((origin + folder).length));
+	expect(scripts.length).toBeGreaterThan(0);
+	for (const script of scripts) expect(readFileSync(join(dist, script), 'utf8')).not.toContain('application/exr');
+
+	await open(page, '?still=1&env=sunset', origin + folder);
+	expect(await state(page)).toBe('ready');
+	expect(watch.requests.filter((url) => url.includes('sunset.exr'))).toHaveLength(1);
 	const elsewhere = watch.requests.filter((url) => !url.startsWith('data:') && !url.startsWith(origin + folder));
 	expect(elsewhere).toEqual([]);
 });

@@ -3,7 +3,7 @@
 import { readFile } from 'node:fs/promises';
 import { decode } from 'fast-png';
 import type { FurAsset } from '../../web/fur/format.ts';
-import { evaluateBasis } from '../../web/fur/moments.ts';
+import { lightMoments } from '../../web/fur/moments.ts';
 import { expect, test } from './harness.ts';
 import { floats, openStage, readAsset, readFloats, repository, served } from './library.ts';
 import type { Stage } from './stage.ts';
@@ -81,7 +81,7 @@ for (const name of GOLDEN) {
 			worldRadiance(x, probe) +
 			(ambient + (dome.sky + dome.ground) / 2) / Math.PI +
 			((0.75 * (dome.sky - dome.ground)) / Math.PI) * dot(x, dome.up);
-		const moments = integrate(fur, frame, radiance);
+		const moments = integrate(fur, frame, radiance, 0.5 / fur.layers);
 		const coefficients = await layerCoefficients(folder, fur, images);
 		light.forEach((value, i) => {
 			const exact = Math.max(dot(coefficients[i] ?? [], moments), 0);
@@ -153,23 +153,23 @@ function worldRadiance([x = 0, y = 0, z = 0]: number[], probe: number[]): number
 	return dot(harmonics, probe);
 }
 
-/** ∫R(ω)·φ(ω)dω over the upper hemisphere by brute force. */
-function integrate(fur: FurAsset, frame: number[][], radiance: (world: number[]) => number): number[] {
-	const rings = 400;
+/** ∫R(ω)·φ(ω)dω by brute force: as many lamps, those below the horizon fading as lamps do at this height. */
+function integrate(fur: FurAsset, frame: number[][], radiance: (world: number[]) => number, s: number): number[] {
+	const rings = 2000;
 	const spokes = 64;
 	const moments = new Array<number>(fur.coefficients).fill(0);
 	for (let r = 0; r < rings; r++) {
-		const z = (r + 0.5) / rings;
-		for (let s = 0; s < spokes; s++) {
-			const azimuth = ((s + 0.5) / spokes) * 2 * Math.PI;
+		const z = (2 * r + 1) / rings - 1;
+		for (let spoke = 0; spoke < spokes; spoke++) {
+			const azimuth = ((spoke + 0.5) / spokes) * 2 * Math.PI;
 			const local: [number, number, number] = [
 				Math.sqrt(1 - z * z) * Math.cos(azimuth),
 				Math.sqrt(1 - z * z) * Math.sin(azimuth),
 				z,
 			];
 			const world = [0, 1, 2].map((axis) => local.reduce((sum, c, i) => sum + c * (frame[i]?.[axis] ?? 0), 0));
-			const weight = (radiance(world) * 2 * Math.PI) / (rings * spokes);
-			evaluateBasis(fur.basis, local).forEach((phi, i) => {
+			const weight = (radiance(world) * 4 * Math.PI) / (rings * spokes);
+			lightMoments(fur.basis, local, s).forEach((phi, i) => {
 				moments[i] = (moments[i] ?? 0) + weight * phi;
 			});
 		}

@@ -1,4 +1,4 @@
-import { expect, halves, open, picture, site, state, test } from './harness.ts';
+import { difference, expect, halves, open, picture, settled, site, state, test } from './harness.ts';
 
 test('the page opens with the first model of the menu, ready and with its controls', async ({ page, watch }) => {
 	await open(page, '');
@@ -72,7 +72,7 @@ test('shells are set by the address and by the panel', async ({ page }) => {
 test('the menu changes the model, in the picture and in the address', async ({ page, watch }) => {
 	await page.setViewportSize({ width: 900, height: 600 });
 	await open(page, '?model=torus&still=1&light=0,1,.3');
-	await page.locator('#panel select').selectOption('Sphere');
+	await page.getByRole('combobox', { name: 'Model' }).selectOption('Sphere');
 	await expect.poll(() => watch.requests).toContain(`${site}models/sphere/model.gltf`);
 	await expect.poll(() => state(page)).toBe('ready');
 	await expect.poll(() => new URL(page.url()).searchParams.get('model')).toBe('sphere');
@@ -94,11 +94,56 @@ test('a path to a folder is a model, too', async ({ page, watch }) => {
 	expect(watch.requests).toContain(`${site}models/torus/model.gltf`);
 });
 
+test('a place is fetched when it is wanted, lights the model and stands behind it; without it all is as before', async ({
+	page,
+	watch,
+}) => {
+	await page.setViewportSize({ width: 900, height: 600 });
+	const at = '?model=sphere&shells=4&still=1&light=-1,.5,.4';
+	const places = () => watch.requests.filter((url) => url.includes('.exr.js'));
+	await open(page, at);
+	expect(places()).toEqual([]);
+	const own = await picture(page);
+	const menu = page.getByRole('combobox', { name: 'Environment' });
+	await menu.selectOption('Sunset');
+	await expect.poll(() => new URL(page.url()).searchParams.get('env')).toBe('sunset');
+	await expect.poll(() => state(page)).toBe('ready');
+	expect(places()).toHaveLength(1);
+	const sunset = await picture(page);
+	expect(difference(own, sunset)).toBeGreaterThan(5);
+	await menu.selectOption('None');
+	await expect.poll(() => new URL(page.url()).searchParams.get('env')).toBe('none');
+	await expect.poll(() => state(page)).toBe('ready');
+	expect(difference(own, await picture(page))).toBeLessThan(0.5);
+	await open(page, `${at}&env=sunset`);
+	await expect(menu).toHaveValue('Sunset');
+	expect(difference(sunset, await picture(page))).toBeLessThan(0.5);
+	const hosts = new Set(watch.requests.filter((url) => !url.startsWith('data:')).map((url) => new URL(url).host));
+	expect([...hosts]).toEqual([new URL(site).host]);
+});
+
+test('the sun of a place is where the light begins', async ({ page }) => {
+	await open(page, '?model=sphere&shells=4&still=1&env=sky');
+	await page.keyboard.press('ArrowUp');
+	const light = ((await settled(page, 'light')) ?? '').split(',').map(Number);
+	// 48 degrees above the sea in the picture, to the left as the page's own lamp, and raised by the key.
+	expect(light[0]).toBeLessThan(-0.5);
+	expect((Math.asin(light[1] ?? 0) * 180) / Math.PI).toBeCloseTo(48 + 4, -1);
+});
+
+test('a place that cannot be fetched is told, and the page stays usable', async ({ page, watch }) => {
+	await page.route('**/city.exr.js*', (route) => route.abort());
+	await open(page, '?model=sphere&shells=4&still=1&env=city');
+	expect(await state(page)).toBe('ready');
+	await expect(page.getByRole('status')).toContainText('The environment city cannot be shown');
+	expect(watch.complaints.splice(0).join()).toMatch(/^Failed to load resource[^,]*$/);
+});
+
 test('unknown and broken parameters are ignored with a notice', async ({ page }) => {
-	await open(page, '?model=cat&still=1&light=north&camera=1,2&shells=many&colour=red');
+	await open(page, '?model=cat&still=1&light=north&camera=1,2&shells=many&env=mars&colour=red');
 	expect(await state(page)).toBe('ready');
 	const notices = page.getByRole('status');
-	for (const name of ['model=cat', 'light=north', 'camera=1,2', 'shells=many', 'colour']) {
+	for (const name of ['model=cat', 'light=north', 'camera=1,2', 'shells=many', 'env=mars', 'colour']) {
 		await expect(notices).toContainText(name);
 	}
 	await page.getByRole('button', { name: 'Close this message' }).first().click();
@@ -114,7 +159,7 @@ test('a missing model gets clear words, and the page stays usable', async ({ pag
 	// The browser's own line about the answer 404 is all that is allowed.
 	expect(watch.complaints).toHaveLength(1);
 	expect(watch.complaints.pop()).toContain('404');
-	await page.locator('#panel select').selectOption('Torus');
+	await page.getByRole('combobox', { name: 'Model' }).selectOption('Torus');
 	await expect.poll(() => state(page)).toBe('ready');
 	await expect(page.locator('#picture')).toBeVisible();
 });
@@ -131,10 +176,10 @@ test('a broken model from the menu leaves the one before', async ({ page }) => {
 	await page.route('**/models/torus/model.gltf', (route) => route.fulfill({ body: '{"asset": {"version": "2.0"}}' }));
 	await open(page, '?model=sphere&shells=4&still=1&light=1,0,.3');
 	const before = halves(await picture(page));
-	await page.locator('#panel select').selectOption('Torus');
+	await page.getByRole('combobox', { name: 'Model' }).selectOption('Torus');
 	await expect(page.getByRole('status')).toContainText('torus cannot be shown');
 	await expect.poll(() => state(page)).toBe('ready');
-	await expect(page.locator('#panel select')).toHaveValue('Sphere');
+	await expect(page.getByRole('combobox', { name: 'Model' })).toHaveValue('Sphere');
 	expect(halves(await picture(page))[0]).toBeGreaterThan(before[0] * 0.8);
 });
 

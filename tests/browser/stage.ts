@@ -4,20 +4,26 @@ import {
 	AmbientLight,
 	BufferAttribute,
 	DirectionalLight,
+	EquirectangularReflectionMapping,
 	FloatType,
 	HemisphereLight,
 	LightProbe,
 	NoBlending,
 	OrthographicCamera,
+	PerspectiveCamera,
 	Scene,
 	type Texture,
 	Vector3,
+	WebGLCubeRenderTarget,
 	WebGLRenderer,
 	WebGLRenderTarget,
 } from 'three';
+import { LightProbeGenerator } from 'three/addons/lights/LightProbeGenerator.js';
+import { EXRLoader } from 'three/addons/loaders/EXRLoader.js';
+import { measureEnvironment } from '../../web/bench/environment.ts';
 import { measureFins } from '../../web/bench/fins.ts';
 import { loadFur, renderFloats, Studio } from '../../web/bench/studio.ts';
-import type { Fur } from '../../web/fur/index.ts';
+import { environmentLight, type Fur } from '../../web/fur/index.ts';
 
 const renderer = new WebGLRenderer({ antialias: false });
 
@@ -329,6 +335,32 @@ const stage = {
 
 	/** The figures of `npm run fins`. */
 	fins: measureFins,
+
+	/** The figures of `npm run environment`. */
+	surroundings: measureEnvironment,
+
+	/** Three's own harmonics of a picture, by way of its cube map; and what the picture as a background shows towards a light. */
+	async oracle(file: string): Promise<{ ours: number[][]; three: number[][]; seen: number[]; mean: number }> {
+		const texture = await new EXRLoader().setDataType(FloatType).loadAsync(file);
+		texture.mapping = EquirectangularReflectionMapping;
+		const cube = new WebGLCubeRenderTarget(256, { type: FloatType }).fromEquirectangularTexture(renderer, texture);
+		const probe = await LightProbeGenerator.fromCubeRenderTarget(renderer, cube);
+		const [lamp] = environmentLight(texture).lamps;
+		const scene = new Scene();
+		scene.background = texture;
+		const camera = new PerspectiveCamera(8, 1);
+		camera.lookAt(lamp?.direction ?? new Vector3());
+		const target = new WebGLRenderTarget(16, 16, { type: FloatType });
+		const seen = channel(renderFloats(renderer, scene, camera, target), 1);
+		const ours = environmentLight(texture, 0).probe;
+		const rows = (from: LightProbe) => from.sh.coefficients.map((coefficient) => coefficient.toArray());
+		return {
+			ours: rows(ours),
+			three: rows(probe),
+			seen: [...seen],
+			mean: (ours.sh.coefficients[0]?.y ?? 0) / Math.sqrt(4 * Math.PI),
+		};
+	},
 
 	/** The message with which an asset is refused, or 'loaded'. */
 	async refusal(url: string): Promise<string> {

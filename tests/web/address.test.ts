@@ -6,6 +6,8 @@ describe('a view and its address', () => {
 		{ still: false, ui: true },
 		{ still: true, ui: false },
 		{ model: 'bunny', light: [0, 0.6, 0.8], camera: [30, -12.5, 1.25], shells: 48, fins: false, still: true, ui: true },
+		{ env: 'sunset', still: true, ui: true },
+		{ model: 'fox', env: 'none', still: false, ui: true },
 		{ model: 'https://example.org/a b/ä&c=d/', still: false, ui: true },
 		{ model: 'bunny', crowd: 100, still: false, ui: true },
 		{ model: '../out/fox/', camera: [-179.9, 90, 0.1], still: false, ui: false },
@@ -46,6 +48,10 @@ describe('reading an address', () => {
 
 	it.each([
 		'model=',
+		'env=',
+		'env=mars',
+		'env=Sunset',
+		'env=toString',
 		'light=',
 		'light=1,2',
 		'light=1,2,3,4',

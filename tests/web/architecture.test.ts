@@ -10,7 +10,20 @@ const web = fileURLToPath(new URL('../../web/', import.meta.url));
 /** The library from the ground up; modules of one floor do not import each other. A new module gets its floor here. */
 const floors = [
 	['format', 'names'],
-	['planes', 'moments', 'comb', 'skin', 'shadow', 'lod', 'bodies', 'pieces', 'places', 'governor', 'limits'],
+	[
+		'planes',
+		'moments',
+		'comb',
+		'skin',
+		'shadow',
+		'environment',
+		'lod',
+		'bodies',
+		'pieces',
+		'places',
+		'governor',
+		'limits',
+	],
 	['PeltMaterial'],
 	['FurMaterial'],
 	['FinMaterial', 'HullMaterial'],

@@ -1,10 +1,12 @@
 import { readFileSync } from 'node:fs';
 import { decode } from 'fast-png';
+import { SphericalHarmonics3, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
 import { channelOf, type FurAsset } from '../../web/fur/format.ts';
 import {
 	BODY_RADIUS,
 	type Direction,
+	environmentMoments,
 	evaluateBasis,
 	lightMoments,
 	relight,
@@ -41,6 +43,35 @@ describe.each(['ptm-6', 'eigen-6', 'eigen-3'])('golden %s', (name) => {
 			}
 		});
 		expect(worst).toBeLessThan(1e-4);
+	});
+});
+
+describe.each(['ptm-6', 'eigen-6', 'eigen-3'])('environmentMoments of %s', (name) => {
+	const gltf = JSON.parse(readFileSync(golden(name, 'model.gltf'), 'utf8'));
+	const { basis, environment }: FurAsset = gltf.extensions.FUR_ptm_shells;
+
+	it.each([0.1, 0.5, 1])('are those of as many lamps all around, at height %f', (s) => {
+		const harmonics = [1.2, 0.2, -0.3, 0.25, 0.15, -0.1, 0.12, 0.18, -0.14];
+		const [rings, spokes] = [2000, 32];
+		const moments = environment.map(() => 0);
+		const values = new Array<number>(9).fill(0);
+		for (let r = 0; r < rings; r++) {
+			const z = (2 * r + 1) / rings - 1;
+			for (let i = 0; i < spokes; i++) {
+				const azimuth = (i / spokes) * 2 * Math.PI;
+				const level = Math.sqrt(1 - z * z);
+				const light: Direction = [level * Math.cos(azimuth), level * Math.sin(azimuth), z];
+				SphericalHarmonics3.getBasisAt(new Vector3(...light), values);
+				const radiance = values.reduce((sum, value, j) => sum + value * (harmonics[j] ?? 0), 0);
+				lightMoments(basis, light, s).forEach((phi, c) => {
+					moments[c] = (moments[c] ?? 0) + (radiance * phi * 4 * Math.PI) / (rings * spokes);
+				});
+			}
+		}
+		const whole = Math.hypot(...moments);
+		environmentMoments(basis, environment, harmonics, s).forEach((moment, c) => {
+			expect(Math.abs(moment - (moments[c] ?? Number.NaN)), `moment ${c}`).toBeLessThan(2e-3 * whole);
+		});
 	});
 });
 

@@ -1,4 +1,4 @@
-/** What is measured of fins, as the page hands it to the command. */
+/** What is measured, as the page hands it to the commands. */
 
 /** Some pixels, and how many of them are at least half covered. */
 export interface Coverage {
@@ -53,4 +53,31 @@ export interface Quality {
 	brightness: number;
 	/** That were compared: those that the reference's fur covers at least half. */
 	pixels: number;
+}
+
+/** How far a picture is from another, over the pixels that fur covers at least half, all three channels. */
+export interface Deviation {
+	/** root mean square, in shares of the other's mean */
+	rmse: number;
+	/** of the mean */
+	bias: number;
+}
+
+export interface EnvironmentView {
+	name: string;
+	/** covered by fur */
+	pixels: number;
+	/** By number of lamps taken out of the harmonics, from none on. */
+	moments: Deviation[];
+}
+
+export interface EnvironmentFigures {
+	width: number;
+	height: number;
+	shells: number;
+	/** That stand for the environment in the picture that the others are compared with. */
+	lamps: number;
+	/** Share of all light in the lamps that are taken out, in their order. */
+	shares: number[];
+	views: EnvironmentView[];
 }

@@ -2,9 +2,12 @@ import {
 	type Camera,
 	DirectionalLight,
 	FloatType,
+	Group,
 	HalfFloatType,
 	HemisphereLight,
+	type Light,
 	Mesh,
+	MeshBasicMaterial,
 	PerspectiveCamera,
 	Scene,
 	Sphere,
@@ -60,6 +63,7 @@ export class Studio {
 	readonly scale: number;
 	readonly #renderer: WebGLRenderer;
 	readonly #scene = new Scene();
+	readonly #lights = new Group();
 	readonly #camera: PerspectiveCamera;
 	readonly #centre: Sphere['center'];
 	readonly #distance: number;
@@ -76,7 +80,8 @@ export class Studio {
 		this.#renderer = renderer;
 		const lamp = new DirectionalLight(0xffffff, 6);
 		lamp.position.set(-1, 0.6, 0.6);
-		this.#scene.add(fur.skin.parent ?? fur.skin, lamp, new HemisphereLight(0xffffff, 0x808080, 2));
+		this.light(lamp, new HemisphereLight(0xffffff, 0x808080, 2));
+		this.#scene.add(fur.skin.parent ?? fur.skin, this.#lights);
 		this.#scene.updateMatrixWorld(true);
 		const body = new Sphere().makeEmpty();
 		fur.skin.traverse((piece) => {
@@ -103,6 +108,20 @@ export class Studio {
 	look(azimuth = 0, polar = Math.PI / 2, distance = 1): void {
 		this.#camera.position.setFromSphericalCoords(this.#distance * distance, polar, azimuth).add(this.#centre);
 		this.#camera.lookAt(this.#centre);
+	}
+
+	/** Instead of the lights before. */
+	light(...lights: Light[]): void {
+		this.#lights.clear();
+		this.#lights.add(...lights);
+	}
+
+	/** The body, eyes and all, hides what is behind it, and is neither seen nor covered. */
+	showFurAlone(): void {
+		const hidden = new MeshBasicMaterial({ colorWrite: false });
+		this.#scene.traverse((piece) => {
+			if (piece instanceof Mesh && piece !== this.fur.shells && piece !== this.fur.fins) piece.material = hidden;
+		});
 	}
 
 	/** @param shells 0: none; 'auto': as many as the picture needs */

@@ -1,9 +1,10 @@
 /**
  * The view as a link: what the page shows, and how it stands in the address.
  *
- *     ?model=bunny&light=0.3,0.8,0.5&camera=30,12,1&shells=48&fins=0&still=1&ui=0
+ *     ?model=bunny&env=sunset&light=0.3,0.8,0.5&camera=30,12,1&shells=48&fins=0&still=1&ui=0
  *
  * - model: a name from models/models.json, or a path or address of a baked folder
+ * - env: a place whose light falls on the model, or none: the page's own sky
  * - light: direction from the model to the lamp, world axes (x right, y up, z towards the first camera); any length
  * - camera: azimuth and elevation in degrees, distance in units of the distance at which the model fits the window.
  *   So a link shows the same view in a window of any shape. 0,0,1 looks along -z.
@@ -12,11 +13,14 @@
  * - still=1: nothing moves by itself; ui=0: the picture alone
  */
 
+import { type EnvironmentName, environments, isEnvironment } from './environments.ts';
+
 export type Triple = [number, number, number];
 
 /** What is undefined is left to the page. */
 export interface View {
 	model?: string;
+	env?: EnvironmentName | 'none';
 	/** unit vector */
 	light?: Triple;
 	/** azimuth -180..180 degrees, elevation -90..90 degrees, distance 0.1..10 */
@@ -53,6 +57,14 @@ const parameters: Record<keyof View, [expected: string, read: Reader]> = {
 		(text, view) => {
 			if (text === '') return false;
 			view.model = text;
+			return true;
+		},
+	],
+	env: [
+		`none, ${Object.keys(environments).join(', ')}`,
+		(text, view) => {
+			if (text !== 'none' && !isEnvironment(text)) return false;
+			view.env = text;
 			return true;
 		},
 	],
@@ -148,6 +160,7 @@ export function formatAddress(view: View): string {
 	// A path stays readable: a query may hold slashes and colons as they are.
 	if (view.model !== undefined)
 		parts.push(`model=${encodeURIComponent(view.model).replaceAll('%2F', '/').replaceAll('%3A', ':')}`);
+	if (view.env) parts.push(`env=${view.env}`);
 	if (view.light) parts.push(`light=${view.light.map((part) => short(part, 3)).join(',')}`);
 	if (view.camera) {
 		const [azimuth, elevation, distance] = view.camera;

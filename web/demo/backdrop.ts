@@ -24,7 +24,7 @@ const rim: ColorRepresentation = '#212a33';
  * The linear colour that the Khronos Neutral tone mapping turns into `colour` (linear, below its shoulder at 0.76).
  * The curve takes an offset off every channel: m - 6.25 m² of the smallest one where that is below 0.08, 0.04 above.
  */
-function beforeNeutral(colour: Color): Color {
+export function beforeNeutral(colour: Color): Color {
 	const smallest = Math.min(colour.r, colour.g, colour.b);
 	const before = 0.4 * Math.sqrt(smallest);
 	const offset = before < 0.08 ? before - smallest : 0.04;

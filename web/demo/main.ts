@@ -5,6 +5,7 @@ import { FurGovernor } from '../fur/index.ts';
 import { addressWriter, parseAddress, type Triple } from './address.ts';
 import { directionUnder, listenToDrags } from './aim.ts';
 import { OrbitCamera } from './camera.ts';
+import { type EnvironmentName, loadEnvironment } from './environments.ts';
 import { hasWebGL2, showFallback } from './fallback.ts';
 import { listenToKeys } from './keys.ts';
 import { Lamp, lampDistance } from './lamp.ts';
@@ -51,7 +52,8 @@ function start(): void {
 	const overlay = view.ui ? new Overlay(element('overlay'), stage, timer) : undefined;
 	const write = addressWriter();
 	const panel = new Panel(element('panel'), {
-		model: (name) => void show(name),
+		model: (name) => void change(() => show(name)),
+		environment: (name) => void move(name),
 		shells: setShells,
 		crowd: setCrowd,
 	});
@@ -138,24 +140,65 @@ function start(): void {
 		panel.update(shown, fur?.shells.shellCount, fur && (view.crowd ?? 1));
 	}
 
-	// Models.
-	let menu: MenuEntry[] = [];
-	let latest = 0;
-	let loading = false;
-	let shown = '';
+	// What is on show, and whether that is all that was asked for.
+	let pending = 0;
 	/** Says so when the picture is on show. */
 	function settle(): void {
-		const turn = latest;
-		const ready = () => turn === latest && !stage.gl.isContextLost() && setState('ready');
-		if (loading) return;
+		if (pending > 0) return;
+		const ready = () => pending === 0 && !stage.gl.isContextLost() && setState('ready');
 		if (stage.model) requestAnimationFrame(() => requestAnimationFrame(ready));
 		else setState('failed');
 	}
+	async function change(what: () => Promise<void>): Promise<void> {
+		pending++;
+		setState('loading');
+		await what();
+		pending--;
+		settle();
+	}
+
+	// Places.
+	let place: EnvironmentName | 'none' = 'none';
+	let latestPlace = 0;
+	let sun: Triple | undefined;
+	/** Has another place's light fall on the model; where that fails, says why and stays. */
+	async function enter(name: EnvironmentName | 'none'): Promise<void> {
+		const turn = ++latestPlace;
+		try {
+			const [x, , z] = defaultLight;
+			const environment = name === 'none' ? undefined : await loadEnvironment(name, Math.atan2(z, x));
+			if (turn !== latestPlace) return environment?.background.dispose();
+			stage.surround(environment);
+			sun = environment?.key.direction?.toArray();
+			place = name;
+			if (stage.model && !view.light) light.put(firstLight(), true);
+			placeLight();
+			request();
+		} catch (error) {
+			if (turn !== latestPlace) return;
+			notice(`The environment ${name} cannot be shown: ${(error as Error).message}`, 'error');
+		}
+		panel.place(place);
+	}
+	async function move(name: EnvironmentName | 'none'): Promise<void> {
+		await change(() => enter(name));
+		if (place !== name) return;
+		view.env = name;
+		write(view);
+	}
+	const firstLight = () =>
+		view.light ?? sun ?? firstView(menu.find(({ name }) => name === shown)).light ?? defaultLight;
+
+	const firstCamera = (entry: MenuEntry | undefined) =>
+		(view.crowd && view.crowd > 1 ? crowdCamera : firstView(entry).camera) ?? defaultCamera;
+
+	// Models.
+	let menu: MenuEntry[] = [];
+	let latest = 0;
+	let shown = '';
 	/** Shows a model of the menu or of the address; where that fails, says why and keeps the one before. */
 	async function show(name: string): Promise<void> {
 		const turn = ++latest;
-		loading = true;
-		setState('loading');
 		try {
 			const folder = folderOf(name, menu, document.baseURI);
 			if (!folder) throw new Error('it is neither a model of the menu nor the address of a folder');
@@ -163,21 +206,19 @@ function start(): void {
 			if (turn !== latest) return model.dispose();
 			const first = stage.model === undefined;
 			const entry = menu.find((item) => item.name === name);
-			const preferred = firstView(entry);
 			stage.show(model);
 			stage.gather(view.crowd ?? 1);
 			lamp.visible = view.ui;
-			if (!camera.chosen)
-				camera.orbit = view.camera ?? (view.crowd && view.crowd > 1 ? crowdCamera : preferred.camera) ?? defaultCamera;
-			if (first || light.drifting) light.put(view.light ?? preferred.light ?? defaultLight, !view.light);
-			if (model.fur && view.shells) model.fur.shells.shellCount = view.shells;
-			if (model.fur?.fins) model.fur.fins.visible = view.fins ?? true;
-			if (!model.fur) notice(`${entry?.title ?? name}: this model has no fur that this page can grow`);
 			if (shown) {
 				view.model = name;
 				write(view);
 			}
 			shown = name;
+			if (!camera.chosen) camera.orbit = view.camera ?? firstCamera(entry);
+			if (first || light.drifting) light.put(firstLight(), !view.light);
+			if (model.fur && view.shells) model.fur.shells.shellCount = view.shells;
+			if (model.fur?.fins) model.fur.fins.visible = view.fins ?? true;
+			if (!model.fur) notice(`${entry?.title ?? name}: this model has no fur that this page can grow`);
 			placeLight();
 			resize();
 		} catch (error) {
@@ -185,8 +226,6 @@ function start(): void {
 			notice(`${name} cannot be shown: ${(error as Error).message}`, 'error');
 		}
 		updatePanel();
-		loading = false;
-		settle();
 	}
 
 	// Hands on the picture.
@@ -246,7 +285,9 @@ function start(): void {
 		}
 		if (view.camera) camera.chosen = true;
 		camera.orbit = view.camera ?? defaultCamera;
-		await show(name);
+		await change(async () => {
+			await Promise.all([enter(view.env ?? 'none'), show(name)]);
+		});
 	}
 	void open();
 }

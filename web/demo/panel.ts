@@ -1,7 +1,8 @@
-/** The small panel: which model, how many shells, how many bodies. */
+/** The small panel: which model, in which place, how many shells, how many bodies. */
 
 import GUI from 'lil-gui';
 import { maxCrowd } from './crowd.ts';
+import { type EnvironmentName, environments } from './environments.ts';
 import type { MenuEntry } from './models.ts';
 
 /** Shells that the slider reaches; the address may ask for more. */
@@ -9,14 +10,16 @@ const sliderEnd = 128;
 
 export interface PanelHandlers {
 	model(name: string): void;
+	environment(name: EnvironmentName | 'none'): void;
 	shells(count: number): void;
 	crowd(count: number): void;
 }
 
 export class Panel {
-	readonly #values = { model: '', shells: 1, crowd: 1 };
+	readonly #values = { model: '', environment: 'none' as EnvironmentName | 'none', shells: 1, crowd: 1 };
 	readonly #gui: GUI;
 	readonly #model;
+	readonly #environment;
 	readonly #shells;
 	readonly #crowd;
 	#titles: Record<string, string> = {};
@@ -29,6 +32,11 @@ export class Panel {
 			.add(this.#values, 'model', [])
 			.name('Model')
 			.onChange((name: string) => name && handlers.model(name));
+		const places = Object.entries(environments).map(([name, title]) => [title, name]);
+		this.#environment = this.#gui
+			.add(this.#values, 'environment', { None: 'none', ...Object.fromEntries(places) })
+			.name('Environment')
+			.onChange(handlers.environment);
 		this.#shells = this.#gui.add(this.#values, 'shells', 1, sliderEnd, 1).name('Shells').onChange(handlers.shells);
 		this.#shells.disable();
 		this.#crowd = this.#gui.add(this.#values, 'crowd', 1, maxCrowd, 1).name('Crowd').onChange(handlers.crowd);
@@ -39,6 +47,12 @@ export class Panel {
 	menu(entries: readonly MenuEntry[]): void {
 		this.#titles = Object.fromEntries(entries.map(({ name, title }) => [title, name]));
 		this.#model.options(this.#titles);
+	}
+
+	/** Shows where the model stands. */
+	place(name: EnvironmentName | 'none'): void {
+		this.#values.environment = name;
+		this.#environment.updateDisplay();
 	}
 
 	/**

@@ -1,7 +1,10 @@
 /** The picture: renderer, lights, backdrop and the one model on show. */
 
 import {
+	Color,
+	type DataTexture,
 	DirectionalLight,
+	Group,
 	HalfFloatType,
 	HemisphereLight,
 	NeutralToneMapping,
@@ -15,16 +18,19 @@ import {
 import { fitShadow, limitsOf, type TextureLimits } from '../fur/index.ts';
 import { backdrop, ContactShadow } from './backdrop.ts';
 import { Crowd } from './crowd.ts';
+import type { Environment } from './environments.ts';
 import { disposeAll, type Model } from './models.ts';
 
 const maxPixelRatio = 2;
 
+/** Linear colour times irradiance: 2.8π makes a white matt surface facing it 2.8 bright. */
+const keyColour = new Color(1, 0.95, 0.87).multiplyScalar(2.8 * Math.PI);
+
 export class Stage {
 	readonly renderer: WebGLRenderer;
 	readonly scene = new Scene();
-	/** Linear colour times irradiance: 2.8π makes a white matt surface facing it 2.8 bright. */
-	readonly key = new DirectionalLight(0xffffff, 2.8 * Math.PI);
-	readonly sky = new HemisphereLight(0xffffff, 0xffffff, 0.85 * Math.PI);
+	readonly key = new DirectionalLight();
+	readonly sky = new HemisphereLight(0xffffff, 0xffffff, 0.7 * Math.PI);
 	/** Of the model on show. */
 	readonly centre = new Vector3();
 	radius = 1;
@@ -33,6 +39,10 @@ export class Stage {
 	model: Model | undefined;
 	#crowd: Crowd | undefined;
 	readonly #shadow = new ContactShadow();
+	readonly #backdrop: DataTexture;
+	/** Light of the place. */
+	readonly #around = new Group();
+	#environment: Environment | undefined;
 	/** Of the window, CSS pixels. */
 	#width = 1;
 	#height = 1;
@@ -49,12 +59,12 @@ export class Stage {
 		this.renderer.shadowMap.enabled = true;
 		// One frame is several renders (scene, output): the counts are those of all of them.
 		this.renderer.info.autoReset = false;
-		this.key.color.setRGB(1, 0.95, 0.87);
 		this.sky.color.setRGB(0.55, 0.65, 0.8);
 		this.sky.groundColor.setRGB(0.28, 0.24, 0.2);
-		this.scene.background = backdrop(Boolean(half));
+		this.#backdrop = backdrop(Boolean(half));
 		this.#shadow.visible = false;
-		this.scene.add(this.key, this.key.target, this.sky, this.#shadow);
+		this.scene.add(this.key, this.key.target, this.sky, this.#around, this.#shadow);
+		this.surround(undefined);
 	}
 
 	/** Puts a model in the place of the one before, which is disposed of. */
@@ -94,6 +104,23 @@ export class Stage {
 		const length = fur?.asset.length ?? 0.05 * this.radius;
 		this.light(this.key.position.clone().sub(this.key.target.position).normalize());
 		fitShadow(this.key, new Sphere(this.centre, (crowd?.reach ?? this.radius) + length), length);
+	}
+
+	/** @param environment instead of the page's own sky, lamp colour and backdrop; undefined: these */
+	surround(environment: Environment | undefined): void {
+		this.#environment?.background.dispose();
+		this.#environment = environment;
+		this.sky.visible = !environment;
+		this.key.color.copy(environment?.key.colour ?? keyColour);
+		this.scene.background = environment?.background ?? this.#backdrop;
+		this.#around.clear();
+		if (!environment) return;
+		this.#around.add(environment.probe);
+		for (const { direction, colour } of environment.others) {
+			const lamp = new DirectionalLight(colour);
+			lamp.position.copy(direction);
+			this.#around.add(lamp);
+		}
 	}
 
 	/** @param direction unit vector from the model to the lamp, world axes */

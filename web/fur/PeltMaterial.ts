@@ -16,7 +16,7 @@ import {
 	ZeroFactor,
 } from 'three';
 import { type Basis, channelOf } from './format.ts';
-import { BODY_RADIUS } from './moments.ts';
+import { BODY_RADIUS, horizonMoments } from './moments.ts';
 import body from './shaders/body.glsl?raw';
 import colour from './shaders/colour.glsl?raw';
 import displacement from './shaders/displacement.glsl?raw';
@@ -77,7 +77,7 @@ export class PeltMaterial extends ShaderMaterial {
 				offset0: { value: offset[0] },
 				scale1: { value: new Vector2(scale[1]?.x, scale[1]?.y) },
 				offset1: { value: new Vector2(offset[1]?.x, offset[1]?.y) },
-				...momentUniforms(texels),
+				...momentUniforms(texels, 'FIN' in (defines ?? {})),
 				bodyRadius: { value: BODY_RADIUS },
 				lean: { value: new Vector2() },
 				gloss: { value: 0 },
@@ -207,9 +207,14 @@ export class PeltMaterial extends ShaderMaterial {
 	}
 }
 
-/** The light moments' matrices, coefficients 0..2 in `Low` and 3..5 in `High`, absent ones 0. */
-function momentUniforms({ environment, basis }: Texels): Record<string, IUniform> {
+/**
+ * The light moments' matrices, coefficients 0..2 in `Low` and 3..5 in `High`, absent ones 0.
+ *
+ * @param fin whose normal is the frame's second axis, not the third
+ */
+function momentUniforms({ environment, basis }: Texels, fin: boolean): Record<string, IUniform> {
 	const uniforms: Record<string, IUniform> = {};
+	const around = horizonMoments(basis, fin ? (psi) => [Math.cos(psi), 0, Math.sin(psi)] : undefined);
 	for (const [part, first] of [
 		['Low', 0],
 		['High', 3],
@@ -219,6 +224,9 @@ function momentUniforms({ environment, basis }: Texels): Record<string, IUniform
 		uniforms[`environment${part}0`] = { value: rows.flatMap((row) => row.slice(0, 4)) };
 		uniforms[`environment${part}1`] = { value: rows.flatMap((row) => row.slice(4, 8)) };
 		uniforms[`environment${part}2`] = { value: new Vector3(...rows.slice(0, 3).map((row) => row[8] ?? 0)) };
+		uniforms[`horizon${part}`] = {
+			value: around.map((row) => new Vector3(row[first] ?? 0, row[first + 1] ?? 0, row[first + 2] ?? 0)),
+		};
 		if (basis.kind === 'eigen') {
 			const curves = [0, 1, 2].map((i) => basis.matrix[first + i]);
 			const terms = basis.matrix[0]?.length ?? 0;

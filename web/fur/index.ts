@@ -2,6 +2,13 @@
 
 export { type FurMethod, furMethod, type MethodOptions } from './baselines/method.ts';
 export { METHODS, type MethodName } from './baselines/names.ts';
+export {
+	type EnvironmentLight,
+	environmentLight,
+	type Lamp,
+	luminance,
+	visitEnvironment,
+} from './environment.ts';
 export { FinMaterial, type FinMaterialParameters } from './FinMaterial.ts';
 export { type Fur, type FurLoaderOptions, FurLoaderPlugin } from './FurLoaderPlugin.ts';
 export { FurMaterial, type FurMaterialParameters } from './FurMaterial.ts';
@@ -10,7 +17,15 @@ export { type Basis, EXTENSION, type Fin, type FurAsset, type Pelt, VERSION } fr
 export { FurGovernor, type GovernorOptions } from './governor.ts';
 export { FurInstances } from './instances.ts';
 export { checkLimits, limitsOf, type TextureLimits } from './limits.ts';
-export { BODY_RADIUS, type Direction, evaluateBasis, lightMoments, relight, smoothFunctions } from './moments.ts';
+export {
+	BODY_RADIUS,
+	type Direction,
+	environmentMoments,
+	evaluateBasis,
+	lightMoments,
+	relight,
+	smoothFunctions,
+} from './moments.ts';
 export type { FurTextures } from './PeltMaterial.ts';
 export { fitShadow } from './shadow.ts';
 export { FurShells, MAX_SHELLS } from './shells.ts';

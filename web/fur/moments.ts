@@ -34,10 +34,69 @@ export function evaluateBasis(basis: Basis, light: Direction): number[] {
 export function lightMoments(basis: Basis, light: Direction, s: number): number[] {
 	const [u, v, z] = light;
 	if (z >= 0) return evaluateBasis(basis, light);
-	const dip = Math.sqrt(1 - (BODY_RADIUS / (BODY_RADIUS + s)) ** 2);
-	const fade = Math.sqrt(Math.max(1 + z / dip, 0));
+	const fade = Math.sqrt(Math.max(1 + z / horizonDip(s), 0));
 	const across = Math.max(Math.hypot(u, v), 1e-4);
 	return evaluateBasis(basis, [u / across, v / across, 0]).map((phi) => phi * fade);
+}
+
+/** How far below its horizon fur at height `s` on the ball of fur still sees: −z of the lowest direction. */
+const horizonDip = (s: number) => Math.sqrt(1 - (BODY_RADIUS / (BODY_RADIUS + s)) ** 2);
+
+/**
+ * ∫φ(ψ)·h(ψ)dψ around the horizon for h = 1, cos ψ, sin ψ, cos 2ψ, sin 2ψ: a row per h, a column per coefficient.
+ *
+ * @param at the horizon's direction at an azimuth: the first two parts are what φ is of
+ */
+export function horizonMoments(
+	basis: Basis,
+	at = (psi: number): Direction => [Math.cos(psi), Math.sin(psi), 0],
+): number[][] {
+	const spokes = 32; // exact for polynomials of degree 8 times cos 2ψ
+	const step = (2 * Math.PI) / spokes;
+	const rows = [1, 2, 3, 4, 5].map(() => new Array<number>(basis.kind === 'ptm' ? 6 : basis.matrix.length).fill(0));
+	for (let i = 0; i < spokes; i++) {
+		const psi = i * step;
+		const phi = evaluateBasis(basis, at(psi));
+		[1, Math.cos(psi), Math.sin(psi), Math.cos(2 * psi), Math.sin(2 * psi)].forEach((h, m) => {
+			const row = rows[m] ?? [];
+			phi.forEach((value, c) => {
+				row[c] = (row[c] ?? 0) + step * h * value;
+			});
+		});
+	}
+	return rows;
+}
+
+/**
+ * Moments of the radiance R(ω) = Σ_j harmonics[j]·Y_j(ω) from all around, for fur at height `s`.
+ *
+ * @param matrix harmonics → moments of the upper hemisphere, a row per coefficient
+ * @param harmonics nine, in the tangent frame
+ */
+export function environmentMoments(
+	basis: Basis,
+	matrix: readonly (readonly number[])[],
+	harmonics: readonly number[],
+	s: number,
+): number[] {
+	const [h0 = 0, hy = 0, hz = 0, hx = 0, hxy = 0, hyz = 0, hzz = 0, hxz = 0, hxxyy = 0] = harmonics;
+	const [y0, y1, c1, c2] = [0.28209479, 0.48860251, 1.09254843, 0.31539157];
+	// ∫√(1 + z/d)·{1, z, z²}dz over −d..0, and the same times ρ = √(1 − z²) to its second term.
+	const d = horizonDip(s);
+	const [one, z, zz] = [(2 / 3) * d, (-4 / 15) * d ** 2, (16 / 105) * d ** 3];
+	const [rho, rhoZ, rhoRho] = [one - zz / 2, z + (16 / 315) * d ** 4, one - zz];
+	const ring = [
+		y0 * h0 * one + y1 * hz * z + c2 * hzz * (3 * zz - one),
+		y1 * hx * rho + c1 * hxz * rhoZ,
+		y1 * hy * rho + c1 * hyz * rhoZ,
+		0.5 * c1 * hxxyy * rhoRho,
+		0.5 * c1 * hxy * rhoRho,
+	];
+	const horizon = horizonMoments(basis);
+	return matrix.map((row, i) => {
+		const above = row.reduce((sum, weight, j) => sum + weight * (harmonics[j] ?? 0), 0);
+		return ring.reduce((sum, light, m) => sum + light * (horizon[m]?.[i] ?? 0), above);
+	});
 }
 
 /** L of a texel: its coefficients times the moments, never negative. */

@@ -1,51 +1,14 @@
 /**
  * `npm run fins [-- --model NAME|FOLDER --json FILE]`: what fins add to a baked model's outline, and what they cost.
  */
-import { existsSync, writeFileSync } from 'node:fs';
-import { basename, join, resolve } from 'node:path';
-import { parseArgs } from 'node:util';
-import { browserArgs, ensureBrowser, openModule } from './browser.mjs';
-import { ensureNode } from './environment.mjs';
-import { command, Failure, root, say } from './process.mjs';
+import { basename } from 'node:path';
+import { folderOf, inPage, readOptions, writeFigures } from './measure.mjs';
+import { command, say } from './process.mjs';
 import { table } from './table.mjs';
-import { serve } from './vite.mjs';
 
 /** @import { FinFigures } from '../bench/figures.ts' */
 
 const options = /** @type {const} */ ({ model: { type: 'string', default: 'bunny' }, json: { type: 'string' } });
-const called = process.env.INIT_CWD ?? process.cwd();
-
-/** @param {string} model a default model's name or a folder; @returns {string} the folder of its files */
-function folderOf(model) {
-	const named = join(root, 'public', 'models', model);
-	const folder = !/[\\/.]/.test(model) && existsSync(named) ? named : resolve(called, model);
-	if (!existsSync(join(folder, 'model.gltf')))
-		throw new Failure(`--model: got ${model}, expected a folder in public/models or one with a model.gltf in it`);
-	return folder;
-}
-
-/** @param {string} folder; @returns {Promise<FinFigures>} */
-async function measure(folder) {
-	const { chromium } = await import('@playwright/test');
-	const server = await serve();
-	const browser = await chromium.launch({ executablePath: await ensureBrowser(), args: browserArgs });
-	try {
-		const page = await browser.newPage();
-		await page.route('**/baked/**', (route) => {
-			const path = join(folder, decodeURIComponent(new URL(route.request().url()).pathname.slice('/baked/'.length)));
-			return existsSync(path) ? route.fulfill({ path }) : route.fulfill({ status: 404 });
-		});
-		await openModule(page, server.url, '/bench/fins.ts');
-		// As text: what it calls is in the page.
-		return await page.evaluate("loaded.measureFins('/baked/model.gltf')");
-	} catch (error) {
-		const [line] = /** @type {Error} */ (error).message.split('\n');
-		throw new Failure(line.replace(/^page\.evaluate: (Error: )?/, ''));
-	} finally {
-		await browser.close();
-		await server.close();
-	}
-}
 
 const percent = (/** @type {number} */ part, /** @type {number} */ whole) =>
 	whole ? `${((100 * part) / whole).toFixed(2)} %` : '-';
@@ -92,23 +55,14 @@ ${table([['', 'no fins', 'fins', 'ratio'], ...times])}`;
 }
 
 await command(async () => {
-	let values;
-	try {
-		({ values } = parseArgs({ options }));
-	} catch (error) {
-		throw new Failure(/** @type {Error} */ (error).message);
-	}
+	const values = readOptions(options);
 	const folder = folderOf(values.model);
-	await ensureNode();
 	say(`measuring ${basename(folder)}; software rendering takes a minute or two`);
-	const figures = await measure(folder);
+	// As text: what it calls is in the page.
+	/** @type {FinFigures} */
+	const figures = await inPage(folder, '/bench/fins.ts', (page) =>
+		page.evaluate("loaded.measureFins('/baked/model.gltf')"),
+	);
 	console.log(report(basename(folder), figures));
-	if (values.json) {
-		const text = `${JSON.stringify({ model: basename(folder), ...figures }, null, '\t')}\n`;
-		try {
-			writeFileSync(resolve(called, values.json), text);
-		} catch (error) {
-			throw new Failure(`--json: ${/** @type {Error} */ (error).message}`);
-		}
-	}
+	writeFigures(values.json, { model: basename(folder), ...figures });
 });

@@ -30,7 +30,7 @@ out float vTintedLobe;
 // openness: to the sky, 0..1.
 void passLight(FurPoint point, float openness) {
 #ifdef SKY
-	Moments sky = environmentMoments(point.frameVS);
+	Moments sky = environmentMoments(point.frameVS, point.s);
 	vSkyLow = sky.low * openness;
 #ifdef TWO_PLANES
 	vSkyHigh = sky.high * openness;

@@ -1,4 +1,5 @@
-// Light moments: m = Σ over lights of E·φ(l), and of the environment's radiance R, ∫R(ω)·φ(ω)dω over the upper hemisphere.
+// Light moments: m = Σ over lights of E·φ(l), and of the environment's radiance R, ∫R(ω)·φ(ω)dω over
+// all directions that reach the fur.
 // A texel's light is then one dot product with its coefficients, whatever the number of lights.
 // Needs three's <common> and <lights_pars_begin>; directions are in view space until they enter the tangent frame (TS):
 // (T, B, N) of a shell; of a fin (along the edge, N, across it), its φ being of the first two as a shell's.
@@ -64,12 +65,16 @@ void basis(vec3 lightTS, out vec3 low, out vec3 high) {
 #endif
 }
 
+// How far below its horizon a point at height s sees: −sin of that angle's lowest.
+float horizonDip(float s) {
+	float cosine = bodyRadius / (bodyRadius + s);
+	return max(sqrt(1.0 - cosine * cosine), 1e-4);
+}
+
 // A light below the horizon is held on it and fades out over the dip that a point at height s sees.
 float horizon(inout vec3 lightTS, float s) {
 	if (lightTS.UP >= 0.0) return 1.0;
-	float cosine = bodyRadius / (bodyRadius + s);
-	float dip = sqrt(1.0 - cosine * cosine);
-	float fade = sqrt(clamp(1.0 + lightTS.UP / max(dip, 1e-4), 0.0, 1.0));
+	float fade = sqrt(clamp(1.0 + lightTS.UP / horizonDip(s), 0.0, 1.0));
 	lightTS.UP = 0.0;
 	lightTS /= max(length(lightTS), 1e-4);
 	return fade;

@@ -11,9 +11,37 @@ uniform vec3 environmentLow2; // harmonic 8
 uniform vec3 environmentHigh2;
 #endif
 
+// ∫φ(ψ)·h(ψ)dψ around the horizon for h = 1, cos ψ, sin ψ, cos 2ψ, sin 2ψ; ψ grows from the frame's first axis to its other
+// level one.
+uniform vec3 horizonLow[5];
+uniform vec3 horizonHigh[5];
+
+// Light from below the horizon is held on it and fades as a lamp's does: Σ_h horizon[h]·∫√(1 + z/dip)·(R's part in h)dz.
+// R = constant + gradient·ω + ωᵀ·form·ω in the tangent frame, the form traceless, one for each channel.
+void addDip(inout Moments moments, vec3 constant, mat3 gradient, mat3 form[3], float s) {
+	const int U = UPRIGHT, V = 3 - UPRIGHT; // axes: upright, and level beside the first
+	float dip = horizonDip(s);
+	// ∫√(1 + z/dip)·{1, z, z²}dz over −dip..0; times √(1 − z²) to its second term.
+	float i0 = 2.0 / 3.0 * dip, i1 = -4.0 / 15.0 * dip * dip, i2 = 16.0 / 105.0 * dip * dip * dip;
+	float level0 = i0 - 0.5 * i2, level1 = i1 + 16.0 / 315.0 * dip * dip * dip * dip;
+	vec3 ring[5] = vec3[5](constant * i0 + gradient[U] * i1, gradient[0] * level0, gradient[V] * level0, vec3(0.0), vec3(0.0));
+	for (int c = 0; c < 3; c++) {
+		mat3 q = form[c];
+		ring[0][c] += q[U][U] * (1.5 * i2 - 0.5 * i0);
+		ring[1][c] += 2.0 * q[0][U] * level1;
+		ring[2][c] += 2.0 * q[V][U] * level1;
+		ring[3][c] = 0.5 * (q[0][0] - q[V][V]) * (i0 - i2);
+		ring[4][c] = q[0][V] * (i0 - i2);
+	}
+	for (int h = 0; h < 5; h++) {
+		moments.low += outerProduct(ring[h], horizonLow[h]);
+		moments.high += outerProduct(ring[h], horizonHigh[h]);
+	}
+}
+
 // Moments of the radiance R(ω) = Σ_j radiance[j]·Y_j(ω) in the tangent frame (columns T, B, N), from three's ambient,
-// hemisphere and probe lights.
-Moments environmentMoments(mat3 frameVS) {
+// hemisphere and probe lights. s: height of the fur, 0 at the skin, 1 at the tip.
+Moments environmentMoments(mat3 frameVS, float s) {
 	Moments moments;
 	const float Y0 = 0.28209479, Y1 = 0.48860251;
 	vec3 constant = ambientLightColor;
@@ -28,6 +56,7 @@ Moments environmentMoments(mat3 frameVS) {
 #endif
 	gradient *= RECIPROCAL_PI / Y1;
 	mat4x3 radiance = mat4x3(constant * (RECIPROCAL_PI / Y0), gradient[1], gradient[2], gradient[0]);
+	mat3 form[3] = mat3[3](mat3(0.0), mat3(0.0), mat3(0.0));
 #ifdef USE_LIGHT_PROBES
 	// The probe's harmonics belong to world axes. Order 1 turns as a vector, order 2 as a traceless quadratic form.
 	const float C1 = 1.09254843, C2 = 0.31539157;
@@ -41,6 +70,7 @@ Moments environmentMoments(mat3 frameVS) {
 		vec3 mixed = 0.5 * C1 * vec3(lightProbe[4][channel], lightProbe[5][channel], lightProbe[7][channel]); // xy, yz, xz
 		mat3 world = mat3(d - 0.5 * zz, mixed.x, mixed.z, mixed.x, -d - 0.5 * zz, mixed.y, mixed.z, mixed.y, zz);
 		mat3 q = transpose(frameWS) * world * frameWS;
+		form[channel] = q;
 		order2[channel] = vec4(2.0 * q[0][1] / C1, 2.0 * q[1][2] / C1, q[2][2] / (2.0 * C2), 2.0 * q[0][2] / C1);
 		last[channel] = (q[0][0] - q[1][1]) / C1;
 	}
@@ -51,5 +81,6 @@ Moments environmentMoments(mat3 frameVS) {
 	moments.low += transpose(order2) * mat3x4(environmentLow1) + outerProduct(last, environmentLow2);
 	moments.high += transpose(order2) * mat3x4(environmentHigh1) + outerProduct(last, environmentHigh2);
 #endif
+	addDip(moments, Y0 * radiance[0], Y1 * mat3(radiance[3], radiance[1], radiance[2]), form, s);
 	return moments;
 }
