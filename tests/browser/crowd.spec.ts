@@ -47,7 +47,7 @@ test('the panel makes a crowd, and makes it go', async ({ page }) => {
 test('another model comes as the same crowd', async ({ page }) => {
 	await page.setViewportSize({ width: 900, height: 600 });
 	await open(page, '?model=sphere&crowd=3&still=1&light=1,.3,.5');
-	await page.locator('#panel select').selectOption('Torus');
+	await page.getByRole('combobox', { name: 'Model' }).selectOption('Torus');
 	await expect.poll(() => new URL(page.url()).searchParams.get('model')).toBe('torus');
 	await expect.poll(() => state(page)).toBe('ready');
 	expect(new URL(page.url()).searchParams.get('crowd')).toBe('3');

@@ -111,7 +111,7 @@ test('a lost context comes back while frames run, and the page goes on', async (
 	await loseContext(page);
 	expect(psnr(before, await rested())).toBeGreaterThan(45);
 	// What belonged to the lost context is let go of without a word.
-	await page.locator('#panel select').selectOption('Torus');
+	await page.getByRole('combobox', { name: 'Model' }).selectOption('Torus');
 	await expect.poll(() => state(page)).toBe('ready');
 	await page.evaluate(() => document.getElementById('shrink')?.remove());
 	await expect.poll(() => canvasWidth(page)).toBe(900);
@@ -130,7 +130,7 @@ test('50 rounds of loading and disposing leave the GPU as many objects as before
 		await page.evaluate(() => {
 			document.documentElement.dataset.state = 'loading';
 		});
-		await page.locator('#panel select').selectOption(round % 2 === 0 ? 'Torus' : 'Sphere');
+		await page.getByRole('combobox', { name: 'Model' }).selectOption(round % 2 === 0 ? 'Torus' : 'Sphere');
 		await expect.poll(() => state(page), { intervals: [20, 50] }).toBe('ready');
 		if (round % 2 === 1) counts.push(await page.evaluate(() => window.gpu.live()));
 	}
@@ -333,12 +333,12 @@ test.describe('poorer GPUs', () => {
 				parameter,
 				least,
 			] as const);
-			await page.locator('#panel select').selectOption('Torus');
+			await page.getByRole('combobox', { name: 'Model' }).selectOption('Torus');
 			await expect(page.getByRole('status')).toContainText('Torus cannot be shown', { ignoreCase: true });
 			await expect(page.getByRole('status')).toContainText(words);
 			await expect(page.locator('.notice')).toHaveCount(1);
 			await expect.poll(() => state(page)).toBe('ready');
-			await expect(page.locator('#panel select')).toHaveValue('Sphere');
+			await expect(page.getByRole('combobox', { name: 'Model' })).toHaveValue('Sphere');
 			expect(psnr(before, await page.locator('#picture').screenshot())).toBeGreaterThan(45);
 		});
 	}

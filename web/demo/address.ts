@@ -8,7 +8,7 @@
  * - light: direction from the model to the lamp, world axes (x right, y up, z towards the first camera); any length
  * - camera: azimuth and elevation in degrees, distance in units of the distance at which the model fits the window.
  *   So a link shows the same view in a window of any shape. 0,0,1 looks along -z.
- * - shells: number of drawn shells; fins=0: none
+ * - shells: number of drawn shells, without it as many as the picture needs; fins=0: none
  * - crowd: so many bodies of the model, on a meadow
  * - still=1: nothing moves by itself; ui=0: the picture alone
  */

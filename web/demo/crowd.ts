@@ -122,6 +122,11 @@ export class Crowd extends Group {
 		this.add(this.#ground, this.#shadows, this.#instances);
 	}
 
+	/** Pixels of the picture's height, by which the first frame knows how much of each body it wants. */
+	set pictureHeight(pixels: number) {
+		this.#instances.height = pixels;
+	}
+
 	/** The first bodies alone, the model's own place in their middle. */
 	override set count(value: number) {
 		this.#instances.count = this.#shadows.count = value;

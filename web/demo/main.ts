@@ -119,10 +119,11 @@ function start(): void {
 		write(view);
 		request();
 	}
-	function setShells(count: number): void {
+	function setShells(count: number | undefined): void {
 		const fur = stage.model?.fur;
 		if (!fur) return;
-		fur.shells.shellCount = count;
+		if (count) fur.shells.shellCount = count;
+		else fur.shells.automatic = true;
 		view.shells = count;
 		write(view);
 		request();
@@ -137,7 +138,7 @@ function start(): void {
 	}
 	function updatePanel(): void {
 		const fur = stage.model?.fur;
-		panel.update(shown, fur?.shells.shellCount, fur && (view.crowd ?? 1));
+		panel.update(shown, fur?.shells, fur && (view.crowd ?? 1));
 	}
 
 	// What is on show, and whether that is all that was asked for.

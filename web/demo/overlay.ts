@@ -66,7 +66,8 @@ export class Overlay {
 		this.#frames = 0;
 		this.#busy = 0;
 		const { calls, triangles } = this.#stage.renderer.info.render;
+		const shells = this.#stage.shells ? ` · ${Math.ceil(this.#stage.shells)} shells` : '';
 		const resolution = this.#stage.scale < 1 ? `${Math.round(this.#stage.scale * 100)} %` : 'full';
-		this.#counts.textContent = `${calls} draw calls · ${triangles.toLocaleString('en')} triangles · ${resolution} resolution`;
+		this.#counts.textContent = `${calls} draw calls · ${triangles.toLocaleString('en')} triangles${shells} · ${resolution} resolution`;
 	}
 }

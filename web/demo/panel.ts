@@ -11,15 +11,23 @@ const sliderEnd = 128;
 export interface PanelHandlers {
 	model(name: string): void;
 	environment(name: EnvironmentName | 'none'): void;
-	shells(count: number): void;
+	/** @param count undefined: as many as the picture needs */
+	shells(count: number | undefined): void;
 	crowd(count: number): void;
 }
 
 export class Panel {
-	readonly #values = { model: '', environment: 'none' as EnvironmentName | 'none', shells: 1, crowd: 1 };
+	readonly #values = {
+		model: '',
+		environment: 'none' as EnvironmentName | 'none',
+		shells: 1,
+		automatic: true,
+		crowd: 1,
+	};
 	readonly #gui: GUI;
 	readonly #model;
 	readonly #environment;
+	readonly #automatic;
 	readonly #shells;
 	readonly #crowd;
 	#titles: Record<string, string> = {};
@@ -37,7 +45,15 @@ export class Panel {
 			.add(this.#values, 'environment', { None: 'none', ...Object.fromEntries(places) })
 			.name('Environment')
 			.onChange(handlers.environment);
+		this.#automatic = this.#gui
+			.add(this.#values, 'automatic')
+			.name('Automatic')
+			.onChange((automatic: boolean) => {
+				handlers.shells(automatic ? undefined : this.#values.shells);
+				this.#shells.enable(!automatic);
+			});
 		this.#shells = this.#gui.add(this.#values, 'shells', 1, sliderEnd, 1).name('Shells').onChange(handlers.shells);
+		this.#automatic.disable();
 		this.#shells.disable();
 		this.#crowd = this.#gui.add(this.#values, 'crowd', 1, maxCrowd, 1).name('Crowd').onChange(handlers.crowd);
 		this.#crowd.disable();
@@ -59,16 +75,19 @@ export class Panel {
 	 * Shows what is on show.
 	 *
 	 * @param model a name of the menu, or any other address, which then gets an entry of its own; '' for none
-	 * @param shells undefined where the model has no fur
+	 * @param fur undefined where the model has none
 	 * @param crowd bodies, of which each of several has shells by its size; undefined where there can be one only
 	 */
-	update(model: string, shells: number | undefined, crowd: number | undefined): void {
+	update(model: string, fur: { shellCount: number; automatic: boolean } | undefined, crowd: number | undefined): void {
 		this.#values.model = model;
 		if (model && !Object.values(this.#titles).includes(model)) this.#titles[model] = model;
 		this.#model.options(model ? this.#titles : { '–': '', ...this.#titles });
-		this.#values.shells = shells ?? 1;
-		this.#shells.max(Math.max(sliderEnd, shells ?? 1));
-		this.#shells.updateDisplay().enable(shells !== undefined && crowd === 1);
+		const { shellCount, automatic } = fur ?? { shellCount: 1, automatic: true };
+		this.#values.shells = Math.round(shellCount);
+		this.#values.automatic = automatic;
+		this.#shells.max(Math.max(sliderEnd, shellCount));
+		this.#automatic.updateDisplay().enable(fur !== undefined && crowd === 1);
+		this.#shells.updateDisplay().enable(fur !== undefined && crowd === 1 && !automatic);
 		this.#values.crowd = crowd ?? 1;
 		this.#crowd.updateDisplay().enable(crowd !== undefined);
 	}

@@ -92,6 +92,7 @@ export class Stage {
 		const many = fur !== undefined && count > 1;
 		if (many && !this.#crowd) {
 			this.#crowd = new Crowd(model, fur);
+			this.#crowd.pictureHeight = this.renderer.domElement.height;
 			this.scene.add(this.#crowd);
 		}
 		const crowd = many ? this.#crowd : undefined;
@@ -137,6 +138,11 @@ export class Stage {
 		return limitsOf(this.gl);
 	}
 
+	/** Of the one model; undefined where there are many, or it has no fur. */
+	get shells(): number | undefined {
+		return this.#crowd?.visible ? undefined : this.model?.fur?.shells.shellCount;
+	}
+
 	/** @param width of the window in CSS pixels */
 	resize(width: number, height: number): void {
 		this.#width = width;
@@ -160,6 +166,7 @@ export class Stage {
 		// A pixel is left of the narrowest window.
 		this.renderer.setPixelRatio(Math.max(ratio, 1 / Math.min(this.#width, this.#height)));
 		this.renderer.setSize(this.#width, this.#height, false);
+		if (this.#crowd) this.#crowd.pictureHeight = this.renderer.domElement.height;
 	}
 
 	/** To be called while the context is lost: three would later ask the new one to delete what belonged to the old one. */

@@ -16,7 +16,7 @@ import {
 	ZeroFactor,
 } from 'three';
 import { type Basis, channelOf } from './format.ts';
-import { BODY_RADIUS, horizonMoments } from './moments.ts';
+import { BODY_RADIUS, horizonMoments, smoothSum } from './moments.ts';
 import body from './shaders/body.glsl?raw';
 import colour from './shaders/colour.glsl?raw';
 import displacement from './shaders/displacement.glsl?raw';
@@ -86,7 +86,10 @@ export class PeltMaterial extends ShaderMaterial {
 				...uniforms,
 			},
 			defines: {
-				...(texels.basis.kind === 'eigen' && { BASIS_EIGEN: texels.basis.degree }),
+				...(texels.basis.kind === 'eigen' && {
+					TERMS: (texels.basis.degree + 1) ** 2 + 2,
+					'CURVES(c)': smoothSum(texels.basis.degree),
+				}),
 				...(texels.scale.length > 3 && { TWO_PLANES: '' }),
 				...(textures.colour && { COLOUR_PLANE: '' }),
 				SKY: '',

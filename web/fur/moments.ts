@@ -18,6 +18,26 @@ export function smoothFunctions([u, v, z]: Direction, degree: number): number[] 
 	return [...terms, w ** 0.5, w ** 0.25];
 }
 
+/**
+ * GLSL: the smooth functions of u, v, w, root = √w and root4 = ∜w, each times its weight in the array `c`, added up as
+ * Horner did. Written out, since a loop over uniforms costs vertices dear where nothing unrolls it.
+ */
+export function smoothSum(degree: number): string {
+	let next = 0;
+	const horner = (parts: string[], x: string) => parts.reduceRight((rest, part) => `${part} + ${x} * (${rest})`);
+	const polynomial = (top: number) => {
+		const rows = Array.from({ length: top + 1 }, (_, i) =>
+			horner(
+				Array.from({ length: top + 1 - i }, () => `c[${next++}]`),
+				'v',
+			),
+		);
+		return horner(rows, 'u');
+	};
+	const [flat, risen] = [polynomial(degree), polynomial(degree - 1)];
+	return `(${flat} + w * (${risen}) + root * c[${next}] + root4 * c[${next + 1}])`;
+}
+
 /** φ(l) of a light above the horizon. */
 export function evaluateBasis(basis: Basis, light: Direction): number[] {
 	const [u, v] = light;

@@ -28,37 +28,24 @@ struct FurPoint {
 
 uniform float bodyRadius; // β, in lengths of the fur: where tips lose the light when it sinks below their horizon
 
-#ifdef BASIS_EIGEN // its degree
-#define TERMS ((BASIS_EIGEN + 1) * (BASIS_EIGEN + 1) + 2) // smooth functions
+#ifdef CURVES // (weights): the sum of smooth functions of u, v, w, √w and ∜w, written out
 uniform vec3 curvesLow[TERMS]; // weights of each smooth function in light curves 0..2 and 3..5
+#ifdef TWO_PLANES
 uniform vec3 curvesHigh[TERMS];
+#endif
 #endif
 
 // φ(l) of a light above the horizon. Paper, eq. (2), or smooth light curves.
 void basis(vec3 lightTS, out vec3 low, out vec3 high) {
 	float u = lightTS.x, v = lightTS.y;
-#ifdef BASIS_EIGEN
-	low = vec3(0.0);
+#ifdef CURVES
+	float w = lightTS.z, root = sqrt(w), root4 = sqrt(root);
+	low = CURVES(curvesLow);
+#ifdef TWO_PLANES
+	high = CURVES(curvesHigh);
+#else
 	high = vec3(0.0);
-	int n = 0;
-	float w = 1.0;
-	for (int k = 0; k < 2; k++) {
-		float ui = w;
-		for (int i = 0; i + k <= BASIS_EIGEN; i++) {
-			float uivj = ui;
-			for (int j = 0; i + j + k <= BASIS_EIGEN; j++) {
-				low += curvesLow[n] * uivj;
-				high += curvesHigh[n] * uivj;
-				n++;
-				uivj *= v;
-			}
-			ui *= u;
-		}
-		w = lightTS.z;
-	}
-	float root = sqrt(w);
-	low += curvesLow[n] * root + curvesLow[n + 1] * sqrt(root);
-	high += curvesHigh[n] * root + curvesHigh[n + 1] * sqrt(root);
+#endif
 #else
 	low = vec3(u * u, v * v, u * v);
 	high = vec3(u, v, 1.0);
