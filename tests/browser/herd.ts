@@ -120,6 +120,7 @@ class Herd {
 		this.bodies = (as === 'each' ? places.map((place) => [place]) : [places]).map((group) => {
 			const bodies = new FurInstances(fur, group.length, levels);
 			bodies.height = size;
+			if (places.length === 1) bodies.fewestShells = fur.asset.layers; // as the fur by itself
 			for (const [i, place] of group.entries()) bodies.setMatrixAt(i, matrixOf(place));
 			return bodies;
 		});

@@ -62,6 +62,8 @@ export class FurInstances extends Object3D {
 	readonly levels: readonly number[];
 	/** Pixels that the picture is high, for which levels are chosen: as of the last draw; set it before the first. */
 	height = 720;
+	/** Of a body however small: one for two slabs, where the fur by itself has one for each. */
+	fewestShells: number;
 
 	readonly #fur: Fur;
 	/** Around one body and all its fur, in its own axes; radius of its shells. */
@@ -117,6 +119,7 @@ export class FurInstances extends Object3D {
 		const bounds = (fins ?? shells).geometry.boundingSphere ?? new Sphere();
 		this.#length = fur.asset.length;
 		this.#texel = this.#length / (fur.asset.height * fur.asset.size);
+		this.fewestShells = fur.asset.layers / 2;
 		this.#sphere = bounds.clone().applyMatrix4(this.#furMatrix);
 		this.#radius = (shells.geometry.boundingSphere?.radius ?? 0) * (this.#sphere.radius / bounds.radius);
 
@@ -237,7 +240,8 @@ export class FurInstances extends Object3D {
 		const away = eye[3] ? scale * Math.sqrt((this.#powers[i] as number) + radius * radius) : 1;
 		const near = Math.max(away - this.#radius * unit, 0.1 * away);
 		const { automatic, shellCount, coarseness } = this.#fur.shells;
-		const wanted = shellsFor(this.#length * unit * pixelsPerUnit(camera, this.height, near)) / coarseness;
+		const wanted =
+			shellsFor(this.#length * unit * pixelsPerUnit(camera, this.height, near), this.fewestShells) / coarseness;
 		this.#details[2 * i] = Math.min(Math.max(automatic ? wanted : shellCount, 1), this.levels[0] as number);
 		this.#details[2 * i + 1] = cutFor(this.#texel * unit * pixelsPerUnit(camera, this.height, away));
 	}

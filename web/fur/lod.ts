@@ -11,21 +11,19 @@ const FAR_CUT = 0.2;
 /** Pixels between two shells: beyond, hairs turn into strings of beads. */
 const SPACING = 1.5;
 
-/** Shells that fur wants however short it is on the screen, or its outline and the light in it are lost. */
-const FEWEST_SHELLS = 8;
-
 /**
  * The number of shells that shows fur as if there were many more; it grows steadily, not in steps.
  *
  * @param pixels how long the longest hairs are on the screen where they are nearest
+ * @param least with fewer than slabs some slabs are left out, and fur changes its colour a little
  */
-export function shellsFor(pixels: number): number {
-	return Math.max(pixels / SPACING + 4, FEWEST_SHELLS);
+export function shellsFor(pixels: number, least: number): number {
+	return Math.max(pixels / SPACING, least);
 }
 
 /** Coverage below which a fragment is dropped. @param pixels that a texel is wide on the screen */
 export function cutFor(pixels: number): number {
-	return ALPHA_CUT * Math.min(Math.max(pixels ** 1.7, FAR_CUT), 1);
+	return ALPHA_CUT * Math.min(Math.max((0.8 * pixels) ** 1.7, FAR_CUT), 1);
 }
 
 /**

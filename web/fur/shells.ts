@@ -33,6 +33,7 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 	/** Of the longest hairs and of a texel, model units. */
 	readonly #length: number;
 	readonly #texel: number;
+	readonly #layers: number;
 
 	/**
 	 * @param surface the skin's vertices with normal, tangent, uv (tiles), _fur, _comb and color
@@ -56,7 +57,8 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 		surface.computeBoundingSphere();
 		const { center, radius } = surface.boundingSphere ?? new Sphere(new Vector3(), 0);
 		geometry.boundingSphere = new Sphere(center.clone(), radius + material.furLength);
-		const { size, length, height } = asset;
+		const { size, layers, length, height } = asset;
+		this.#layers = layers;
 		this.#length = length;
 		this.#texel = length / (height * size);
 	}
@@ -87,7 +89,7 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 		const near = Math.max(away - radius * this.scale.x * unit, 0.1 * away);
 		const height = renderer.getCurrentViewport(viewport).w;
 		if (this.automatic)
-			this.#draw(shellsFor(this.#length * unit * pixelsPerUnit(camera, height, near)) / this.coarseness);
+			this.#draw(shellsFor(this.#length * unit * pixelsPerUnit(camera, height, near), this.#layers) / this.coarseness);
 		this.material.alphaCut = cutFor(this.#texel * unit * pixelsPerUnit(camera, height, away));
 		this.material.uniformsNeedUpdate = true;
 	}

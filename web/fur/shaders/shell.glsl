@@ -19,8 +19,10 @@ uniform int firstShell; // that is drawn
 uniform vec4 drift[(LAYERS + 2) / 2]; // two knots each: mean displacement of the hairs at the root and in every slab's middle, tile widths
 
 out vec3 vAt; // XY = tiles, Z = slab
-out float vWeight; // slabs that the shell stands for here, of the patch's share
+out float vWeight; // slabs that the shell stands for, of the patch's share
 out float vFacing; // n·v
+
+#define NUDGE 1e-4 // slabs, over what rounding does to heights where two meet
 
 struct ShellPoint {
 	bool there; // whether the body has this shell
@@ -44,6 +46,23 @@ vec2 driftAt(float s) {
 	return mix(driftKnot(k), driftKnot(k + 1), x - float(k));
 }
 
+// Slab that shell `i` of `count` shows at height s.
+int slabAt(float s, float i, float count) {
+	// Where shells are fewer and two slabs as near, which of them it is differs from shell to shell: all at once would be
+	// seen when their number changes.
+	float nudge = count < float(LAYERS) ? 0.4 * (fract(0.618034 * i) - 0.5) : NUDGE;
+	return clamp(int(s * float(LAYERS) + nudge), 0, LAYERS - 1);
+}
+
+// How many shells stand for a slab, the outermost counted by its share; all slabs weigh the same, or fur would change
+// its colour with the number of shells.
+float sharesOf(int slab, float count) {
+	float each = count / float(LAYERS);
+	if (each < 1.0) return each;
+	float first = ceil((float(slab) - NUDGE) * each - 0.5), next = ceil((float(slab + 1) - NUDGE) * each - 0.5);
+	return slab == LAYERS - 1 ? count - first : next - first;
+}
+
 // Places the vertex and writes what every fragment of a shell needs, whatever it is lit by.
 ShellPoint shellPoint() {
 	ShellPoint point;
@@ -56,8 +75,8 @@ ShellPoint shellPoint() {
 #endif
 	point.there = i < count;
 	// Shells lie in the middle of their share of the fur; the outermost has a smaller one where n is no whole number.
-	float share = clamp(count - i, 0.0, 1.0) / count;
-	point.s = min(i / count + 0.5 * share, 1.0);
+	float share = clamp(count - i, 0.0, 1.0);
+	point.s = min((i + 0.5 * share) / count, 1.0);
 	vec3 n = normalize(normal);
 	vec3 t = normalize(tangent.xyz - n * dot(n, tangent.xyz));
 	mat4 placement = bodyModelView();
@@ -67,12 +86,10 @@ ShellPoint shellPoint() {
 	point.pointVS = (placement * vec4(furPoint(position, n, _comb, _fur.y, point.s), 1.0)).xyz;
 
 	// A shell between two slabs' middles shows its slab sheared by how far the hairs have drifted since, so that they run
-	// on instead of standing in steps. Where two slabs are as near, which of them it is differs from shell to shell: all at
-	// once would be seen when their number changes.
-	float unlike = 0.4 * (fract(0.618034 * i) - 0.5);
-	int slab = clamp(int(point.s * float(LAYERS) + unlike), 0, LAYERS - 1);
+	// on instead of standing in steps.
+	int slab = slabAt(point.s, i, count);
 	vAt = vec3(uv * tiles - (driftAt(point.s) - driftKnot(slab + 1)), float(slab));
-	vWeight = _fur.x * float(LAYERS) * share;
+	vWeight = _fur.x * share / sharesOf(slab, count);
 	vFacing = dot(point.turn * n, viewerVS(point.pointVS));
 	gl_Position = point.there ? projectionMatrix * vec4(point.pointVS, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 	return point;
