@@ -23,9 +23,8 @@ const MEAN_DIFFUSE = 1.12;
 /**
  * Of lamps and of the sky, 4π·radiance / (albedo·irradiance), and what of either is missing at the roots.
  *
- * Found by least squares against the polynomial texture maps' pictures of bunny and tori, lamp and sky apart and five
- * directions of the lamp, so that the fur is as bright on the whole. Of one picture it may be a fifth more or less: where one
- * part of the body shades another, where hairs point at the lamp.
+ * Set so that bunny and tori are as bright on the whole as with polynomial texture maps. Of one picture it may be a fifth
+ * more or less: where one part of the body shades another, where hairs point at the lamp.
  */
 export interface Brightness {
 	diffuse: number;
