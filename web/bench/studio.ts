@@ -15,13 +15,13 @@ import {
 	WebGLRenderTarget,
 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
-import { type Fur, FurLoaderPlugin } from '../fur/index.ts';
+import { type Fur, type FurLoaderOptions, FurLoaderPlugin } from '../fur/index.ts';
 
 const FIELD_OF_VIEW = 20; // degrees, from the picture's lower to its upper edge
 
 /** @param url of an asset's model.gltf */
-export async function loadFur(url: string): Promise<Fur> {
-	const loader = new GLTFLoader().register((parser) => new FurLoaderPlugin(parser));
+export async function loadFur(url: string, options: FurLoaderOptions = {}): Promise<Fur> {
+	const loader = new GLTFLoader().register((parser) => new FurLoaderPlugin(parser, options));
 	return (await loader.loadAsync(url)).userData.fur;
 }
 

@@ -62,7 +62,9 @@ function plain({ index, attributes }: BufferGeometry): BufferGeometry {
 
 /** @param triangles of the tori that are wanted */
 export async function loadWardrobe(triangles: readonly number[]): Promise<Wardrobe> {
-	const load = (name: string) => loadFur(new URL(`models/${name}/model.gltf`, document.baseURI).href);
+	// Without anisotropy: of a software rasteriser's frame it would be the most.
+	const load = (name: string) =>
+		loadFur(new URL(`models/${name}/model.gltf`, document.baseURI).href, { anisotropy: 1 });
 	const sizes = TORI.filter((size) => triangles.includes(size.triangles));
 	const [furs, others] = await Promise.all([
 		Promise.all(sizes.map((size) => load(`torus-${size.triangles}`))),

@@ -46,7 +46,7 @@ export class FinMaterial extends PeltMaterial {
 					finOpacity: { value: 0.9 },
 				},
 				// |n·v| of the faces, between which a fin fades out; half a mip level finer than even, since fins are seen askew.
-				defines: { FIN: '', FADE_FROM: '0.04', FADE_TO: '0.16', LOD_BIAS: '-0.5' },
+				defines: { FIN: '', FADE_FROM: '0.03', FADE_TO: '0.15', LOD_BIAS: '-0.5' },
 				depthWrite: false,
 				side: DoubleSide,
 			},
