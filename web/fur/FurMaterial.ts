@@ -2,6 +2,8 @@ import { Color, type ShaderMaterialParameters, Vector2, Vector4 } from 'three';
 import type { FurAsset } from './format.ts';
 import { ALPHA_CUT } from './lod.ts';
 import { type FurTextures, PeltMaterial } from './PeltMaterial.ts';
+import hairIn from './shaders/hair.frag.glsl?raw';
+import hairOut from './shaders/hair.vert.glsl?raw';
 import opacity from './shaders/opacity.glsl?raw';
 import shell from './shaders/shell.glsl?raw';
 import fragmentMain from './shaders/shells.frag.glsl?raw';
@@ -75,8 +77,8 @@ export class FurMaterial extends PeltMaterial {
 			textures,
 			{
 				name: 'FurMaterial',
-				vertexShader: `${shell}\n${vertexMain}`,
-				fragmentShader: `${opacity}\n${fragmentMain}`,
+				vertexShader: [shell, hairOut, vertexMain].join('\n'),
+				fragmentShader: [opacity, hairIn, fragmentMain].join('\n'),
 				uniforms: {
 					tiles: { value: asset.tiles ?? 1 },
 					furLength: { value: asset.length },

@@ -7,7 +7,8 @@ const MAP_SIZE = 256;
  * Has a lamp cast the shadow of a furry body, as soft as its fur is long: hairs of half that length cast it and the tips
  * catch it, so that neither knows the other's edge, and the end of the light is no knife.
  *
- * Call it again when the body or its fur's length changes; the lamp may move by itself.
+ * It aims the lamp at the body. Call it again when the body, its fur's length or the lamp's distance changes; the lamp may go
+ * round it by itself.
  *
  * @param body sphere around it, fur and all, world units
  * @param furLength world units

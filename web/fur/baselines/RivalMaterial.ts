@@ -3,13 +3,13 @@ import type { FurMaterial } from '../FurMaterial.ts';
 import body from '../shaders/body.glsl?raw';
 import colour from '../shaders/colour.glsl?raw';
 import displacement from '../shaders/displacement.glsl?raw';
+import hairIn from '../shaders/hair.frag.glsl?raw';
+import hairOut from '../shaders/hair.vert.glsl?raw';
 import opacity from '../shaders/opacity.glsl?raw';
 import output from '../shaders/output.glsl?raw';
 import shell from '../shaders/shell.glsl?raw';
 import view from '../shaders/view.glsl?raw';
 import coverage from './coverage.glsl?raw';
-import hairIn from './hair.frag.glsl?raw';
-import hairOut from './hair.vert.glsl?raw';
 
 /**
  * The shells of a FurMaterial in another light: geometry, coverage, colour, blending and output are the same chunks with the

@@ -44,6 +44,12 @@ vec3 skyIrradiance(vec3 normalVS) {
 	return irradiance;
 }
 
+// A lamp whose light on the hairs' mean direction is found per vertex.
+void addSoft(ShellPoint shell, vec3 normalVS, vec3 strand, IncidentLight light) {
+	float share = lampShare(normalVS, light.direction, shell.s);
+	vSoft += light.color * (diffuse * share * kajiyaKayDiffuse(strand, light.direction * shell.frameVS));
+}
+
 // openness: to the sky, 0..1. shaded: whether the first lamp's shadows are found elsewhere.
 void passLocalLight(ShellPoint shell, float openness, bool shaded) {
 	vec3 strand = normalize(vec3(2.0 * shell.s * lean, 1.0));
@@ -66,22 +72,19 @@ void passLocalLight(ShellPoint shell, float openness, bool shaded) {
 #if NUM_DIR_LIGHTS > LAMPS
 	for (int i = LAMPS; i < NUM_DIR_LIGHTS; i++) {
 		getDirectionalLightInfo(directionalLights[i], light);
-		float share = lampShare(normalVS, light.direction, shell.s);
-		vSoft += light.color * (diffuse * share * kajiyaKayDiffuse(strand, light.direction * shell.frameVS));
+		addSoft(shell, normalVS, strand, light);
 	}
 #endif
 #if NUM_POINT_LIGHTS > 0
 	for (int i = 0; i < NUM_POINT_LIGHTS; i++) {
 		getPointLightInfo(pointLights[i], shell.pointVS, light);
-		float share = lampShare(normalVS, light.direction, shell.s);
-		vSoft += light.color * (diffuse * share * kajiyaKayDiffuse(strand, light.direction * shell.frameVS));
+		addSoft(shell, normalVS, strand, light);
 	}
 #endif
 #if NUM_SPOT_LIGHTS > 0
 	for (int i = 0; i < NUM_SPOT_LIGHTS; i++) {
 		getSpotLightInfo(spotLights[i], shell.pointVS, light);
-		float share = lampShare(normalVS, light.direction, shell.s);
-		vSoft += light.color * (diffuse * share * kajiyaKayDiffuse(strand, light.direction * shell.frameVS));
+		addSoft(shell, normalVS, strand, light);
 	}
 #endif
 }

@@ -1,7 +1,7 @@
 // The hairs' colour: see hair.vert.glsl.
 
 #ifdef COLOUR_PLANE
-uniform sampler2DArray colourPlane; // the texel's original colour
+uniform sampler2DArray colourPlane; // the texel's original colour (paper, eq. 4)
 #endif
 
 in vec3 vColour;

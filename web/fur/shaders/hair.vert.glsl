@@ -1,4 +1,4 @@
-// The hairs' colour but for what the texel says of it, as with polynomial texture maps.
+// The hairs' colour but for what the texel says of it, whatever the shell is lit by.
 
 out vec3 vColour; // linear; with a colour plane what multiplies it
 #ifdef COLOUR_PLANE
