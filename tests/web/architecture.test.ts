@@ -38,6 +38,8 @@ const floors = [
 	['index'],
 ];
 const pages = ['demo', 'learn', 'bench'];
+/** What pages share, and what knows none of them. */
+const shared = ['page', 'measure'];
 
 const files = readdirSync(web, { recursive: true, encoding: 'utf8' }).map((path) => path.split(sep).join('/'));
 const below = (folder: string) => files.filter((path) => path.startsWith(`${folder}/`) && path.endsWith('.ts'));
@@ -86,7 +88,7 @@ describe('the library web/fur', () => {
 });
 
 describe('the pages', () => {
-	const modules = pages.flatMap(below);
+	const modules = [...pages, ...shared].flatMap(below);
 
 	it.each(modules)('%s takes the library by its one face', (path) => {
 		for (const name of imports(path).filter((other) => other.startsWith('fur/'))) expect(name).toBe('fur/index.ts');

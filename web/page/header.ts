@@ -1,0 +1,48 @@
+/** The small header of all pages: where one is, where else one can go, and in which language. */
+
+import { addressIn, LANGUAGES, type Language } from './language.ts';
+
+const PAGES = {
+	demo: { file: './', en: 'Demo', zh: '演示' },
+	learn: { file: './learn.html', en: 'Learn', zh: '学习' },
+	bench: { file: './bench.html', en: 'Bench', zh: '测速' },
+} as const;
+
+export type PageName = keyof typeof PAGES;
+
+const LABEL = { en: 'Pages', zh: '页面' } as const;
+
+function link(text: string, href: string, className = ''): HTMLAnchorElement {
+	const made = document.createElement('a');
+	made.textContent = text;
+	made.href = href;
+	if (className) made.className = className;
+	return made;
+}
+
+/**
+ * Fills the page's `<nav class="site">`. A language that the address asks for is kept from page to page.
+ */
+export function fillHeader(nav: HTMLElement, here: PageName, language: Language): void {
+	const asked = new URLSearchParams(location.search).has('lang') ? `?lang=${language}` : '';
+	nav.setAttribute('aria-label', LABEL[language]);
+	const home = link('furbake', `./${asked}`, 'home');
+	const icon = document.createElement('img');
+	icon.src = './icon.svg';
+	icon.alt = '';
+	home.prepend(icon);
+	const links = Object.entries(PAGES).map(([name, page]) => {
+		const made = link(page[language], `${page.file}${asked}`);
+		if (name === here) made.setAttribute('aria-current', 'page');
+		return made;
+	});
+	const other: Language = language === 'en' ? 'zh' : 'en';
+	const { name, tag } = LANGUAGES[other];
+	const change = link(name, addressIn(other, location.href), 'language');
+	change.lang = change.hreflang = tag;
+	// The address changes while one looks around.
+	change.addEventListener('click', () => {
+		change.href = addressIn(other, location.href);
+	});
+	nav.replaceChildren(home, ...links, change);
+}
