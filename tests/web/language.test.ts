@@ -20,7 +20,10 @@ describe('addressIn', () => {
 	it.each([
 		['http://a/b/', 'http://a/b/?lang=zh'],
 		['http://a/b/?lang=en&model=x', 'http://a/b/?model=x&lang=zh'],
-		['http://a/b/?model=models/x&light=0,1,.5&langue=1#top', 'http://a/b/?model=models/x&light=0,1,.5&langue=1&lang=zh#top'],
+		[
+			'http://a/b/?model=models/x&light=0,1,.5&langue=1#top',
+			'http://a/b/?model=models/x&light=0,1,.5&langue=1&lang=zh#top',
+		],
 	])('%s', (from, to) => {
 		expect(addressIn('zh', from)).toBe(to);
 	});
