@@ -51,6 +51,8 @@ export interface FurLoaderOptions {
 	limits?: TextureLimits;
 	/** Most texels that are averaged along the slant in which a shell is seen, 1 to 16, where the GPU can; 2 by default. */
 	anisotropy?: number;
+	/** Called with the loaded scene once its skin has the colour that it has under fur, before any plane has come. */
+	skin?: (scene: Object3D) => void;
 }
 
 /**
@@ -82,23 +84,18 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 			return;
 		}
 		if (this.#options.limits) checkLimits(asset, this.#options.limits);
-		gltf.userData.fur = await this.#grow(asset);
+		gltf.userData.fur = await this.#grow(asset, gltf.scene);
 	}
 
-	async #grow(asset: FurAsset): Promise<Fur> {
+	async #grow(asset: FurAsset, scene: Object3D): Promise<Fur> {
 		const pelt = asset.pelts[0] as Pelt;
-		const [surface, skin, textures, quads, finTextures] = await Promise.all([
-			this.#mesh(asset.shells, 'shells'),
-			this.#skin(asset.skin),
+		const [{ surface, skin, pieces, base, worn }, textures, quads, finTextures] = await Promise.all([
+			this.#body(asset, scene),
 			this.#peltTextures(asset, pelt),
 			asset.fins !== undefined && pelt.fin ? this.#mesh(asset.fins, 'fins') : undefined,
 			asset.fins !== undefined && pelt.fin ? this.#finTextures(pelt.fin) : undefined,
 		]);
-		const pieces = isMesh(skin) ? [skin] : (skin.children as Mesh[]);
-		// Shells that bring colours bring the whole of them: those of several materials, or of a picture.
-		const own = pieces[0]?.material as MeshStandardMaterial | undefined;
-		const base = (!surface.geometry.hasAttribute('color') && own?.color) || new Color(1, 1, 1);
-		const material = new FurMaterial(asset, textures, { skinColour: base.clone() });
+		const material = new FurMaterial(asset, textures, { skinColour: base });
 		const fins =
 			pelt.fin && quads && finTextures
 				? new FurFins(quads.geometry, new FinMaterial(pelt.fin, finTextures, material))
@@ -106,13 +103,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		const shells = new FurShells(surface.geometry, surface, asset, material);
 		if (fins && quads) fins.join(shells, quads);
 
-		const shade = new Color(...asset.ramp.root).multiplyScalar(SKIN_SHADE);
-		const together = skin.matrix.equals(surface.matrix);
-		const worn = pieces.map((piece) =>
-			shadeSkin(piece, shade, together ? furCover(piece.geometry, surface.geometry) : undefined),
-		);
 		for (const part of [fins, shells]) if (part) skin.parent?.add(part);
-		for (const piece of pieces) piece.castShadow = piece.receiveShadow = true;
 
 		return {
 			asset,
@@ -132,6 +123,24 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 				for (const texture of Object.values({ ...finTextures })) texture?.dispose();
 			},
 		};
+	}
+
+	/** The skin as it is under fur, before there is any. */
+	async #body(asset: FurAsset, scene: Object3D) {
+		const [surface, skin] = await Promise.all([this.#mesh(asset.shells, 'shells'), this.#skin(asset.skin)]);
+		const pieces = isMesh(skin) ? [skin] : (skin.children as Mesh[]);
+		// Shells that bring colours bring the whole of them: those of several materials, or of a picture.
+		const own = pieces[0]?.material as MeshStandardMaterial | undefined;
+		const base = (!surface.geometry.hasAttribute('color') && own?.color) || new Color(1, 1, 1);
+
+		const shade = new Color(...asset.ramp.root).multiplyScalar(SKIN_SHADE);
+		const together = skin.matrix.equals(surface.matrix);
+		const worn = pieces.map((piece) =>
+			shadeSkin(piece, shade, together ? furCover(piece.geometry, surface.geometry) : undefined),
+		);
+		for (const piece of pieces) piece.castShadow = piece.receiveShadow = true;
+		this.#options.skin?.(scene);
+		return { surface, skin, pieces, base: base.clone(), worn };
 	}
 
 	/** The node's mesh, with what the shaders of shells and fins can't do without. */
