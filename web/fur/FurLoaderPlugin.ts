@@ -15,7 +15,7 @@ import { EXTENSION, type Fin, type FurAsset, type Pelt, parseFur, VERSION } from
 import { checkLimits, type TextureLimits } from './limits.ts';
 import { ALPHA_CUT } from './lod.ts';
 import type { FurTextures } from './PeltMaterial.ts';
-import { decodePlane, type Extent, mipLevels, textureArray, type View } from './planes.ts';
+import { decodePlane, type Extent, mipSteps, type Texels, textureArray, type View } from './planes.ts';
 import { Skin } from './skin.ts';
 
 /**
@@ -157,17 +157,13 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 			),
 		);
 		// In order, whichever came first: of several bad planes the first is named.
-		const images = files.map(({ role, name, bytes }) => ({
-			role,
-			name,
-			texels: decodePlane(name, bytes, extent.width, extent.height * extent.layers),
-		}));
-		const mips = mipLevels(
-			images.map(({ texels }) => texels),
-			extent,
-			coefficients,
-			view,
-		);
+		const images: { role: string; name: string; texels: Texels }[] = [];
+		for (const { role, name, bytes } of files) {
+			await turn();
+			images.push({ role, name, texels: decodePlane(name, bytes, extent.width, extent.height * extent.layers) });
+		}
+		const planes = images.map(({ texels }) => texels);
+		const mips = await unhurried(mipSteps(planes, extent, coefficients, view));
 		const textures: Record<string, Texture> = {};
 		for (const [p, { role, name }] of images.entries()) {
 			const levels = mips.flatMap((level) => level[p] ?? []);
@@ -196,6 +192,26 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 			throw new Error(`${definition.uri}: could not be loaded (${(error as Error).message})`);
 		}
 	}
+}
+
+/** Runs what would take long in steps, so that the page around it can draw meanwhile. */
+async function unhurried<T>(steps: Generator<void, T>): Promise<T> {
+	for (let step = steps.next(); ; step = steps.next()) {
+		if (step.done) return step.value;
+		await turn();
+	}
+}
+
+/** Lets what else is waiting go first. Timers would be slowed down in a hidden page, messages are not. */
+function turn(): Promise<void> {
+	return new Promise((resolve) => {
+		const { port1, port2 } = new MessageChannel();
+		port1.onmessage = () => {
+			port1.close();
+			resolve();
+		};
+		port2.postMessage(undefined);
+	});
 }
 
 function isMesh(object: Object3D | undefined): object is Mesh {
