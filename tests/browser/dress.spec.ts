@@ -28,7 +28,10 @@ test('a body in the pelt that it was baked with looks as it does undressed, in a
 });
 
 test('two furs share a picture, each in its own columns', async ({ page }) => {
-	const { early, roots, differences, error } = await page.evaluate((url) => loaded.split(url, 0.4), model('torus-512'));
+	const { left, early, roots, differences, error } = await page.evaluate(
+		(url) => loaded.split(url, 0.4),
+		model('torus-512'),
+	);
 	expect(early, 'before there is any fur').toEqual(['skin']);
 	expect(roots, 'share of the colour of roots').toBeCloseTo(0.35);
 	expect(differences).toEqual({
@@ -42,6 +45,8 @@ test('two furs share a picture, each in its own columns', async ({ page }) => {
 	});
 	expect(differences.swapped).toBeGreaterThan(0.1);
 	expect(differences.bare).toBeGreaterThan(0.1);
+	// One texture is three's own, a table for the skin's reflections.
+	expect(left).toEqual({ geometries: 0, textures: 1 });
 	expect(error).toBe(0);
 });
 

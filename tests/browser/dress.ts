@@ -158,11 +158,13 @@ export async function split(url: string, at: number) {
 		lower: apart(rows(part, 0, SIZE / 2), rows(both, 0, SIZE / 2)),
 		upper: Math.max(...rows(part, SIZE / 2, SIZE)),
 	};
-	dark.dispose();
+	// The body before what it wears: whatever the order, nothing is left.
 	white.dispose();
+	dark.dispose();
 	half.dispose();
 	stage.dispose();
-	return { early, roots, differences, error: gl.getError() };
+	const { geometries, textures } = renderer.info.memory;
+	return { left: { geometries, textures }, early, roots, differences, error: gl.getError() };
 }
 
 /** How much of the picture fur covers, by density and by length, and by methods that were made before and after. */

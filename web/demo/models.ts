@@ -26,6 +26,8 @@ export interface MenuEntry {
 	/** of a pelt, which other models are dressed in: the preset that it is, and what its light curves are */
 	pelt?: string;
 	basis?: 'ptm' | 'eigen';
+	/** of a pelt: strength of the highlights that suits it, where it is not that of all others */
+	gloss?: number;
 	/** of a pelt: how far a model's own second tip colour shows on it, 0..1 */
 	tips?: number;
 	/** false: shown only where the address asks for it */

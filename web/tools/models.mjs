@@ -25,6 +25,7 @@ const cache = join(root, 'node_modules', '.cache', 'furbake');
  * @property {string} [preset] of a model: what it is furry with
  * @property {string} [pelt] of a pelt: the preset that it is
  * @property {'ptm' | 'eigen'} [basis] of a pelt
+ * @property {number} [gloss] of a pelt: strength of the highlights that suits it
  * @property {number} [tips] of a pelt: how far a model's own second tip colour shows on it
  * @property {boolean} [menu] false: not in the page's menu
  * @property {string} [view] first view and light, written as in the page's address
