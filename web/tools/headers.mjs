@@ -40,7 +40,8 @@ export function parseHeaders(text) {
 	for (const [i, line] of text.split(/\r?\n/).entries()) {
 		const words = line.trim();
 		if (words === '' || words.startsWith('#')) continue;
-		const expected = (/** @type {string} */ what) => new Error(`_headers: line ${i + 1}: got ${words}, expected ${what}`);
+		const expected = (/** @type {string} */ what) =>
+			new Error(`_headers: line ${i + 1}: got ${words}, expected ${what}`);
 		if (!/^\s/.test(line)) {
 			if (!words.startsWith('/')) throw expected('a path that begins with /');
 			rules.push({ path: matcher(words), headers: [] });

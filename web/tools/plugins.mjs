@@ -76,7 +76,8 @@ export function sharePlugin(site) {
 		transformIndexHtml(html, { path }) {
 			const file = path.replace(/^\//, '');
 			// A host shows this page at whatever address was asked for: from there, relative paths lead nowhere.
-			if (file === '404.html') return address ? [{ tag: 'base', attrs: { href: address.pathname }, injectTo: 'head-prepend' }] : [];
+			if (file === '404.html')
+				return address ? [{ tag: 'base', attrs: { href: address.pathname }, injectTo: 'head-prepend' }] : [];
 			const title = plain(/<title>([^<]*)</.exec(html)?.[1]);
 			const description = plain(/<meta\s+name="description"\s+content="([^"]*)"/.exec(html)?.[1]);
 			const page = file === 'index.html' ? '' : file;
