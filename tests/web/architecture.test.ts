@@ -37,7 +37,7 @@ const floors = [
 	['instances'],
 	['index'],
 ];
-const pages = ['demo', 'learn', 'bench'];
+const pages = ['demo', 'learn', 'bench', 'example'];
 /** What pages share, and what knows none of them. */
 const shared = ['page', 'measure'];
 
