@@ -4,6 +4,7 @@ import {
 	Box3,
 	InstancedMesh,
 	type IUniform,
+	type LoadingManager,
 	Material,
 	Mesh,
 	type Object3D,
@@ -24,6 +25,22 @@ export interface MenuEntry {
 	menu?: boolean;
 	/** first view and light, written as in the address */
 	view?: string;
+}
+
+/** Where a model's files come from. */
+export interface Source {
+	/** of the glTF file; the files that it names are sought beside it */
+	url: string;
+	/** what all of them are loaded with: it may lead their addresses elsewhere, and counts what has come */
+	manager?: LoadingManager | undefined;
+}
+
+export interface ModelOptions {
+	/**
+	 * Called with the model as soon as its skin can be shown; the same model has `fur` once it is loaded. Where loading fails
+	 * later, it is the caller's to take away.
+	 */
+	skin?: (model: Model) => void;
 }
 
 /** A model that is ready to be shown. */
@@ -68,27 +85,49 @@ export function folderOf(model: string, menu: readonly MenuEntry[], base: string
 	return /^https?:$/.test(url.protocol) ? url : undefined;
 }
 
+/** The files in a folder of some server. @param folder as of `folderOf` */
+export function sourceAt(folder: URL, manager?: LoadingManager): Source {
+	return { url: new URL('model.gltf', folder).href, manager };
+}
+
 /**
  * @param limits of the GPU that is to show it
  * @throws Error that names the file and says what is wrong with it
  */
-export async function loadModel(folder: URL, limits: TextureLimits): Promise<Model> {
-	const loader = new GLTFLoader();
-	loader.register((parser) => new FurLoaderPlugin(parser, { limits }));
-	const gltf = await loader.loadAsync(new URL('model.gltf', folder).href).catch((error: unknown) => {
+export async function loadModel(
+	{ url, manager }: Source,
+	limits: TextureLimits,
+	{ skin }: ModelOptions = {},
+): Promise<Model> {
+	let model: Model | undefined;
+	const loader = new GLTFLoader(manager);
+	loader.register((parser) => {
+		const early = (scene: Object3D) => {
+			if (!skin) return;
+			model = modelOf(scene);
+			skin(model);
+		};
+		return new FurLoaderPlugin(parser, { limits, skin: early });
+	});
+	const gltf = await loader.loadAsync(url).catch((error: unknown) => {
 		throw new Error(reason(error));
 	});
-	const object = gltf.scene;
+	model ??= modelOf(gltf.scene);
+	model.fur = gltf.userData.fur;
+	return model;
+}
+
+/** A model whose fur has not grown yet. */
+function modelOf(object: Object3D): Model {
 	const box = new Box3().setFromObject(object);
 	if (box.isEmpty()) throw new Error('model.gltf: got a scene without a mesh, expected one');
-	const fur: Fur | undefined = gltf.userData.fur;
 	return {
 		object,
-		fur,
+		fur: undefined,
 		box,
 		radius: radiusAround(object, box.getCenter(new Vector3())),
 		dispose() {
-			fur?.dispose();
+			this.fur?.dispose();
 			disposeAll(object);
 		},
 	};
