@@ -13,6 +13,8 @@ export default defineConfig({
 	cacheDir: at('../node_modules/.vite'),
 	// Pages, no single-page fallback: a missing file is a 404 here as on any static host.
 	appType: 'mpa',
+	// The example reads as it would in another app.
+	resolve: { alias: { furbake: at('fur/index.ts') } },
 	plugins: [headersPlugin(), sharePlugin(process.env.SITE_URL)],
 	server: {
 		// The JSON schema lives in the baker wing.

@@ -15,6 +15,7 @@ const floors = [
 		'moments',
 		'comb',
 		'skin',
+		'clip',
 		'shadow',
 		'environment',
 		'lod',
@@ -28,6 +29,7 @@ const floors = [
 	['FurMaterial'],
 	['FinMaterial', 'HullMaterial'],
 	['shells', 'fins'],
+	['Fur'],
 	['FurLoaderPlugin'],
 	['RivalMaterial'],
 	['UnlitMaterial', 'LengyelMaterial', 'DeepOpacityMaps'],
@@ -37,7 +39,7 @@ const floors = [
 	['instances'],
 	['index'],
 ];
-const pages = ['demo', 'learn', 'bench'];
+const pages = ['demo', 'learn', 'bench', 'example'];
 /** What pages share, and what knows none of them. */
 const shared = ['page', 'measure'];
 

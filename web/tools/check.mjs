@@ -20,7 +20,7 @@ await command(async () => {
 	const py = (/** @type {string[]} */ ...args) => run(python, ['-m', ...args], { cwd: baker });
 
 	const biome = module('@biomejs', 'biome', 'bin', 'biome');
-	const tsc = module('typescript', 'bin', 'tsc');
+	const tsc = module('@typescript', 'native', 'bin', 'tsc');
 	const pyproject = ['--config', 'pyproject.toml'];
 	const sources = ['.', join('..', 'tests', 'baker'), join('..', 'tests', 'golden')];
 
