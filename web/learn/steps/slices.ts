@@ -1,0 +1,3 @@
+import type { Mount } from '../lesson.ts';
+
+export const mount: Mount = async () => {};
