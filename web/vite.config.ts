@@ -1,8 +1,8 @@
 import { readdirSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
-import { headersPlugin, sharePlugin } from './tools/plugins.mjs';
 import { lesson } from './tools/lesson.mjs';
+import { headersPlugin, sharePlugin } from './tools/plugins.mjs';
 
 const at = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 const pages = readdirSync(at('.')).filter((name) => name.endsWith('.html'));
