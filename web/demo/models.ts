@@ -10,6 +10,13 @@ import { parseAddress, type Triple } from './address.ts';
 export interface MenuEntry {
 	name: string;
 	title: string;
+	/** of a model: what it is furry with */
+	preset?: string;
+	/** of a pelt, which other models are dressed in: the preset that it is, and what its light curves are */
+	pelt?: string;
+	basis?: 'ptm' | 'eigen';
+	/** of a pelt: how far a model's own second tip colour shows on it, 0..1 */
+	tips?: number;
 	/** false: shown only where the address asks for it */
 	menu?: boolean;
 	/** first view and light, written as in the address */
@@ -54,6 +61,11 @@ export async function loadMenu(): Promise<MenuEntry[]> {
 /** What the menu lists. */
 export function offered(entries: readonly MenuEntry[]): MenuEntry[] {
 	return entries.filter(({ menu }) => menu !== false);
+}
+
+/** What models can be dressed in, in the paper's basis or in the light curves found for that very fur. */
+export function pelts(entries: readonly MenuEntry[], basis: 'ptm' | 'eigen' = 'ptm'): MenuEntry[] {
+	return entries.filter((entry) => entry.pelt !== undefined && entry.basis === basis);
 }
 
 /** How a model of the menu wants to be seen first. */
@@ -104,6 +116,13 @@ export async function loadModel(
 	model ??= modelOf(gltf.scene);
 	model.fur = gltf.userData.fur;
 	return model;
+}
+
+/** A pelt for `dress`, of the caller's to dispose of. @throws Error as `loadModel` */
+export async function loadPelt(source: Source, limits: TextureLimits): Promise<Fur> {
+	const { fur } = await loadModel(source, limits);
+	if (!fur) throw new Error('model.gltf: got a model without fur, expected a pelt');
+	return fur;
 }
 
 /** A model whose fur has not grown yet. */
