@@ -5,11 +5,11 @@ import { describe, expect, it } from 'vitest';
 import { lightMoments, relight } from '../../web/fur/index.ts';
 import {
 	curvesFound,
-	dequantise,
 	decibels,
+	dequantise,
 	Fit,
-	polynomial,
 	PTM,
+	polynomial,
 	psnr,
 	quantise,
 	rangeOf,
@@ -20,9 +20,7 @@ import { decodeLayer, type Layer, type LessonRecord } from '../../web/learn/meas
 const file = (name: string) => readFileSync(new URL(`../../public/${name}`, import.meta.url));
 const record: LessonRecord = JSON.parse(file('lesson/lesson.json').toString());
 const planes = record.planes.map((name) => file(`lesson/${name}`));
-const layers: Layer[] = record.samples.map((entry, i) =>
-	decodeLayer(record, i, file(`lesson/${entry.file}`), planes),
-);
+const layers: Layer[] = record.samples.map((entry, i) => decodeLayer(record, i, file(`lesson/${entry.file}`), planes));
 const eq2 = polynomial([0, 1, 2, 3, 4, 5]);
 const seen = record.lights.slice(0, record.fitted);
 const unseen = record.lights.slice(record.fitted, record.fitted + record.held_out);

@@ -28,12 +28,7 @@ export function nearest(lights: readonly Direction[], [u, v, z]: Direction): num
  *
  * @param right, up a unit vector on the disc
  */
-export function neighbour(
-	lights: readonly Direction[],
-	from: number,
-	right: number,
-	up: number,
-): number | undefined {
+export function neighbour(lights: readonly Direction[], from: number, right: number, up: number): number | undefined {
 	const [u0, v0] = lights[from] ?? [0, 0];
 	let [best, found]: [number, number | undefined] = [Number.POSITIVE_INFINITY, undefined];
 	lights.forEach(([u, v], i) => {
