@@ -1,7 +1,7 @@
 /** The bench's page: it measures when asked to, and hands on what other people's scripts rely on. */
 
 import type { Page } from '@playwright/test';
-import type { BenchFigures, Result } from '../../web/bench/results.ts';
+import type { BenchFigures, Result } from '../../web/measure/results.ts';
 import { expect, site, state, test } from './harness.ts';
 
 /** Opens the page, has it measure and takes what it sends. */

@@ -99,6 +99,14 @@ describe('the pages', () => {
 		for (const name of imports(path)) expect(others).not.toContain(name.split('/')[0]);
 	});
 
+	it.each(below('measure'))('%s measures for any page: it takes packages, its own room and the library', (path) => {
+		for (const name of imports(path)) expect(name).toMatch(/^(three(\/addons\/.*)?$|measure\/|fur\/index\.ts$)/);
+	});
+
+	it.each(below('page'))('%s is what any page may have: it takes its own room alone', (path) => {
+		for (const name of imports(path)) expect(name).toMatch(/^page\//);
+	});
+
 	it.each([...modules, ...files.filter((path) => /^\w+\.html$/.test(path))])('%s contains no GLSL', (path) => {
 		expect(text(path)).not.toMatch(/gl_Position|gl_Frag|\.glsl|ShaderMaterial|onBeforeCompile|void\s+main\s*\(/);
 	});

@@ -1,6 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { DEFAULTS, parseOptions, QUICK, TORI } from '../../web/bench/options.ts';
+import { parseOptions } from '../../web/bench/options.ts';
+import { DEFAULTS, QUICK, TORI } from '../../web/measure/plan.ts';
 
 describe('the address of the bench', () => {
 	it('asks for nothing by itself', () => {

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { sections } from '../../web/bench/report.ts';
-import type { BenchFigures, Result } from '../../web/bench/results.ts';
 import { articleTable, methodTable, overdrawTable, titleOf } from '../../web/bench/tables.ts';
+import type { BenchFigures, Result } from '../../web/measure/results.ts';
 
 const row = (more: Partial<Result>): Result => ({
 	method: 'ptm',

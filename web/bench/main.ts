@@ -1,10 +1,18 @@
 /** The bench's page: measures when asked to, shows what it finds, and hands it on. */
 
-import { type Listener, measure } from './measure.ts';
-import { DEFAULTS, parseOptions, QUICK } from './options.ts';
+import { type Listener, measure } from '../measure/measure.ts';
+import { DEFAULTS, type Part, QUICK } from '../measure/plan.ts';
+import type { BenchFigures } from '../measure/results.ts';
+import { parseOptions } from './options.ts';
 import { gallery, sectionElement } from './page.ts';
 import { sections } from './report.ts';
-import type { BenchFigures } from './results.ts';
+
+const DOING: Record<Part, string> = {
+	results: 'methods',
+	layers: 'methods, triangles counted over all layers',
+	costs: 'what features cost',
+	curves: 'frames against shells and pixels',
+};
 
 /** Milliseconds between two words on the progress: the page must not draw much while it measures. */
 const PAUSE = 1000;
@@ -46,14 +54,14 @@ function listener(): Listener {
 	const started = performance.now();
 	let said = 0;
 	return {
-		progress(share, what) {
+		progress(share, part) {
 			const now = performance.now();
 			if (now < said + PAUSE) return;
 			said = now;
 			bar.value = share;
 			// An estimate from the first few frames, which compile, would frighten.
 			const left = share > 0.04 ? `, about ${duration(((now - started) / 1000) * (1 / share - 1))} left` : '';
-			doing.textContent = `${Math.floor(100 * share)} %${left}: ${what}`;
+			doing.textContent = `${Math.floor(100 * share)} %${left}: ${part ? DOING[part] : 'loading the models'}`;
 			void tell({ doing: doing.textContent });
 		},
 		portraits: (portraits) => pictures.replaceChildren(gallery(portraits)),

@@ -1,6 +1,6 @@
 /** The report as elements of the page. */
 
-import type { Portrait } from './measure.ts';
+import type { Portrait } from '../measure/measure.ts';
 import type { Section } from './report.ts';
 import { type Table, titleOf } from './tables.ts';
 

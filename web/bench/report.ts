@@ -1,8 +1,8 @@
 /** What the page says of the figures: sections of tables and plots, of what there is so far. */
 
+import { ARTICLE, type BenchFigures, type Point, type Result } from '../measure/results.ts';
 import { plot, type Series } from './plot.ts';
-import type { BenchFigures, Point, Result } from './results.ts';
-import { ARTICLE, articleTable, costTable, count, methodTable, overdrawTable, type Table, times } from './tables.ts';
+import { articleTable, costTable, count, methodTable, overdrawTable, type Table, times } from './tables.ts';
 
 export interface Section {
 	title: string;

@@ -1,6 +1,6 @@
 /** Figures as rows of text: what the page's tables say. */
 
-import type { BenchFigures, Cost, Result } from './results.ts';
+import { ARTICLE, type BenchFigures, type Cost, type Result } from '../measure/results.ts';
 
 /** A table's text; a cell is a heading where its column or row begins. */
 export interface Table {
@@ -8,13 +8,6 @@ export interface Table {
 	head: string[];
 	rows: string[][];
 }
-
-/** Table 1 of the article: frames per second on a Quadro NVS 110 with 64 MB. */
-export const ARTICLE = [
-	{ triangles: 512, shadowLayers: 41.6, ptm: 57.3 },
-	{ triangles: 4608, shadowLayers: 14.3, ptm: 17.4 },
-	{ triangles: 16896, shadowLayers: 5.7, ptm: 7.7 },
-] as const;
 
 export const count = (value: number) => value.toLocaleString('en').replaceAll(',', '\u00a0');
 export const time = (milliseconds: number) =>
@@ -73,8 +66,8 @@ export function articleTable({
 	return {
 		caption: 'Frames per second by triangles',
 		head: ['', 'shadow layers', 'PTM', 'PTM is faster'],
-		rows: ARTICLE.flatMap(({ triangles, shadowLayers, ptm }) => [
-			row(triangles, 'the article', shadowLayers, ptm, ptm / shadowLayers),
+		rows: ARTICLE.flatMap(({ triangles, layered, ptm, ratio }) => [
+			row(triangles, 'the article', layered.fps, ptm.fps, ratio),
 			...here(results, triangles, triangles, 'here'),
 			...here(results_of_layers, triangles / 16, triangles, 'here, all layers together'),
 		]),

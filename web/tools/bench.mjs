@@ -12,7 +12,7 @@ import { command, Failure, say } from './process.mjs';
 import { markdown, table } from './table.mjs';
 import { serve } from './vite.mjs';
 
-/** @import { BenchFigures } from '../bench/results.ts' */
+/** @import { BenchFigures } from '../measure/results.ts' */
 /** @import { Table } from '../bench/tables.ts' */
 
 /** @typedef {{ title: string, tables: Table[] }} Section */
