@@ -127,3 +127,17 @@ export function note(place: Element, live = false): HTMLParagraphElement {
 	if (live) line.setAttribute('aria-live', 'polite');
 	return line;
 }
+
+/** A row of pictures side by side. */
+export function panes(place: Element, count: number): HTMLElement {
+	const row = add(place, 'div', 'panes');
+	row.style.setProperty('--panes', String(count));
+	return row;
+}
+
+/** One of a row of pictures, with room for words below it. */
+export function pane(row: Element): { element: HTMLElement; caption: HTMLParagraphElement } {
+	const box = add(row, 'div', 'pane');
+	const element = add(box, 'div');
+	return { element, caption: add(box, 'p') };
+}

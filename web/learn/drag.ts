@@ -1,6 +1,6 @@
 /** Hands on a figure's canvas: drags and arrow keys move the light; a finger that moves up or down scrolls the page. */
 
-import { type Camera, MathUtils, Vector2, Vector3 } from 'three';
+import { type Camera, MathUtils, Object3D, Vector2, Vector3 } from 'three';
 import { directionUnder } from '../page/aim.ts';
 import type { SharedLight } from './light.ts';
 
@@ -61,17 +61,22 @@ export function listenToDrags(canvas: HTMLCanvasElement, move: (pointer: Vector2
 		});
 }
 
-/** The lamp rides on a sphere around `centre`: drags put it under the finger. Arrow keys move it, too. */
+/**
+ * The lamp rides on a sphere around `centre`: drags put it under the finger. Arrow keys move it, too.
+ *
+ * @param turn radians by which it stands further about the upright axis here than in other figures
+ */
 export function lightByHand(
 	canvas: HTMLCanvasElement,
 	light: SharedLight,
 	camera: Camera,
 	centre: Vector3,
 	radius: number,
+	turn = 0,
 ): void {
 	const wanted = new Vector3();
 	listenToDrags(canvas, (pointer) => {
-		directionUnder(pointer, camera, centre, radius, wanted);
+		directionUnder(pointer, camera, centre, radius, wanted).applyAxisAngle(Object3D.DEFAULT_UP, -turn);
 		light.set(wanted.x, wanted.y, wanted.z);
 	});
 	lightByKeys(canvas, light);

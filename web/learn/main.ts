@@ -23,7 +23,9 @@ const steps: Record<string, () => Promise<{ mount: Mount }>> = {
 	numbers: () => import('./steps/numbers.ts'),
 	body: () => import('./steps/body.ts'),
 	rivals: () => import('./steps/rivals.ts'),
-	paper: () => import('./steps/paper.ts'),
+	tuft: () => import('./steps/tuft.ts'),
+	turning: () => import('./steps/turning.ts'),
+	short: () => import('./steps/short.ts'),
 };
 
 function newLesson(language: Language): Lesson {
@@ -64,7 +66,9 @@ function fillContents(nav: HTMLElement, label: string): void {
 	for (const section of document.querySelectorAll('main section[id]')) {
 		const link = document.createElement('a');
 		link.href = `#${section.id}`;
-		link.textContent = section.querySelector('h2')?.textContent ?? section.id;
+		const name = document.createElement('span');
+		name.textContent = section.querySelector('h2')?.textContent ?? section.id;
+		link.append(name);
 		links.set(section, link);
 		nav.append(link);
 	}

@@ -45,6 +45,7 @@ export class Painter {
 	readonly #entries = new Map<Element, Entry>();
 	readonly #scenes = new Set<Scene>();
 	readonly #steps = new Set<(elapsed: number) => boolean>();
+	#paused = false;
 	#waiting: { place: Element; resolve: () => void }[] = [];
 	#requested = false;
 	#before = performance.now();
@@ -79,6 +80,16 @@ export class Painter {
 		});
 		// What is printed is whole.
 		addEventListener('beforeprint', () => this.#paint(() => true));
+	}
+
+	/** Whether nothing is drawn, since something else needs the machine for itself. */
+	get paused(): boolean {
+		return this.#paused;
+	}
+
+	set paused(paused: boolean) {
+		this.#paused = paused;
+		this.wake();
 	}
 
 	/** undefined where there is no WebGL2: three-dimensional figures have to fail then, others go on. */
@@ -151,7 +162,7 @@ export class Painter {
 
 	/** Has a frame drawn where anything is to be drawn. */
 	wake(): void {
-		if (this.#requested) return;
+		if (this.#requested || this.#paused) return;
 		this.#requested = true;
 		requestAnimationFrame((now) => this.#frame(now));
 	}
@@ -164,6 +175,7 @@ export class Painter {
 
 	#frame(now: number): void {
 		this.#requested = false;
+		if (this.#paused) return;
 		// A frame after a pause is like one after a hiccup.
 		const elapsed = Math.min((now - this.#before) / 1000, 0.1);
 		this.#before = now;

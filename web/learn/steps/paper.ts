@@ -1,3 +1,0 @@
-import type { Mount } from '../lesson.ts';
-
-export const mount: Mount = async () => {};
