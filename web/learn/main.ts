@@ -39,6 +39,8 @@ function newLesson(language: Language): Lesson {
 
 /** Builds one figure; where that fails, says why in its place. */
 async function build(figure: HTMLElement, lesson: Lesson): Promise<void> {
+	// An observer may report a figure twice at once.
+	if (figure.dataset.state) return;
 	const place = document.createElement('div');
 	place.className = 'live';
 	figure.prepend(place);
