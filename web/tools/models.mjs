@@ -1,5 +1,6 @@
 /**
- * The default models: `public/models/models.json` lists them, this bakes the ones that are missing or stale.
+ * The default models: `public/models/models.json` lists them, this bakes the ones that are missing or stale. So it does
+ * with the lesson's data in `public/lesson`.
  */
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join } from 'node:path';
@@ -58,4 +59,7 @@ export async function bakeDefaultModels() {
 		const code = await runFurbake(args, { stdio: ['ignore', 2, 2] });
 		if (code !== 0) say(`baking ${name} failed with exit code ${code}: serving it as it is`);
 	}
+	const lesson = ['lesson', '-o', join('public', 'lesson'), '--if-stale'];
+	const code = await runFurbake(lesson, { stdio: ['ignore', 2, 2] });
+	if (code !== 0) say(`measuring for the lesson failed with exit code ${code}: serving it as it is`);
 }
