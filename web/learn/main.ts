@@ -94,15 +94,20 @@ async function start(): Promise<void> {
 	if (location.hash) document.querySelector(location.hash)?.scrollIntoView();
 
 	const lesson = newLesson(language);
+	// One after the other: the one that is read first is there first.
+	let queue = Promise.resolve();
+	const show = async (figure: HTMLElement) => {
+		await build(figure, lesson);
+		// The first one settled is the page's own word.
+		if (document.documentElement.dataset.state === 'loading')
+			setState(figure.dataset.state === 'failed' ? 'failed' : 'ready');
+	};
 	const near = new IntersectionObserver(
-		async (changes) => {
+		(changes) => {
 			for (const { target, isIntersecting } of changes) {
 				if (!isIntersecting) continue;
 				near.unobserve(target);
-				await build(target as HTMLElement, lesson);
-				// The first one settled is the page's own word.
-				if (document.documentElement.dataset.state === 'loading')
-					setState((target as HTMLElement).dataset.state === 'failed' ? 'failed' : 'ready');
+				queue = queue.then(() => show(target as HTMLElement));
 			}
 		},
 		{ rootMargin: MARGIN },
