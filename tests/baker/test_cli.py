@@ -132,7 +132,7 @@ BAD_COMMANDS = {
         "nope.obj",
         "-o",
         "out",
-    ): "nope.obj: no such file, expected a mesh file or sphere, plane, torus, torus:RxC",
+    ): "nope.obj: no such file, expected a mesh file or sphere, plane, plane:RxC, torus, torus:RxC",
     ("bake", "folder", "-o", "out"): "folder: is a folder, expected a mesh file",
     ("bake", "empty.obj", "-o", "out"): "empty.obj: 0 bytes, expected a mesh file",
     ("bake", "text.obj", "-o", "out"): "text.obj: no faces, expected a surface of triangles",

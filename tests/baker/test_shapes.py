@@ -9,7 +9,7 @@ from furbake.surface.mesh import MeshError
 from furbake.surface.shapes import builtin, is_builtin
 from furbake.surface.topology import face_vectors, unit
 
-SHAPES = ("sphere", "plane", "torus", "torus:8x12", "torus:3x3")
+SHAPES = ("sphere", "plane", "torus", "torus:8x12", "torus:3x3", "plane:1x1", "plane:2x5")
 
 
 @pytest.mark.parametrize("name", SHAPES)
@@ -23,7 +23,7 @@ def test_faces_and_normals_look_outward(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "faces"), [("torus", 9216), ("torus:8x12", 192), ("torus:88x96", 16896), ("plane", 512)]
+    ("name", "faces"), [("torus", 9216), ("torus:8x12", 192), ("torus:88x96", 16896), ("plane", 512), ("plane:1x1", 2)]
 )
 def test_counts(name: str, faces: int) -> None:
     assert len(builtin(name).faces) == faces
@@ -51,7 +51,7 @@ def test_torus_wraps_whole_tiles(tile: float) -> None:
         np.testing.assert_allclose(around, np.array(surface.natural.lengths) / tile, rtol=0.15)
 
 
-@pytest.mark.parametrize("name", ["plane", "torus"])
+@pytest.mark.parametrize("name", ["plane", "plane:1x3", "torus"])
 def test_tangents_follow_the_texture(name: str) -> None:
     surface = builtin(name)
     assert surface.natural
@@ -70,8 +70,9 @@ def test_tangents_follow_the_texture(name: str) -> None:
         assert got.min() > 0.99
 
 
-def test_plane_is_the_unit_square_facing_up() -> None:
-    surface = builtin("plane")
+@pytest.mark.parametrize("name", ["plane", "plane:1x1"])
+def test_plane_is_the_unit_square_facing_up(name: str) -> None:
+    surface = builtin(name)
     np.testing.assert_array_equal(surface.vertices.min(axis=0), [-0.5, 0, -0.5])
     np.testing.assert_array_equal(surface.vertices.max(axis=0), [0.5, 0, 0.5])
     np.testing.assert_array_equal(surface.normals, np.tile([0, 1, 0], (len(surface.vertices), 1)))
@@ -82,7 +83,8 @@ def test_plane_is_the_unit_square_facing_up() -> None:
     [
         ("torus:2x3", "torus:2x3: 2 rows and 3 columns, expected 3 to 1024 of each"),
         ("torus:99999x9", "torus:99999x9: 99999 rows and 9 columns, expected 3 to 1024 of each"),
-        ("torus:axb", "torus:axb: no such built-in, expected sphere, plane, torus or torus:RxC as in torus:48x96"),
+        ("torus:axb", "torus:axb: no such built-in, expected sphere, plane, torus, or plane:RxC or torus:RxC as in torus:48x96"),
+        ("plane:0x4", "plane:0x4: 0 rows and 4 columns, expected 1 to 1024 of each"),
         ("torus:", "torus:: no such built-in"),
         ("torus:-4x9", "torus:-4x9: no such built-in"),
         ("torus:4x9x2", "torus:4x9x2: no such built-in"),

@@ -5,9 +5,8 @@ import { fileURLToPath } from 'node:url';
 import { AdditiveBlending, BufferAttribute, BufferGeometry, Mesh, Object3D, Texture } from 'three';
 import { describe, expect, it } from 'vitest';
 import { LengyelMaterial } from '../../web/fur/baselines/LengyelMaterial.ts';
-import { furMethod } from '../../web/fur/baselines/method.ts';
+import { type Coat, furMethod } from '../../web/fur/baselines/method.ts';
 import { UnlitMaterial } from '../../web/fur/baselines/UnlitMaterial.ts';
-import type { Fur } from '../../web/fur/FurLoaderPlugin.ts';
 import { FurMaterial } from '../../web/fur/FurMaterial.ts';
 import { parseFur } from '../../web/fur/format.ts';
 import { FurShells } from '../../web/fur/shells.ts';
@@ -15,14 +14,14 @@ import { FurShells } from '../../web/fur/shells.ts';
 const at = (path: string) => fileURLToPath(new URL(`../../${path}`, import.meta.url));
 const gltf = JSON.parse(readFileSync(at('tests/golden/ptm-6/model.gltf'), 'utf8'));
 
-function grow(direction?: Texture): Fur {
+function grow(direction?: Texture): Coat {
 	const asset = parseFur(gltf.extensions.FUR_ptm_shells);
 	if (!asset) throw new Error('of another version');
 	const textures = { plane0: new Texture(), plane1: new Texture(), direction };
 	const surface = new BufferGeometry();
 	for (const name of ['position', 'normal']) surface.setAttribute(name, new BufferAttribute(new Float32Array(9), 3));
 	const shells = new FurShells(surface, new Object3D(), asset, new FurMaterial(asset, textures));
-	return { asset, textures, shells, fins: undefined, skin: new Mesh(surface), dispose() {} };
+	return { textures, shells, skin: new Mesh(surface) };
 }
 
 describe('a rival material', () => {

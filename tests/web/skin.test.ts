@@ -1,6 +1,7 @@
 import { BufferAttribute, BufferGeometry, Color, Mesh, MeshStandardMaterial } from 'three';
 import { describe, expect, it } from 'vitest';
-import { furCover, shadeSkin } from '../../web/fur/skin.ts';
+import type { FurAsset, RGB } from '../../web/fur/format.ts';
+import { furCover, ShadedPiece, Skin } from '../../web/fur/skin.ts';
 
 const attribute = (size: number, values: number[][]) => new BufferAttribute(new Float32Array(values.flat()), size);
 const points = (...xs: number[]) =>
@@ -33,13 +34,17 @@ describe('furCover', () => {
 	});
 });
 
-describe('shadeSkin', () => {
-	it('darkens the whole material where all is under fur', () => {
+const shade = new Color(0.1, 0.2, 0.3);
+
+describe('a piece of the skin', () => {
+	it('is darkened by its material where all is under fur', () => {
 		const own = new MeshStandardMaterial({ color: new Color(0.5, 1, 1) });
-		const piece = new Mesh(points(0, 1), own);
-		const dark = shadeSkin(piece, new Color(0.1, 0.2, 0.3), undefined);
-		expect(piece.material).toBe(dark);
-		expect((dark as MeshStandardMaterial).color.toArray()).toEqual([0.05, 0.2, 0.3].map((c) => expect.closeTo(c)));
+		const mesh = new Mesh(points(0, 1), own);
+		const piece = new ShadedPiece(mesh, undefined);
+		expect(mesh.material).toBe(piece.material);
+		piece.shade(new Color(0, 0, 0));
+		piece.shade(shade);
+		expect(piece.material.color.toArray()).toEqual([0.05, 0.2, 0.3].map((c) => expect.closeTo(c)));
 		expect(own.color.r).toBeCloseTo(0.5);
 	});
 
@@ -52,11 +57,42 @@ describe('shadeSkin', () => {
 				[0.5, 1, 1, 1],
 			]),
 		);
-		const piece = new Mesh(geometry, new MeshStandardMaterial({ vertexColors: true }));
-		shadeSkin(piece, new Color(0.1, 0.2, 0.3), new Float32Array([1, 0, 0.5]));
+		const piece = new ShadedPiece(
+			new Mesh(geometry, new MeshStandardMaterial({ vertexColors: true })),
+			new Float32Array([1, 0, 0.5]),
+		);
+		piece.shade(new Color(0, 0, 0));
+		piece.shade(shade);
 		expect([...geometry.getAttribute('color').array]).toEqual(
 			[0.1, 0.2, 0.3, 0.5, 1, 1, 0.275, 0.6, 0.65].map((c) => expect.closeTo(c)),
 		);
-		expect((piece.material as MeshStandardMaterial).vertexColors).toBe(true);
+		expect(piece.material.vertexColors).toBe(true);
+	});
+});
+
+describe('the skin of a body', () => {
+	const fur = (root: RGB) => ({ ramp: { root } }) as FurAsset;
+	const [fox, sheep] = [fur([0.1, 0, 0]), fur([0, 0.2, 0])];
+
+	it('is as dark as below the fur that was put on last and is still there, and bright below none', () => {
+		const body = new Mesh(points(0, 1), new MeshStandardMaterial({ color: new Color(1, 1, 1) }));
+		const skin = new Skin(body, [body], undefined);
+		const colour = () => (body.material as MeshStandardMaterial).color.toArray().map((c) => +c.toFixed(3));
+		skin.cover(fox);
+		expect(colour()).toEqual([0.035, 0, 0]);
+		skin.cover(sheep);
+		expect(colour()).toEqual([0, 0.07, 0]);
+		skin.cover(fox);
+		skin.bare(fox);
+		expect(colour()).toEqual([0, 0.07, 0]);
+		skin.bare(sheep);
+		expect(colour()).toEqual([1, 1, 1]);
+	});
+
+	it('is measured by its largest side, where its node puts it', () => {
+		const body = new Mesh(points(-1, 2), new MeshStandardMaterial());
+		body.scale.setScalar(0.5);
+		body.updateMatrix();
+		expect(new Skin(body, [body], undefined).extent).toBeCloseTo(1.5);
 	});
 });

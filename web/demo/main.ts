@@ -10,7 +10,7 @@ import { OrbitCamera } from './camera.ts';
 import { type EnvironmentName, loadEnvironment } from './environments.ts';
 import { hasWebGL2, showFallback } from './fallback.ts';
 import { listenToKeys } from './keys.ts';
-import { firstView, folderOf, loadMenu, loadModel, type MenuEntry, offered } from './models.ts';
+import { firstView, folderOf, loadMenu, loadModel, type MenuEntry, offered, sourceAt } from './models.ts';
 import { notice } from './notice.ts';
 import { Overlay } from './overlay.ts';
 import { Panel } from './panel.ts';
@@ -203,7 +203,7 @@ function start(): void {
 		try {
 			const folder = folderOf(name, menu, document.baseURI);
 			if (!folder) throw new Error('it is neither a model of the menu nor the address of a folder');
-			const model = await loadModel(folder, stage.limits);
+			const model = await loadModel(sourceAt(folder), stage.limits);
 			if (turn !== latest) return model.dispose();
 			const first = stage.model === undefined;
 			const entry = menu.find((item) => item.name === name);

@@ -1,6 +1,6 @@
 /** From a name or a path in the address to a model in memory. */
 
-import { Box3, Mesh, type Object3D, Vector3 } from 'three';
+import { Box3, type LoadingManager, Mesh, type Object3D, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { type Fur, FurLoaderPlugin, type TextureLimits } from '../fur/index.ts';
 import { disposeAll } from '../page/dispose.ts';
@@ -10,10 +10,33 @@ import { parseAddress, type Triple } from './address.ts';
 export interface MenuEntry {
 	name: string;
 	title: string;
+	/** of a model: what it is furry with */
+	preset?: string;
+	/** of a pelt, which other models are dressed in: the preset that it is, and what its light curves are */
+	pelt?: string;
+	basis?: 'ptm' | 'eigen';
+	/** of a pelt: how far a model's own second tip colour shows on it, 0..1 */
+	tips?: number;
 	/** false: shown only where the address asks for it */
 	menu?: boolean;
 	/** first view and light, written as in the address */
 	view?: string;
+}
+
+/** Where a model's files come from. */
+export interface Source {
+	/** of the glTF file; the files that it names are sought beside it */
+	url: string;
+	/** what all of them are loaded with: it may lead their addresses elsewhere, and counts what has come */
+	manager?: LoadingManager | undefined;
+}
+
+export interface ModelOptions {
+	/**
+	 * Called with the model as soon as its skin can be shown; the same model has `fur` once it is loaded. Where loading fails
+	 * later, it is the caller's to take away.
+	 */
+	skin?: (model: Model) => void;
 }
 
 /** A model that is ready to be shown. */
@@ -40,6 +63,11 @@ export function offered(entries: readonly MenuEntry[]): MenuEntry[] {
 	return entries.filter(({ menu }) => menu !== false);
 }
 
+/** What models can be dressed in, in the paper's basis or in the light curves found for that very fur. */
+export function pelts(entries: readonly MenuEntry[], basis: 'ptm' | 'eigen' = 'ptm'): MenuEntry[] {
+	return entries.filter((entry) => entry.pelt !== undefined && entry.basis === basis);
+}
+
 /** How a model of the menu wants to be seen first. */
 export function firstView(entry: MenuEntry | undefined): { light?: Triple; camera?: Triple } {
 	return parseAddress(entry?.view ?? '').view;
@@ -58,27 +86,56 @@ export function folderOf(model: string, menu: readonly MenuEntry[], base: string
 	return /^https?:$/.test(url.protocol) ? url : undefined;
 }
 
+/** The files in a folder of some server. @param folder as of `folderOf` */
+export function sourceAt(folder: URL, manager?: LoadingManager): Source {
+	return { url: new URL('model.gltf', folder).href, manager };
+}
+
 /**
  * @param limits of the GPU that is to show it
  * @throws Error that names the file and says what is wrong with it
  */
-export async function loadModel(folder: URL, limits: TextureLimits): Promise<Model> {
-	const loader = new GLTFLoader();
-	loader.register((parser) => new FurLoaderPlugin(parser, { limits }));
-	const gltf = await loader.loadAsync(new URL('model.gltf', folder).href).catch((error: unknown) => {
+export async function loadModel(
+	{ url, manager }: Source,
+	limits: TextureLimits,
+	{ skin }: ModelOptions = {},
+): Promise<Model> {
+	let model: Model | undefined;
+	const loader = new GLTFLoader(manager);
+	loader.register((parser) => {
+		const early = (scene: Object3D) => {
+			if (!skin) return;
+			model = modelOf(scene);
+			skin(model);
+		};
+		return new FurLoaderPlugin(parser, { limits, skin: early });
+	});
+	const gltf = await loader.loadAsync(url).catch((error: unknown) => {
 		throw new Error(reason(error));
 	});
-	const object = gltf.scene;
+	model ??= modelOf(gltf.scene);
+	model.fur = gltf.userData.fur;
+	return model;
+}
+
+/** A pelt for `dress`, of the caller's to dispose of. @throws Error as `loadModel` */
+export async function loadPelt(source: Source, limits: TextureLimits): Promise<Fur> {
+	const { fur } = await loadModel(source, limits);
+	if (!fur) throw new Error('model.gltf: got a model without fur, expected a pelt');
+	return fur;
+}
+
+/** A model whose fur has not grown yet. */
+function modelOf(object: Object3D): Model {
 	const box = new Box3().setFromObject(object);
 	if (box.isEmpty()) throw new Error('model.gltf: got a scene without a mesh, expected one');
-	const fur: Fur | undefined = gltf.userData.fur;
 	return {
 		object,
-		fur,
+		fur: undefined,
 		box,
 		radius: radiusAround(object, box.getCenter(new Vector3())),
 		dispose() {
-			fur?.dispose();
+			this.fur?.dispose();
 			disposeAll(object);
 		},
 	};

@@ -11,14 +11,16 @@ export interface FinMaterialParameters extends ShaderMaterialParameters {
 	finLength?: number;
 	/** What their coverage is multiplied by, 0..1. */
 	finOpacity?: number;
+	/** What the second texture coordinate is multiplied by to be 1 at the tips. */
+	finHeights?: number;
 }
 
-const MIRRORED = ['finLength', 'finOpacity'] as const satisfies (keyof FinMaterialParameters)[];
+const MIRRORED = ['finLength', 'finOpacity', 'finHeights'] as const satisfies (keyof FinMaterialParameters)[];
 
 /** What fins have from the shells that they stand between. */
 const SHARED = [
-	...['tiles', 'furLength', 'bodyRadius', 'lean', 'gloss', 'sharpness', 'backlight'],
-	...['skinColour', 'root', 'tip', 'tip2', 'rampPower'],
+	...['tiles', 'furLength', 'bodyRadius', 'lean', 'gloss', 'sharpness', 'backlight', 'density'],
+	...['skinColour', 'root', 'tip', 'tip2', 'tipShare', 'rampPower'],
 ];
 
 /**
@@ -30,6 +32,7 @@ const SHARED = [
 export class FinMaterial extends PeltMaterial {
 	declare finLength: number;
 	declare finOpacity: number;
+	declare finHeights: number;
 
 	constructor(fin: Fin, textures: FurTextures, shells: FurMaterial, parameters: FinMaterialParameters = {}) {
 		const shared = SHARED.map((name) => [name, shells.uniforms[name]] as [string, IUniform]);
@@ -44,6 +47,7 @@ export class FinMaterial extends PeltMaterial {
 					...Object.fromEntries(shared),
 					finLength: { value: 1.05 },
 					finOpacity: { value: 0.9 },
+					finHeights: { value: shells.uniforms.tiles?.value },
 				},
 				// |n·v| of the faces, between which a fin fades out; half a mip level finer than even, since fins are seen askew.
 				defines: { FIN: '', FADE_FROM: '0.03', FADE_TO: '0.15', LOD_BIAS: '-0.5' },

@@ -10,19 +10,13 @@ import {
 	type Texture,
 } from 'three';
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
-import { FinMaterial } from './FinMaterial.ts';
-import { FurMaterial } from './FurMaterial.ts';
-import { FurFins } from './fins.ts';
+import { Fur } from './Fur.ts';
 import { EXTENSION, type Fin, type FurAsset, type Pelt, parseFur, VERSION } from './format.ts';
 import { checkLimits, type TextureLimits } from './limits.ts';
 import { ALPHA_CUT } from './lod.ts';
 import type { FurTextures } from './PeltMaterial.ts';
-import { decodePlane, type Extent, mipLevels, textureArray, type View } from './planes.ts';
-import { FurShells } from './shells.ts';
-import { furCover, shadeSkin } from './skin.ts';
-
-/** How much of the roots' colour the skin shows: it lies in the shadow of all the fur above it. */
-const SKIN_SHADE = 0.35;
+import { decodePlane, type Extent, mipSteps, type Texels, textureArray, type View } from './planes.ts';
+import { Skin } from './skin.ts';
 
 /**
  * Of the shells' planes. In close-ups of the bunny 2 is worth 1.4 dB against a supersampled picture, 4 and more 0.2 dB on
@@ -31,26 +25,13 @@ const SKIN_SHADE = 0.35;
  */
 const ANISOTROPY = 2;
 
-/** The fur of a loaded asset; find it as `gltf.userData.fur`. */
-export interface Fur {
-	asset: FurAsset;
-	/** What the shells are drawn with, and what else the asset holds of them. */
-	textures: FurTextures;
-	/** Drawn in the scene beside the skin. */
-	shells: FurShells;
-	/** What makes the outline, drawn before the shells; the shells show without it, too: `fins.visible = false`. */
-	fins: FurFins | undefined;
-	/** The body: a mesh, or a group of one for each material. */
-	skin: Object3D;
-	/** Frees geometry, material and textures. */
-	dispose(): void;
-}
-
 export interface FurLoaderOptions {
 	/** What the GPU takes, by `limitsOf`: an asset that asks for more is refused before its planes are decoded. */
 	limits?: TextureLimits;
 	/** Most texels that are averaged along the slant in which a shell is seen, 1 to 16, where the GPU can; 2 by default. */
 	anisotropy?: number;
+	/** Called with the loaded scene once its skin has the colour that it has under fur, before any plane has come. */
+	skin?: (scene: Object3D) => void;
 }
 
 /**
@@ -82,56 +63,46 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 			return;
 		}
 		if (this.#options.limits) checkLimits(asset, this.#options.limits);
-		gltf.userData.fur = await this.#grow(asset);
+		gltf.userData.fur = await this.#grow(asset, gltf.scene);
 	}
 
-	async #grow(asset: FurAsset): Promise<Fur> {
+	async #grow(asset: FurAsset, scene: Object3D): Promise<Fur> {
 		const pelt = asset.pelts[0] as Pelt;
-		const [surface, skin, textures, quads, finTextures] = await Promise.all([
-			this.#mesh(asset.shells, 'shells'),
-			this.#skin(asset.skin),
+		const withFins = asset.fins !== undefined && pelt.fin;
+		const [{ skin, surface, colour }, textures, quads, finTextures] = await Promise.all([
+			this.#body(asset, scene),
 			this.#peltTextures(asset, pelt),
-			asset.fins !== undefined && pelt.fin ? this.#mesh(asset.fins, 'fins') : undefined,
-			asset.fins !== undefined && pelt.fin ? this.#finTextures(pelt.fin) : undefined,
+			withFins ? this.#mesh(asset.fins as number, 'fins') : undefined,
+			withFins ? this.#finTextures(withFins) : undefined,
 		]);
-		const pieces = isMesh(skin) ? [skin] : (skin.children as Mesh[]);
+		const ground = {
+			skin,
+			colour,
+			surface: surface.geometry,
+			placement: surface,
+			quads: quads?.geometry,
+			quadPlacement: quads,
+			finHeights: asset.tiles ?? 1,
+		};
+		return new Fur(asset, textures, finTextures, ground, () => {
+			skin.dispose();
+			for (const texture of Object.values({ ...textures })) texture?.dispose();
+			for (const texture of Object.values({ ...finTextures })) texture?.dispose();
+		});
+	}
+
+	/** What the fur stands on, as dark as it is below it before there is any. */
+	async #body(asset: FurAsset, scene: Object3D): Promise<{ skin: Skin; surface: Mesh; colour: Color }> {
+		const [surface, object] = await Promise.all([this.#mesh(asset.shells, 'shells'), this.#skin(asset.skin)]);
+		const pieces = isMesh(object) ? [object] : (object.children as Mesh[]);
 		// Shells that bring colours bring the whole of them: those of several materials, or of a picture.
 		const own = pieces[0]?.material as MeshStandardMaterial | undefined;
-		const base = (!surface.geometry.hasAttribute('color') && own?.color) || new Color(1, 1, 1);
-		const material = new FurMaterial(asset, textures, { skinColour: base.clone() });
-		const fins =
-			pelt.fin && quads && finTextures
-				? new FurFins(quads.geometry, new FinMaterial(pelt.fin, finTextures, material))
-				: undefined;
-		const shells = new FurShells(surface.geometry, surface, asset, material);
-		if (fins && quads) fins.join(shells, quads);
-
-		const shade = new Color(...asset.ramp.root).multiplyScalar(SKIN_SHADE);
-		const together = skin.matrix.equals(surface.matrix);
-		const worn = pieces.map((piece) =>
-			shadeSkin(piece, shade, together ? furCover(piece.geometry, surface.geometry) : undefined),
-		);
-		for (const part of [fins, shells]) if (part) skin.parent?.add(part);
-		for (const piece of pieces) piece.castShadow = piece.receiveShadow = true;
-
-		return {
-			asset,
-			textures,
-			shells,
-			fins,
-			skin,
-			dispose() {
-				for (const part of [fins, shells]) {
-					part?.removeFromParent();
-					part?.dispose();
-					part?.material.dispose();
-				}
-				for (const dark of worn) dark.dispose();
-				for (const piece of pieces) piece.geometry.dispose();
-				for (const texture of Object.values({ ...textures })) texture?.dispose();
-				for (const texture of Object.values({ ...finTextures })) texture?.dispose();
-			},
-		};
+		const colour = (!surface.geometry.hasAttribute('color') && own?.color) || new Color(1, 1, 1);
+		const together = object.matrix.equals(surface.matrix);
+		const skin = new Skin(object, pieces, together ? surface.geometry : undefined);
+		skin.cover(asset);
+		this.#options.skin?.(scene);
+		return { skin, surface, colour };
 	}
 
 	/** The node's mesh, with what the shaders of shells and fins can't do without. */
@@ -186,17 +157,13 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 			),
 		);
 		// In order, whichever came first: of several bad planes the first is named.
-		const images = files.map(({ role, name, bytes }) => ({
-			role,
-			name,
-			texels: decodePlane(name, bytes, extent.width, extent.height * extent.layers),
-		}));
-		const mips = mipLevels(
-			images.map(({ texels }) => texels),
-			extent,
-			coefficients,
-			view,
-		);
+		const images: { role: string; name: string; texels: Texels }[] = [];
+		for (const { role, name, bytes } of files) {
+			await turn();
+			images.push({ role, name, texels: decodePlane(name, bytes, extent.width, extent.height * extent.layers) });
+		}
+		const planes = images.map(({ texels }) => texels);
+		const mips = await unhurried(mipSteps(planes, extent, coefficients, view));
 		const textures: Record<string, Texture> = {};
 		for (const [p, { role, name }] of images.entries()) {
 			const levels = mips.flatMap((level) => level[p] ?? []);
@@ -225,6 +192,26 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 			throw new Error(`${definition.uri}: could not be loaded (${(error as Error).message})`);
 		}
 	}
+}
+
+/** Runs what would take long in steps, so that the page around it can draw meanwhile. */
+async function unhurried<T>(steps: Generator<void, T>): Promise<T> {
+	for (let step = steps.next(); ; step = steps.next()) {
+		if (step.done) return step.value;
+		await turn();
+	}
+}
+
+/** Lets what else is waiting go first. Timers would be slowed down in a hidden page, messages are not. */
+function turn(): Promise<void> {
+	return new Promise((resolve) => {
+		const { port1, port2 } = new MessageChannel();
+		port1.onmessage = () => {
+			port1.close();
+			resolve();
+		};
+		port2.postMessage(undefined);
+	});
 }
 
 function isMesh(object: Object3D | undefined): object is Mesh {

@@ -26,6 +26,8 @@ export interface FurMaterialParameters extends ShaderMaterialParameters {
 	tip?: Color;
 	/** Colour of the other tips, to which the mesh's attributes lead over. */
 	tip2?: Color;
+	/** How much of the way there the attributes lead, 0..1. */
+	tipShare?: number;
 	rampPower?: number;
 	/** Exponent of the highlights: 20 is matt, 200 wet. */
 	sharpness?: number;
@@ -33,6 +35,7 @@ export interface FurMaterialParameters extends ShaderMaterialParameters {
 	environment?: boolean;
 	gloss?: number;
 	backlight?: number;
+	density?: number;
 	lampsPerFragment?: boolean;
 	multisampled?: boolean;
 }
@@ -46,6 +49,7 @@ const MIRRORED = [
 	'root',
 	'tip',
 	'tip2',
+	'tipShare',
 	'rampPower',
 	'sharpness',
 ] as const satisfies (keyof FurMaterialParameters)[];
@@ -65,6 +69,7 @@ export class FurMaterial extends PeltMaterial {
 	declare root: Color;
 	declare tip: Color;
 	declare tip2: Color;
+	declare tipShare: number;
 	declare rampPower: number;
 	declare sharpness: number;
 
@@ -91,6 +96,7 @@ export class FurMaterial extends PeltMaterial {
 					root: { value: new Color(...ramp.root) },
 					tip: { value: new Color(...ramp.tip) },
 					tip2: { value: new Color(...ramp.tip2) },
+					tipShare: { value: 1 },
 					rampPower: { value: ramp.power },
 				},
 				defines: { MAX_SLANT: '6.0', HAIR: '0.2', LAYERS: asset.layers },

@@ -19,6 +19,7 @@ import { type Basis, channelOf } from './format.ts';
 import { BODY_RADIUS, horizonMoments, smoothSum } from './moments.ts';
 import body from './shaders/body.glsl?raw';
 import colour from './shaders/colour.glsl?raw';
+import density from './shaders/density.glsl?raw';
 import displacement from './shaders/displacement.glsl?raw';
 import lamps from './shaders/lamps.glsl?raw';
 import lightIn from './shaders/light.frag.glsl?raw';
@@ -83,6 +84,7 @@ export class PeltMaterial extends ShaderMaterial {
 				gloss: { value: 0 },
 				sharpness: { value: 60 },
 				backlight: { value: 0 },
+				density: { value: 1 },
 				...uniforms,
 			},
 			defines: {
@@ -96,7 +98,7 @@ export class PeltMaterial extends ShaderMaterial {
 				...defines,
 			},
 			vertexShader: [...lampChunks, body, displacement, sky, lightOut, colour, vertexShader].join('\n'),
-			fragmentShader: [...lampChunks, lightIn, ptm, colour, output, fragmentShader].join('\n'),
+			fragmentShader: [...lampChunks, lightIn, density, ptm, colour, output, fragmentShader].join('\n'),
 			transparent: true,
 			blending: CustomBlending,
 			blendSrc: OneFactor,
@@ -142,7 +144,7 @@ export class PeltMaterial extends ShaderMaterial {
 	}
 
 	set gloss(strength: number) {
-		this.#strength('gloss', strength);
+		this.#set('gloss', strength, strength > 0);
 	}
 
 	/** Strength of the light that comes through the hairs from behind; 0 costs nothing. */
@@ -151,7 +153,19 @@ export class PeltMaterial extends ShaderMaterial {
 	}
 
 	set backlight(strength: number) {
-		this.#strength('backlight', strength);
+		this.#set('backlight', strength, strength > 0);
+	}
+
+	/**
+	 * Hairs over those that were baked, 0.1 to 3: coverage α becomes 1 − (1 − α)^density, while texels keep the light that
+	 * they were baked with, shadows of the hairs that were there then. 1 costs nothing.
+	 */
+	get density(): number {
+		return this.uniforms.density?.value;
+	}
+
+	set density(ratio: number) {
+		this.#set('density', ratio, ratio !== 1);
 	}
 
 	/**
@@ -185,10 +199,11 @@ export class PeltMaterial extends ShaderMaterial {
 		}
 	}
 
-	#strength(name: 'gloss' | 'backlight', strength: number): void {
+	/** @param on whether there is anything to be seen of it */
+	#set(name: 'gloss' | 'backlight' | 'density', value: number, on: boolean): void {
 		const uniform = this.uniforms[name];
-		if (uniform) uniform.value = strength;
-		this.#switch(name.toUpperCase(), strength > 0);
+		if (uniform) uniform.value = value;
+		this.#switch(name.toUpperCase(), on);
 	}
 
 	/** Has a part of the shaders compiled in or left out, here and in what follows this material. */

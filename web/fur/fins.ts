@@ -7,7 +7,9 @@ import {
 	type Object3D,
 	Sphere,
 	Vector3,
+	type WebGLRenderer,
 } from 'three';
+import { beginClip, type Columns, endClip } from './clip.ts';
 import type { FinMaterial } from './FinMaterial.ts';
 import type { FurMaterial } from './FurMaterial.ts';
 
@@ -18,6 +20,9 @@ import type { FurMaterial } from './FurMaterial.ts';
  * are made before their shells and then take their place and their sphere, to the bit.
  */
 export class FurFins extends Mesh<BufferGeometry, FinMaterial> {
+	/** Columns of the picture in which they are drawn; undefined: all. */
+	clip: Columns | undefined;
+
 	/**
 	 * @param quads four vertices per edge with position (on the skin), normal, tangent (along the edge), uv (tiles along
 	 * the edge, height 0..1), _edge and _fur
@@ -41,9 +46,22 @@ export class FurFins extends Mesh<BufferGeometry, FinMaterial> {
 		this.position.copy(shells.position);
 		this.quaternion.copy(shells.quaternion);
 		this.scale.copy(shells.scale);
+		this.fit(shells);
+	}
+
+	/** Takes the shells' sphere, anew where their fur has another length. */
+	fit(shells: Mesh<BufferGeometry, FurMaterial>): void {
 		const { center, radius } = shells.geometry.boundingSphere ?? new Sphere(new Vector3(), Number.POSITIVE_INFINITY);
 		const longer = Math.max(this.material.finLength - 1, 0) * shells.material.furLength;
 		this.geometry.boundingSphere = new Sphere(center.clone(), radius + longer);
+	}
+
+	override onBeforeRender(renderer: WebGLRenderer): void {
+		beginClip(renderer, this.clip);
+	}
+
+	override onAfterRender(renderer: WebGLRenderer): void {
+		endClip(renderer, this.clip);
 	}
 
 	/** Frees the geometry; material and textures belong to the whole fur. */

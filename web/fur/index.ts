@@ -2,6 +2,7 @@
 
 export { type FurMethod, furMethod, type MethodOptions } from './baselines/method.ts';
 export { METHODS, type MethodName } from './baselines/names.ts';
+export type { Columns } from './clip.ts';
 export {
 	type EnvironmentLight,
 	environmentLight,
@@ -10,7 +11,8 @@ export {
 	visitEnvironment,
 } from './environment.ts';
 export { FinMaterial, type FinMaterialParameters } from './FinMaterial.ts';
-export { type Fur, type FurLoaderOptions, FurLoaderPlugin } from './FurLoaderPlugin.ts';
+export { type DressOptions, dress, Fur } from './Fur.ts';
+export { type FurLoaderOptions, FurLoaderPlugin } from './FurLoaderPlugin.ts';
 export { FurMaterial, type FurMaterialParameters } from './FurMaterial.ts';
 export { FurFins } from './fins.ts';
 export { type Basis, EXTENSION, type Fin, type FurAsset, type Pelt, VERSION } from './format.ts';

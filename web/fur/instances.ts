@@ -11,11 +11,13 @@ import {
 	type WebGLRenderer,
 } from 'three';
 import { cullBodies, cutLevels, levelOf, measurePowers, sortFarFirst } from './bodies.ts';
-import type { Fur } from './FurLoaderPlugin.ts';
+import type { Fur } from './Fur.ts';
+import { FurFins } from './fins.ts';
 import { BodyHull, BodyLevel, BodyMaterial } from './level.ts';
 import { cutFor, pixelsPerUnit, shellsFor } from './lod.ts';
 import { gatherPieces, type Piece } from './pieces.ts';
 import { Places } from './places.ts';
+import { FurShells } from './shells.ts';
 
 /** Most shells of a body of each level by default. */
 const LEVELS = [96, 48, 24, 12, 8] as const;
@@ -44,7 +46,8 @@ interface Skin {
  *     scene.add(herd);
  *
  * Geometry, textures and uniforms are the fur's: what is set there shows on all bodies, and it has to outlive them. Meshes
- * that stand beside the skin (eyes say) come along. The fur itself may be hidden, or in no scene.
+ * that stand beside the skin (eyes say) come along. The fur itself may be hidden, or in no scene. Of several furs of a body it
+ * has to be the visible one when they are made: the skin comes along as dark as it is below it.
  *
  * The renderer calls `update` before it draws, as it does with three's LOD. Bodies outside the camera's frustum (sphere of
  * skin and fur) are left out, the others are sorted and put into levels by the length of their fur on screen. The opaque
@@ -67,10 +70,10 @@ export class FurInstances extends Object3D {
 
 	readonly #fur: Fur;
 	/** Around one body and all its fur, in its own axes; radius of its shells. */
-	readonly #sphere: Sphere;
-	readonly #radius: number;
+	readonly #sphere = new Sphere();
+	#radius = 0;
 	/** Of the longest hairs and of a texel, in the body's axes. */
-	readonly #length: number;
+	#length = 0;
 	readonly #texel: number;
 	/** Shells' axes → body's. */
 	readonly #furMatrix: Matrix4;
@@ -116,16 +119,13 @@ export class FurInstances extends Object3D {
 		const { shells, fins, skin } = fur;
 		const root = skin.parent ?? skin;
 		this.#furMatrix = placement(shells, root);
-		const bounds = (fins ?? shells).geometry.boundingSphere ?? new Sphere();
-		this.#length = fur.asset.length;
-		this.#texel = this.#length / (fur.asset.height * fur.asset.size);
+		this.#texel = fur.asset.length / (fur.asset.height * fur.asset.size);
 		this.fewestShells = fur.asset.layers / 2;
-		this.#sphere = bounds.clone().applyMatrix4(this.#furMatrix);
-		this.#radius = (shells.geometry.boundingSphere?.radius ?? 0) * (this.#sphere.radius / bounds.radius);
+		this.#fit();
 
 		const meshes: Mesh[] = [];
 		root.traverse((part) => {
-			if (part !== shells && part !== fins && (part as Mesh).isMesh) meshes.push(part as Mesh);
+			if ((part as Mesh).isMesh && !(part instanceof FurShells || part instanceof FurFins)) meshes.push(part as Mesh);
 		});
 		this.#skins = gatherPieces(meshes, (mesh) => placement(mesh, root)).map((piece) => this.#makeSkin(piece));
 		this.#finMaterial = fins && new BodyMaterial(fins.material);
@@ -139,7 +139,17 @@ export class FurInstances extends Object3D {
 		this.#hull = new BodyHull(fur, (coarseFirst[0] as BodyLevel).shells.material, capacity, this.#bounds);
 		this.add(this.#hull);
 
-		for (let i = 0; i < capacity; i++) this.setMatrixAt(i, matrix.identity());
+		const home = new Matrix4();
+		for (let i = 0; i < capacity; i++) this.setMatrixAt(i, home);
+	}
+
+	/** Takes the length that the fur has now. */
+	#fit(): void {
+		const { shells, fins } = this.#fur;
+		const bounds = (fins ?? shells).geometry.boundingSphere ?? new Sphere();
+		this.#length = shells.furLength;
+		this.#sphere.copy(bounds).applyMatrix4(this.#furMatrix);
+		this.#radius = (shells.geometry.boundingSphere?.radius ?? 0) * (this.#sphere.radius / bounds.radius);
 	}
 
 	#makeSkin(piece: Piece): Skin {
@@ -176,6 +186,10 @@ export class FurInstances extends Object3D {
 		matrix.multiplyMatrices(given, this.#furMatrix).toArray(this.#furMatrices, 16 * i);
 		for (const { piece, matrices } of this.#skins)
 			matrix.multiplyMatrices(given, piece.matrix).toArray(matrices, 16 * i);
+		this.#place(i, given);
+	}
+
+	#place(i: number, given: Matrix4): void {
 		sphere.copy(this.#sphere).applyMatrix4(given);
 		sphere.center.toArray(this.#spheres, 4 * i);
 		this.#spheres[4 * i + 3] = sphere.radius;
@@ -194,6 +208,10 @@ export class FurInstances extends Object3D {
 	/** Chooses what the next draw by this camera shows. Both stand where their world matrices say. */
 	update(camera: Camera): void {
 		const count = this.#count;
+		if (this.#length !== this.#fur.shells.furLength) {
+			this.#fit();
+			for (let i = 0; i < this.capacity; i++) this.#place(i, this.getMatrixAt(i, matrix));
+		}
 		if (this.#moved) this.#measure();
 		matrix.multiplyMatrices(camera.matrixWorldInverse, this.matrixWorld);
 		clip.multiplyMatrices(camera.projectionMatrix, matrix);

@@ -11,8 +11,10 @@ import {
 	type Sphere,
 	UniformsLib,
 	UniformsUtils,
+	type WebGLRenderer,
 } from 'three';
-import type { Fur } from './FurLoaderPlugin.ts';
+import { beginClip, type Columns, endClip } from './clip.ts';
+import type { Fur } from './Fur.ts';
 import { Places } from './places.ts';
 
 /** The twin of a fur's material for many bodies: its uniforms are the very same but for its own and the lights. */
@@ -46,6 +48,8 @@ export class BodyMaterial extends ShaderMaterial {
 
 /** Instances of the bodies, `each` for every one of them, of a geometry that shares the vertices of another. */
 class Draw extends Mesh<InstancedBufferGeometry, ShaderMaterial> {
+	/** As of the fur. */
+	clip: Columns | undefined;
 	readonly #places: Places;
 	readonly #source: BufferGeometry;
 	readonly #each: number;
@@ -68,6 +72,14 @@ class Draw extends Mesh<InstancedBufferGeometry, ShaderMaterial> {
 		this.visible = count > 0;
 		this.#places.put(drawn, first, 1, count, matrices, moved);
 		this.geometry.instanceCount = count * this.#each;
+	}
+
+	override onBeforeRender(renderer: WebGLRenderer): void {
+		beginClip(renderer, this.clip);
+	}
+
+	override onAfterRender(renderer: WebGLRenderer): void {
+		endClip(renderer, this.clip);
 	}
 
 	/** Frees all but what the fur's own geometry has, too. */
@@ -127,6 +139,7 @@ export class BodyLevel {
 		const fur = this.#fur;
 		this.#material.follow();
 		this.shells.receiveShadow = fur.shells.receiveShadow;
+		this.shells.clip = fur.clip;
 		this.shells.put(drawn, first, count, matrices, moved);
 		const { array } = this.#details;
 		for (let i = 0; i < 2 * count; i++) {
@@ -137,6 +150,7 @@ export class BodyLevel {
 		}
 		if (!this.fins || !fur.fins) return;
 		this.fins.receiveShadow = fur.fins.receiveShadow;
+		this.fins.clip = fur.clip;
 		this.fins.put(drawn, first, fur.fins.visible ? count : 0, matrices, moved);
 	}
 

@@ -88,23 +88,33 @@ const VIEWS = [
  * coverages would composite as if they didn't. So coverage is what keeps the light that gets through: of the light that
  * comes down to the bundle, the share that it stops. What belongs to hairs is averaged by how much of them is seen.
  */
-export function mipLevels(
+export function mipLevels(planes: Texels[], extent: Extent, coefficients: number, view: View): Texels[][] {
+	const steps = mipSteps(planes, extent, coefficients, view);
+	let step = steps.next();
+	while (!step.done) step = steps.next();
+	return step.value;
+}
+
+/** The same bit by bit, a few milliseconds each: between them somebody else may have a turn. */
+export function* mipSteps(
 	planes: Texels[],
 	{ width, height, layers }: Extent,
 	coefficients: number,
 	{ cut, rise }: View,
-): Texels[][] {
+): Generator<void, Texels[][]> {
 	const { plane: alphaPlane, channel } = alphaChannel(coefficients);
 	const base = planes[alphaPlane] as Texels;
 	const alpha = Float32Array.from({ length: base.length / 4 }, (_, i) => (base[i * 4 + channel] as number) / 255);
 	const drawn = alpha.map((value) => (value < cut ? 0 : value));
-	const open = openness(drawn, { width, height, layers }, rise);
+	const open = yield* openness(drawn, { width, height, layers }, rise);
 	const seen = open.map((share, i) => share * (drawn[i] as number));
 
 	let level: Level = { width, height, planes: planes.map((plane) => Float32Array.from(plane)), alpha, open, seen };
 	const levels = [planes];
 	while (level.width > 1 || level.height > 1) {
+		yield;
 		level = halve(level, layers);
+		yield;
 		const { alpha: covered } = level;
 		levels.push(
 			level.planes.map((plane, p) =>
@@ -118,10 +128,15 @@ export function mipLevels(
 }
 
 /** Share of the light that gets down to each texel, mean over the views. */
-function openness(alpha: Float32Array, { width, height, layers }: Extent, rise: number): Float32Array {
+function* openness(
+	alpha: Float32Array,
+	{ width, height, layers }: Extent,
+	rise: number,
+): Generator<void, Float32Array> {
 	const open = new Float32Array(alpha.length);
 	const size = width * height;
 	for (const [slopeU, slopeV] of VIEWS) {
+		yield;
 		const shift = (slope: number, texels: number) => Math.round((slope * rise * texels) / layers);
 		const [right, down] = [shift(slopeU, width), shift(slopeV, height)];
 		let above = new Float32Array(size).fill(1);

@@ -1,5 +1,5 @@
 import {
-	type BufferGeometry,
+	BufferGeometry,
 	type Camera,
 	InstancedBufferGeometry,
 	Mesh,
@@ -10,6 +10,7 @@ import {
 	Vector4,
 	type WebGLRenderer,
 } from 'three';
+import { beginClip, type Columns, endClip } from './clip.ts';
 import { sharedComb } from './comb.ts';
 import type { FurMaterial } from './FurMaterial.ts';
 import type { FurAsset } from './format.ts';
@@ -30,13 +31,16 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 	automatic = true;
 	/** Spacing of automatic shells over what looks best: 2 draws half as many. */
 	coarseness = 1;
-	/** Of the longest hairs and of a texel, model units. */
-	readonly #length: number;
+	/** Columns of the picture in which they are drawn; undefined: all. */
+	clip: Columns | undefined;
+	/** Of a texel, model units. */
 	readonly #texel: number;
 	readonly #layers: number;
+	/** Of the surface below, the mesh's own units. */
+	readonly #radius: number;
 
 	/**
-	 * @param surface the skin's vertices with normal, tangent, uv (tiles), _fur, _comb and color
+	 * @param surface the skin's vertices with normal, tangent, uv (tiles), _fur, _comb and color; or other shells'
 	 * @param placement the node whose transform takes the surface's units to the model's; uniform scale
 	 */
 	constructor(surface: BufferGeometry, placement: Object3D, asset: FurAsset, material: FurMaterial) {
@@ -44,7 +48,7 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 		geometry.setIndex(surface.index);
 		for (const [name, attribute] of Object.entries(surface.attributes)) geometry.setAttribute(name, attribute);
 		super(geometry, material);
-		const comb = sharedComb(surface);
+		const comb = surface instanceof InstancedBufferGeometry ? undefined : sharedComb(surface);
 		if (comb) geometry.setAttribute('_comb', comb);
 		this.name = 'fur';
 		this.customDepthMaterial = new HullMaterial(material);
@@ -52,15 +56,30 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 		this.position.copy(placement.position);
 		this.quaternion.copy(placement.quaternion);
 		this.scale.copy(placement.scale);
-		material.furLength = asset.length / placement.scale.x;
 
-		surface.computeBoundingSphere();
-		const { center, radius } = surface.boundingSphere ?? new Sphere(new Vector3(), 0);
-		geometry.boundingSphere = new Sphere(center.clone(), radius + material.furLength);
+		const sphere = new Sphere();
+		const position = surface.getAttribute('position');
+		if (position) {
+			const points = new BufferGeometry().setAttribute('position', position);
+			points.computeBoundingSphere();
+			sphere.copy(points.boundingSphere ?? sphere);
+		}
+		this.#radius = sphere.radius;
+		geometry.boundingSphere = sphere;
 		const { size, layers, length, height } = asset;
 		this.#layers = layers;
-		this.#length = length;
 		this.#texel = length / (height * size);
+		this.furLength = length;
+	}
+
+	/** Longest fur, model units. */
+	get furLength(): number {
+		return this.material.furLength * this.scale.x;
+	}
+
+	set furLength(length: number) {
+		this.material.furLength = length / this.scale.x;
+		(this.geometry.boundingSphere as Sphere).radius = this.#radius + this.material.furLength;
 	}
 
 	/** How many shells are drawn, 1 to 256: any number, whatever the number of stored slabs, and between whole ones, too. */
@@ -89,9 +108,16 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 		const near = Math.max(away - radius * this.scale.x * unit, 0.1 * away);
 		const height = renderer.getCurrentViewport(viewport).w;
 		if (this.automatic)
-			this.#draw(shellsFor(this.#length * unit * pixelsPerUnit(camera, height, near), this.#layers) / this.coarseness);
+			this.#draw(
+				shellsFor(this.furLength * unit * pixelsPerUnit(camera, height, near), this.#layers) / this.coarseness,
+			);
 		this.material.alphaCut = cutFor(this.#texel * unit * pixelsPerUnit(camera, height, away));
 		this.material.uniformsNeedUpdate = true;
+		beginClip(renderer, this.clip);
+	}
+
+	override onAfterRender(renderer: WebGLRenderer): void {
+		endClip(renderer, this.clip);
 	}
 
 	/** One hull casts the shadow of all shells. */

@@ -107,7 +107,7 @@ export function makeRival(row: Row, torus: Torus, wardrobe: Wardrobe, extras: Ex
 	if (fins) scene.add(fins);
 	scene.add(shells);
 	const light = row.method === 'ptm3' || row.method === 'ptm-colour' ? 'ptm' : row.method;
-	const method = furMethod(light, { asset, textures, shells, fins, skin, dispose() {} });
+	const method = furMethod(light, { textures, shells, skin });
 	method.wear();
 	return {
 		row,

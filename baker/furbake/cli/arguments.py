@@ -131,7 +131,7 @@ def parser() -> argparse.ArgumentParser:
 def _bake_arguments(parser: _Parser) -> None:
     add = parser.add_argument
     unset: Any = argparse.SUPPRESS
-    add("model", metavar="MODEL", type=_path, help="a mesh file, or sphere, plane, torus, torus:RxC")
+    add("model", metavar="MODEL", type=_path, help="a mesh file, or sphere, plane, plane:RxC, torus, torus:RxC")
     add("-o", "--out", metavar="DIR", required=True, type=_path, help="folder to write, whole or not at all")
     _preset_arguments(parser, "paper")
     add("--layers", type=_whole, default=unset, metavar="K", help="slabs of the tile, 1 to 64")

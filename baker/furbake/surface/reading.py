@@ -39,7 +39,7 @@ def read(path: Path) -> Reading:
         if path.is_dir():
             raise MeshError(f"{name}: is a folder, expected a mesh file")
         if not path.exists():
-            raise MeshError(f"{name}: no such file, expected a mesh file or sphere, plane, torus, torus:RxC")
+            raise MeshError(f"{name}: no such file, expected a mesh file or sphere, plane, plane:RxC, torus, torus:RxC")
         if path.stat().st_size == 0:
             raise MeshError(f"{name}: 0 bytes, expected a mesh file")
         with path.open("rb"):

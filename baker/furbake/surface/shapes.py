@@ -1,4 +1,4 @@
-"""Built-in surfaces, right-handed, y up: `sphere`, `plane`, `torus` and `torus:RxC`."""
+"""Built-in surfaces, right-handed, y up: `sphere`, `plane`, `plane:RxC`, `torus` and `torus:RxC`."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from furbake.surface.mesh import MeshError, Surface
 from furbake.surface.topology import unit
 
 NAMES = ("sphere", "plane", "torus")
-FEWEST, MOST = 3, 1024
-"""Rows and columns of a torus."""
+FEWEST, MOST = {"plane": 1, "torus": 3}, 1024
+"""Rows and columns."""
 
 SUBDIVISIONS = 4
 """Of the sphere's icosahedron: 20·4⁴ = 5 120 triangles."""
 
 CELLS = 16
-"""Squares along each side of the plane: 512 triangles."""
+"""Squares along each side of the default plane: 512 triangles."""
 
 RING, TUBE = 0.7, 0.3
 """Radii of the torus, model units; its largest side is 2."""
@@ -30,7 +30,7 @@ ROWS, COLUMNS = 48, 96
 
 def is_builtin(name: str) -> bool:
     """Whether `name` means a built-in shape (well formed or not), not a file."""
-    return name in NAMES or name.startswith("torus:")
+    return name in NAMES or name.startswith(("plane:", "torus:"))
 
 
 def builtin(name: str) -> Surface:
@@ -38,16 +38,19 @@ def builtin(name: str) -> Surface:
     if name == "sphere":
         return sphere()
     if name == "plane":
-        return plane()
+        return plane(CELLS, CELLS)
     if name == "torus":
         return torus(ROWS, COLUMNS)
-    size = re.fullmatch(r"torus:(\d{1,9})x(\d{1,9})", name, re.ASCII)
+    size = re.fullmatch(r"(plane|torus):(\d{1,9})x(\d{1,9})", name, re.ASCII)
     if not size:
-        raise MeshError(f"{name}: no such built-in, expected sphere, plane, torus or torus:RxC as in torus:48x96")
-    rows, columns = int(size[1]), int(size[2])
-    if not (FEWEST <= rows <= MOST and FEWEST <= columns <= MOST):
-        raise MeshError(f"{name}: {rows} rows and {columns} columns, expected {FEWEST} to {MOST} of each")
-    return torus(rows, columns)
+        raise MeshError(
+            f"{name}: no such built-in, expected sphere, plane, torus, or plane:RxC or torus:RxC as in torus:48x96"
+        )
+    shape, rows, columns = size[1], int(size[2]), int(size[3])
+    fewest = FEWEST[shape]
+    if not (fewest <= rows <= MOST and fewest <= columns <= MOST):
+        raise MeshError(f"{name}: {rows} rows and {columns} columns, expected {fewest} to {MOST} of each")
+    return (plane if shape == "plane" else torus)(rows, columns)
 
 
 def sphere() -> Surface:
@@ -57,12 +60,12 @@ def sphere() -> Surface:
     return Surface(vertices, np.asarray(ball.faces, dtype=np.int64), unit(vertices))
 
 
-def plane() -> Surface:
+def plane(rows: int, columns: int) -> Surface:
     """Square of side 1 in x and z that faces +y. u grows along +x, v along -z: from the nose to the tail."""
-    u, v = _lattice(CELLS, CELLS)
+    u, v = _lattice(rows, columns)
     vertices = np.stack([u - 0.5, np.zeros_like(u), 0.5 - v], axis=1)
     count = len(vertices)
-    faces = _cells(CELLS, CELLS)
+    faces = _cells(rows, columns)
     tangents = np.tile([1.0, 0.0, 0.0, 1.0], (count, 1))
     natural = Natural(np.arange(count), faces, tangents, np.stack([u, v], axis=1), (1.0, 1.0), (False, False))
     return Surface(vertices, faces, np.tile([0.0, 1.0, 0.0], (count, 1)), natural)

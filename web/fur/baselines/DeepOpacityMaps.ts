@@ -25,7 +25,7 @@ import {
 	type WebGLRenderer,
 	WebGLRenderTarget,
 } from 'three';
-import type { Fur } from '../FurLoaderPlugin.ts';
+import type { Fur } from '../Fur.ts';
 import type { FurMaterial } from '../FurMaterial.ts';
 import body from '../shaders/body.glsl?raw';
 import displacement from '../shaders/displacement.glsl?raw';
@@ -49,7 +49,7 @@ export interface MapOptions {
 const BYTE_OPACITY = 8;
 
 /** What the maps depend on, beside the light's direction and the fur's transform: uniforms, textures, attributes. */
-const WATCHED = ['furLength', 'shellCount', 'firstShell', 'tiles'] as const;
+const WATCHED = ['furLength', 'shellCount', 'firstShell', 'tiles', 'density'] as const;
 const PLANES = ['plane0', 'plane1'] as const;
 const MOVING = ['position', '_fur', '_comb'] as const;
 
@@ -70,7 +70,7 @@ export class DeepOpacityMaps {
 	};
 	/** World space → XY of the maps, Z = depth in them, all 0..1. */
 	readonly mapFromWorld = new Matrix4();
-	readonly #fur: Fur;
+	readonly #fur: Pick<Fur, 'shells' | 'skin'>;
 	readonly #shells: FurMaterial;
 	readonly #options: Required<MapOptions>;
 	readonly #camera = new OrthographicCamera();
@@ -90,7 +90,11 @@ export class DeepOpacityMaps {
 	readonly #from = new Vector3();
 	readonly #clear = new Color();
 
-	constructor(fur: Fur, shells: FurMaterial, { size = 512, halfFloat = true }: MapOptions = {}) {
+	constructor(
+		fur: Pick<Fur, 'shells' | 'skin'>,
+		shells: FurMaterial,
+		{ size = 512, halfFloat = true }: MapOptions = {},
+	) {
 		this.#fur = fur;
 		this.#shells = shells;
 		this.#options = { size, halfFloat };

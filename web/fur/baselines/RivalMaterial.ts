@@ -1,7 +1,17 @@
-import { Material, ShaderMaterial, type ShaderMaterialParameters, UniformsLib, UniformsUtils } from 'three';
+import {
+	type Camera,
+	Material,
+	type Scene,
+	ShaderMaterial,
+	type ShaderMaterialParameters,
+	UniformsLib,
+	UniformsUtils,
+	type WebGLRenderer,
+} from 'three';
 import type { FurMaterial } from '../FurMaterial.ts';
 import body from '../shaders/body.glsl?raw';
 import colour from '../shaders/colour.glsl?raw';
+import density from '../shaders/density.glsl?raw';
 import displacement from '../shaders/displacement.glsl?raw';
 import hairIn from '../shaders/hair.frag.glsl?raw';
 import hairOut from '../shaders/hair.vert.glsl?raw';
@@ -13,8 +23,8 @@ import coverage from './coverage.glsl?raw';
 
 /**
  * The shells of a FurMaterial in another light: geometry, coverage, colour, blending and output are the same chunks with the
- * same uniforms, so that only the light differs, and what is set on either holds for both. Switches of the FurMaterial that
- * compile something in or out, and its blending, are taken as they stand when the rival is made.
+ * same uniforms, so that only the light differs, and what is set on either holds for both, density included. Other switches
+ * of the FurMaterial that compile something in or out, and its blending, are taken as they stand when the rival is made.
  */
 export class RivalMaterial extends ShaderMaterial {
 	/**
@@ -30,7 +40,9 @@ export class RivalMaterial extends ShaderMaterial {
 			uniforms: { ...shells.uniforms, ...UniformsUtils.clone(UniformsLib.lights), ...uniforms },
 			defines: { ...shells.defines, ...defines },
 			vertexShader: ['#include <common>', view, body, displacement, shell, colour, hairOut, vertexShader].join('\n'),
-			fragmentShader: ['#include <common>', coverage, opacity, colour, hairIn, output, fragmentShader].join('\n'),
+			fragmentShader: ['#include <common>', density, coverage, opacity, colour, hairIn, output, fragmentShader].join(
+				'\n',
+			),
 		});
 		// Blending, depth and the like: those of every material, no shaders.
 		Material.prototype.copy.call(this, shells);
@@ -39,5 +51,23 @@ export class RivalMaterial extends ShaderMaterial {
 			if (get && set) Object.defineProperty(this, name, { enumerable: true, get, set });
 		}
 		this.setValues(parameters);
+	}
+
+	/** As of the shells. */
+	get density(): number {
+		return this.shells.density;
+	}
+
+	set density(ratio: number) {
+		this.shells.density = ratio;
+	}
+
+	/** Has the density compiled in where the shells have. */
+	override onBeforeRender(_renderer: WebGLRenderer, _scene: Scene, _camera: Camera): void {
+		const on = 'DENSITY' in this.shells.defines;
+		if (on === 'DENSITY' in this.defines) return;
+		if (on) this.defines.DENSITY = '';
+		else delete this.defines.DENSITY;
+		this.needsUpdate = true;
 	}
 }

@@ -37,7 +37,8 @@ export class ShadowLayersMaterial extends RivalMaterial {
 		this.uniforms.mapFromView = { value: this.#mapFromView };
 	}
 
-	override onBeforeRender(_renderer: WebGLRenderer, _scene: Scene, camera: Camera): void {
+	override onBeforeRender(renderer: WebGLRenderer, scene: Scene, camera: Camera): void {
+		super.onBeforeRender(renderer, scene, camera);
 		this.#mapFromView.multiplyMatrices(this.#maps.mapFromWorld, camera.matrixWorld);
 	}
 }

@@ -13,8 +13,9 @@ uniform sampler2DArray plane0; // (a0, a1, a2, α)
 // X = coverage of a slab of the baked thickness, seen from straight above; Y = tint.
 vec2 furCoverage(vec3 at) {
 #ifdef TWO_PLANES
-	return texture(plane1, at, LOD_BIAS).zw;
+	vec2 hair = texture(plane1, at, LOD_BIAS).zw;
+	return vec2(denser(hair.x), hair.y);
 #else
-	return vec2(texture(plane0, at, LOD_BIAS).w, 1.0);
+	return vec2(denser(texture(plane0, at, LOD_BIAS).w), 1.0);
 #endif
 }

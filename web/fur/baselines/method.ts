@@ -1,5 +1,5 @@
 import type { DirectionalLight, Mesh, WebGLRenderer } from 'three';
-import type { Fur } from '../FurLoaderPlugin.ts';
+import type { Fur } from '../Fur.ts';
 import type { FurMaterial } from '../FurMaterial.ts';
 import { DeepOpacityMaps, type MapOptions } from './DeepOpacityMaps.ts';
 import { LengyelMaterial, type LocalLight } from './LengyelMaterial.ts';
@@ -13,6 +13,9 @@ export interface MethodOptions extends LocalLight, MapOptions {
 	/** Of `unlit`: radiance of a white hair. */
 	brightness?: number;
 }
+
+/** What a method has to know of a fur. */
+export type Coat = Pick<Fur, 'shells' | 'skin' | 'textures'>;
 
 /** A way to light the shells of a fur. */
 export interface FurMethod {
@@ -39,7 +42,7 @@ export interface FurMethod {
  *     method.before(renderer, light);
  *     renderer.render(scene, camera);
  */
-export function furMethod(name: MethodName, fur: Fur, given: MethodOptions = {}): FurMethod {
+export function furMethod(name: MethodName, fur: Coat, given: MethodOptions = {}): FurMethod {
 	const options = { direction: fur.textures.direction, ...given };
 	const mesh: Mesh = fur.shells;
 	const worn = mesh.material;

@@ -5,6 +5,7 @@ uniform vec3 skinColour; // the model's own base colour
 uniform vec3 root; // at the skin
 uniform vec3 tip;
 uniform vec3 tip2; // of the other tips
+uniform float tipShare; // how much of the way there the attributes lead, 0..1
 uniform float rampPower;
 
 // tipShare: from tip to tip2; s = 0 at the skin, 1 at the tip.

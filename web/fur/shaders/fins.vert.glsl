@@ -4,6 +4,7 @@ layout(location = 13) in vec4 _fur; // as of the shells
 layout(location = 15) in vec4 _edge; // XY = angles of the two faces' normals about the edge, over π; ZW = comb along the edge and across it
 
 uniform float tiles; // texture coordinates → tiles
+uniform float finHeights; // of the second one → heights
 uniform float finLength; // lengths of the fur here
 
 out vec2 vAt; // tiles along the edge, height
@@ -32,13 +33,13 @@ void main() {
 	float broadside = dot(across, viewer);
 	vFade = finFade(cos(angle) * dot(upright, viewer) + sin(angle) * broadside, broadside);
 
-	vAt = uv * tiles;
+	vAt = uv * vec2(tiles, finHeights);
 	// Where nothing is to be seen the quad falls onto its root, and no fragment is left of it.
 	float s = vFade > 0.0 ? min(vAt.y, 1.0) : 0.0;
 	vec3 comb = frame * vec3(_edge.z, 0.0, _edge.w);
 	vec3 pointVS = (placement * vec4(furPoint(position, n, comb, _fur.y * finLength, s), 1.0)).xyz;
 	gl_Position = projectionMatrix * vec4(pointVS, 1.0);
-	vSkin = vec4(skinColour * color.rgb, _fur.w);
+	vSkin = vec4(skinColour * color.rgb, tipShare * _fur.w);
 	if (vFade > 0.0) {
 		vec3 tip = position + n * (furLength * _fur.y);
 		passLight(FurPoint(turn * furBend(n, comb, s) * frame, pointVS, (bodyModel() * vec4(tip, 1.0)).xyz, s), _fur.z);

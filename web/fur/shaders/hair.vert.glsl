@@ -9,9 +9,9 @@ out float vHeight; // 0 at the skin, 1 at the tip
 void passColour(ShellPoint shell) {
 	vColour = skinColour * color.rgb;
 #ifdef COLOUR_PLANE
-	vTip2 = _fur.w;
+	vTip2 = tipShare * _fur.w;
 	vHeight = shell.s;
 #else
-	vColour *= furRamp(_fur.w, shell.s);
+	vColour *= furRamp(tipShare * _fur.w, shell.s);
 #endif
 }

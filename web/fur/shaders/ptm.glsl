@@ -30,10 +30,10 @@ FurTexel furTexel(vec3 at) {
 #ifdef TWO_PLANES
 	vec4 byte1 = texture(plane1, at, LOD_BIAS);
 	texel.high = vec3(byte1.xy * scale1 + offset1, a.w);
-	texel.alpha = byte1.z;
+	texel.alpha = denser(byte1.z);
 	texel.tint = byte1.w;
 #else
-	texel.alpha = byte0.w;
+	texel.alpha = denser(byte0.w);
 	texel.tint = 1.0;
 #endif
 	return texel;

@@ -1,0 +1,229 @@
+/** Runs inside the page: furs of one body that take turns or share the picture. Its answers go to `dress.spec.ts`. */
+
+import {
+	Color,
+	DirectionalLight,
+	FloatType,
+	HemisphereLight,
+	PerspectiveCamera,
+	Scene,
+	WebGLRenderer,
+	WebGLRenderTarget,
+} from 'three';
+import { loadFur, renderFloats } from '../../web/bench/studio.ts';
+import { dress, type Fur, FurInstances, furMethod } from '../../web/fur/index.ts';
+
+const SIZE = 120;
+const renderer = new WebGLRenderer({ antialias: false });
+const gl = renderer.getContext() as WebGL2RenderingContext;
+
+/** A furry body alone, lit from the left and by the sky. */
+class Scenery {
+	readonly scene = new Scene();
+	readonly lamp = new DirectionalLight(0xffffff, 6);
+	readonly camera = new PerspectiveCamera(20, 1, 0.1, 100);
+	readonly #target = new WebGLRenderTarget(SIZE, SIZE, { type: FloatType });
+
+	constructor(readonly body: Fur) {
+		this.lamp.position.set(-1, 0.6, 0.6);
+		this.scene.add(this.lamp, this.lamp.target, new HemisphereLight(0xffffff, 0x808080, 2));
+		this.scene.add(body.skin.parent ?? body.skin);
+		this.camera.position.set(0, 1, 8);
+		this.camera.lookAt(0, 0, 0);
+		body.shells.shellCount = 8;
+	}
+
+	draw(): Float32Array {
+		return renderFloats(renderer, this.scene, this.camera, this.#target);
+	}
+
+	dispose(): void {
+		this.#target.dispose();
+	}
+}
+
+/** Peak signal to noise, decibels, of premultiplied pixels in 0..1. */
+function psnr(a: Float32Array, b: Float32Array): number {
+	const sum = a.reduce((total, value, i) => total + (value - (b[i] ?? Number.NaN)) ** 2, 0);
+	return -10 * Math.log10(sum / a.length);
+}
+
+/** Largest difference in some columns of the picture, [first, last). */
+function apart(a: Float32Array, b: Float32Array, first = 0, last = SIZE): number {
+	let worst = 0;
+	a.forEach((value, i) => {
+		const column = (i >> 2) % SIZE;
+		if (column >= first && column < last) worst = Math.max(worst, Math.abs(value - (b[i] ?? Number.NaN)));
+	});
+	return worst;
+}
+
+/** Sum of coverage, pixels. */
+const covered = (pixels: Float32Array) => pixels.reduce((sum, value, i) => sum + (i % 4 === 3 ? value : 0), 0);
+
+/** Pixels in which there is anything. */
+const outline = (pixels: Float32Array) => pixels.filter((value, i) => i % 4 === 3 && value > 0.05).length;
+
+/** A body in a pelt of its own and in another one, and undressed again. */
+export async function wardrobe(body: string, same: string, other: string) {
+	const [own, twin, pelt] = await Promise.all([body, same, other].map((url) => loadFur(url)));
+	if (!own || !twin || !pelt) throw new Error('nothing to wear');
+	const stage = new Scenery(own);
+	const first = stage.draw();
+	own.visible = false;
+	const bare = stage.draw();
+	const alike = dress(own, twin);
+	alike.shells.shellCount = 8;
+	const again = stage.draw();
+	const bunny = { tiles: alike.asset.tiles, length: alike.asset.length, expected: own.asset };
+	alike.visible = false;
+	const fox = dress(own, pelt, { tips: 0.5 });
+	fox.shells.shellCount = 8;
+	const foxy = stage.draw();
+	const lengyel = furMethod('lengyel', fox);
+	lengyel.wear();
+	const local = stage.draw();
+	lengyel.dispose();
+	const herd = new FurInstances(fox, 1, [8]);
+	herd.height = SIZE;
+	own.skin.parent?.removeFromParent();
+	stage.scene.add(herd);
+	const one = stage.draw();
+	herd.dispose();
+	stage.scene.add(own.skin.parent ?? own.skin);
+	fox.visible = false;
+	own.visible = true;
+	const last = stage.draw();
+	const textures = renderer.info.memory.textures;
+	fox.dispose();
+	alike.dispose();
+	const kept = renderer.info.memory.textures === textures && apart(stage.draw(), first) === 0;
+	for (const fur of [pelt, own, twin]) fur.dispose();
+	stage.dispose();
+	return {
+		alike: psnr(again, first),
+		bunny,
+		bareIsSmaller: outline(bare) < 0.9 * outline(first),
+		other: psnr(foxy, first),
+		method: psnr(local, foxy),
+		herd: psnr(one, foxy),
+		last: apart(last, first),
+		kept,
+		error: gl.getError(),
+	};
+}
+
+/** One body whose two furs, white and dark, meet at a column. */
+export async function split(url: string, at: number) {
+	const white = await loadFur(url);
+	const stage = new Scenery(white);
+	const dark = dress(white, white);
+	dark.shells.shellCount = 8;
+	for (const name of ['root', 'tip', 'tip2'] as const) white.material[name] = new Color(1, 1, 1);
+	const shown = (...furs: Fur[]) => {
+		for (const fur of [white, dark]) fur.visible = furs.includes(fur);
+		return stage.draw();
+	};
+	const [left, right, bare] = [shown(white), shown(dark), shown()];
+	white.clip = { from: 0, to: at };
+	dark.clip = { from: at, to: 1 };
+	const both = shown(white, dark);
+	// In half of the canvas only, by the renderer's own scissor.
+	const half = new WebGLRenderTarget(SIZE, SIZE, { type: FloatType });
+	half.scissor.set(0, 0, SIZE, SIZE / 2);
+	half.scissorTest = true;
+	const part = renderFloats(renderer, stage.scene, stage.camera, half);
+	const rows = (pixels: Float32Array, first: number, last: number) =>
+		pixels.subarray(first * SIZE * 4, last * SIZE * 4);
+	white.clip = dark.clip = undefined;
+	const whole = shown(dark);
+	const column = Math.round(at * SIZE);
+	const differences = {
+		left: apart(both, left, 0, column),
+		right: apart(both, right, column),
+		swapped: apart(left, right),
+		bare: apart(left, bare),
+		whole: apart(whole, right),
+		lower: apart(rows(part, 0, SIZE / 2), rows(both, 0, SIZE / 2)),
+		upper: Math.max(...rows(part, SIZE / 2, SIZE)),
+	};
+	dark.dispose();
+	white.dispose();
+	half.dispose();
+	stage.dispose();
+	return { differences, error: gl.getError() };
+}
+
+/** How much of the picture fur covers, by density and by length, and by methods that were made before and after. */
+export async function cover(url: string) {
+	const fur = await loadFur(url);
+	const stage = new Scenery(fur);
+	fur.skin.visible = false;
+	const { material } = fur;
+	const dense = (density: number) => {
+		material.density = density;
+		return stage.draw();
+	};
+	const densities = [0.4, 1, 2].map((density) => covered(dense(density)));
+	const light = [1, 2].map((density) => {
+		const pixels = dense(density);
+		return pixels.reduce((sum, value, i) => sum + (i % 4 === 3 ? 0 : value), 0) / (3 * covered(pixels));
+	});
+	const before = furMethod('lengyel', fur);
+	material.density = 2;
+	const after = furMethod('lengyel', fur);
+	const methods = [before, after].map((method) => {
+		method.wear();
+		return stage.draw();
+	});
+	material.density = 1;
+	const thin = stage.draw();
+	const maps = furMethod('shadow-layers', fur);
+	maps.wear();
+	maps.before(renderer, stage.lamp);
+	const shaded = stage.draw();
+	fur.shells.material.density = 2;
+	const drawn = maps.before(renderer, stage.lamp);
+	const shadedMore = stage.draw();
+	for (const method of [before, after, maps]) method.dispose();
+	const densityByRival = material.density;
+	material.density = 1;
+
+	fur.shells.automatic = true;
+	const lengths = [0.5, 1, 1.5].map((length) => {
+		fur.length = length;
+		const pixels = stage.draw();
+		return {
+			outline: outline(pixels),
+			shells: fur.shells.shellCount,
+			radius: fur.shells.geometry.boundingSphere?.radius ?? 0,
+			fins: fur.fins?.geometry.boundingSphere?.radius ?? 0,
+		};
+	});
+	fur.shells.shellCount = 8;
+	fur.length = 1;
+	const root = fur.skin.parent ?? fur.skin;
+	const herd = new FurInstances(fur, 1, [8]);
+	herd.height = SIZE;
+	root.removeFromParent();
+	stage.scene.add(herd);
+	const herds = [1, 0.5].map((length) => {
+		fur.length = length;
+		return outline(stage.draw());
+	});
+	herd.dispose();
+	fur.dispose();
+	stage.dispose();
+	return {
+		densities,
+		light,
+		rivals: {
+			same: apart(...(methods as [Float32Array, Float32Array])),
+			thinner: covered(thin) / covered(methods[0] as Float32Array),
+		},
+		maps: { drawn, denser: covered(shadedMore) / covered(shaded), densityByRival },
+		lengths,
+		herds,
+		error: gl.getError(),
+	};
+}

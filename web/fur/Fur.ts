@@ -1,0 +1,177 @@
+import { BufferGeometry, type Color, Object3D } from 'three';
+import type { Columns } from './clip.ts';
+import { FinMaterial } from './FinMaterial.ts';
+import { FurMaterial } from './FurMaterial.ts';
+import { FurFins } from './fins.ts';
+import type { FurAsset, Pelt } from './format.ts';
+import type { FurTextures } from './PeltMaterial.ts';
+import { FurShells } from './shells.ts';
+import type { Skin } from './skin.ts';
+
+/** What a body brings to a fur: what it stands on, and what is seen between its hairs. */
+export interface Ground {
+	skin: Skin;
+	/** Base colour of the model, which multiplies the fur's. */
+	colour: Color;
+	/** What the shells stand on, the node that it belongs to, and what the fins stand on. */
+	surface: BufferGeometry;
+	placement: Object3D;
+	quads: BufferGeometry | undefined;
+	/** Node of the quads, where its axes may be others than the shells'. */
+	quadPlacement: Object3D | undefined;
+	/** What the fins' second texture coordinate is multiplied by to be 1 at their tips. */
+	finHeights: number;
+}
+
+/** Shells, fins and the shade of the skin below them: `gltf.userData.fur` of a loaded asset, or made by `dress`. */
+export class Fur {
+	readonly asset: FurAsset;
+	/** What the shells are drawn with, and what else the asset holds of them; the fins', where it has some. */
+	readonly textures: FurTextures;
+	readonly finTextures: FurTextures | undefined;
+	/** The shells' own, whatever method they wear. */
+	readonly material: FurMaterial;
+	/** Drawn in the scene beside the skin. */
+	readonly shells: FurShells;
+	/** What makes the outline, drawn before the shells; the shells show without it, too: `fins.visible = false`. */
+	readonly fins: FurFins | undefined;
+	/** The body: a mesh, or a group of one for each material. */
+	readonly skin: Object3D;
+	readonly ground: Ground;
+	readonly #parts = new Object3D();
+	readonly #release: () => void;
+	#length = 1;
+	#clip: Columns | undefined;
+
+	/** @param release frees what this fur alone has beside its materials, its geometry included */
+	constructor(
+		asset: FurAsset,
+		textures: FurTextures,
+		finTextures: FurTextures | undefined,
+		ground: Ground,
+		release: () => void,
+	) {
+		const { skin, surface, placement, quads, quadPlacement, colour, finHeights } = ground;
+		const { fin } = asset.pelts[0] as Pelt;
+		this.asset = asset;
+		this.textures = textures;
+		this.finTextures = finTextures;
+		this.ground = ground;
+		this.skin = skin.object;
+		this.#release = release;
+		this.material = new FurMaterial(asset, textures, { skinColour: colour.clone() });
+		this.fins =
+			fin && quads && finTextures
+				? new FurFins(quads, new FinMaterial(fin, finTextures, this.material, { finHeights }))
+				: undefined;
+		this.shells = new FurShells(surface, placement, asset, this.material);
+		this.fins?.join(this.shells, quadPlacement ?? this.shells);
+		this.#parts.name = 'fur of a body';
+		for (const part of [this.fins, this.shells]) if (part) this.#parts.add(part);
+		this.skin.parent?.add(this.#parts);
+		skin.cover(asset);
+	}
+
+	/** Whether it is seen, and the skin as dark as below it: of several furs of a body below the one that was shown last. */
+	get visible(): boolean {
+		return this.#parts.visible;
+	}
+
+	set visible(on: boolean) {
+		this.#parts.visible = on;
+		if (on) this.ground.skin.cover(this.asset);
+		else this.ground.skin.bare(this.asset);
+	}
+
+	/** How long it is, share of what was baked, 0.1 to 2. */
+	get length(): number {
+		return this.#length;
+	}
+
+	set length(share: number) {
+		this.#length = share;
+		this.shells.furLength = share * this.asset.length;
+		this.fins?.fit(this.shells);
+	}
+
+	/**
+	 * Columns of the picture within which shells and fins are drawn, undefined: all. So two furs of a body, in other light
+	 * each, share one render of the scene.
+	 */
+	get clip(): Columns | undefined {
+		return this.#clip;
+	}
+
+	set clip(columns: Columns | undefined) {
+		this.#clip = columns;
+		for (const part of [this.fins, this.shells]) if (part) part.clip = columns;
+	}
+
+	/** Frees geometry, materials and textures; of a dressed body the materials alone, the rest is the body's and the pelt's. */
+	readonly dispose = (): void => {
+		this.#parts.removeFromParent();
+		this.ground.skin.bare(this.asset);
+		this.#release();
+		for (const part of [this.fins, this.shells]) {
+			part?.dispose();
+			part?.material.dispose();
+		}
+		this.material.dispose();
+	};
+}
+
+/** Another geometry of the same vertices. */
+function shareGeometry(source: BufferGeometry): BufferGeometry {
+	const into = new BufferGeometry();
+	into.setIndex(source.index);
+	for (const [name, attribute] of Object.entries(source.attributes)) into.setAttribute(name, attribute);
+	return into;
+}
+
+/** To be called before such a geometry is disposed of: it would take the vertices off the GPU with it. */
+function unshareGeometry(geometry: BufferGeometry): void {
+	geometry.setIndex(null);
+	for (const name of Object.keys(geometry.attributes)) geometry.deleteAttribute(name);
+}
+
+export interface DressOptions {
+	/** How far the body's second tip colour shows (on its belly, in patches), 0..1: 0 for a pelt that is the same all over. */
+	tips?: number;
+}
+
+/**
+ * A body in the fur of another asset: its meshes in the other's planes, basis, colours, light curves, as long on this body
+ * and in tiles of such a size as the other has them on its own, each measured by its largest side.
+ *
+ *     const fox = dress(bunny, pelt); // both loaded: `gltf.userData.fur`
+ *     bunny.visible = false;
+ *
+ * It stands beside the body's own fur, looks as that does at the moment (gloss and the like), and is seen. It has the body's geometry and the pelt's textures, and leaves them alone
+ * when it is disposed of: body and pelt have to outlive it, the pelt's model needs no scene. How fur is combed and how its
+ * length changes from place to place is the body's. Texture coordinates that the body was baked with (`--uv own`) may show a
+ * seam where they close; lapped ones don't.
+ */
+export function dress(body: Fur, pelt: Fur, { tips = 1 }: DressOptions = {}): Fur {
+	const { ground } = body;
+	const length = (pelt.asset.length * ground.skin.extent) / pelt.ground.skin.extent;
+	const tile = length / pelt.asset.height;
+	const { skin, shells, fins } = body.asset;
+	const { fins: _, ...own } = pelt.asset;
+	const tiles = ((body.asset.tiles ?? 1) * (body.asset.length / body.asset.height)) / tile;
+	const asset: FurAsset = { ...own, skin, shells, tiles, length, ...(fins !== undefined && { fins }) };
+	const quads = body.fins && shareGeometry(body.fins.geometry);
+	const dressed = new Fur(
+		asset,
+		pelt.textures,
+		pelt.finTextures,
+		{ ...ground, surface: body.shells.geometry, quads, quadPlacement: undefined },
+		() => {
+			unshareGeometry(dressed.shells.geometry);
+			if (quads) unshareGeometry(quads);
+		},
+	);
+	const { gloss, sharpness, backlight, environment, lampsPerFragment, multisampled } = body.material;
+	const look = { gloss, sharpness, backlight, environment, lampsPerFragment, multisampled };
+	Object.assign(dressed.material, look, { tipShare: tips });
+	return dressed;
+}
