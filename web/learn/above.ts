@@ -1,6 +1,6 @@
 /** A whole square of fur as six numbers: what it looks like from straight above is as linear in the light as each texel. */
 
-import type { DataArrayTexture, Texture } from 'three';
+import type { CompressedArrayTexture, Texture } from 'three';
 import { evaluateBasis, type Fur } from '../fur/index.ts';
 
 /** Plane and channel of each coefficient of six, and of α. */
@@ -53,9 +53,10 @@ function coverage({ size, layers }: Fur['asset'], plane1: Uint8Array): number {
 	return 1 - open / texels;
 }
 
-/** Bytes of a plane as they are stored, without its mip levels. */
+/** Bytes of a plane as they are stored, layer after layer, the lowest first; not those of its mip levels. */
 export function bytesOf(texture: Texture | undefined): Uint8Array {
-	return ((texture as DataArrayTexture | undefined)?.image.data as Uint8Array | undefined) ?? new Uint8Array();
+	const levels = (texture as CompressedArrayTexture | undefined)?.mipmaps;
+	return (levels?.[0]?.data as Uint8Array | undefined) ?? new Uint8Array();
 }
 
 /** L of six coefficients under a light. @param light unit vector to it: x along u, y along v, z up */

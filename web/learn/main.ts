@@ -37,8 +37,8 @@ function newLesson(language: Language): Lesson {
 	return { language, words: WORDS[language], calm, light, painter };
 }
 
-/** Builds one figure; where that fails, says why in its place. */
-async function build(figure: HTMLElement, lesson: Lesson): Promise<void> {
+/** Builds one figure; where that fails, says why in its place. @returns where it is */
+async function build(figure: HTMLElement, lesson: Lesson): Promise<HTMLElement> {
 	const place = document.createElement('div');
 	place.className = 'live';
 	figure.prepend(place);
@@ -48,8 +48,6 @@ async function build(figure: HTMLElement, lesson: Lesson): Promise<void> {
 		if (!step) throw new Error(`no step is called ${figure.dataset.figure}`);
 		const { mount } = await step();
 		await mount(place, lesson);
-		await lesson.painter.drawn(place);
-		figure.dataset.state = 'ready';
 	} catch (error) {
 		const { message } = error as Error;
 		const { failed, needsWebGL2 } = lesson.words;
@@ -57,6 +55,25 @@ async function build(figure: HTMLElement, lesson: Lesson): Promise<void> {
 		place.textContent = message === needsWebGL2 ? message : failed(message);
 		figure.dataset.state = 'failed';
 	}
+	return place;
+}
+
+/** Says of the figure, and of the page by its first one, that all of it has been drawn. */
+async function settled(figure: HTMLElement, place: HTMLElement, { painter }: Lesson): Promise<void> {
+	if (figure.dataset.state !== 'failed') {
+		await painter.drawn(place);
+		figure.dataset.state = 'ready';
+	}
+	if (document.documentElement.dataset.state === 'loading') setState(figure.dataset.state as 'ready' | 'failed');
+}
+
+/** The one that is least far from the middle of the window. */
+function nearest(figures: Iterable<HTMLElement>): HTMLElement | undefined {
+	const away = (figure: HTMLElement) => {
+		const { top, bottom } = figure.getBoundingClientRect();
+		return Math.abs((top + bottom - innerHeight) / 2);
+	};
+	return [...figures].sort((a, b) => away(a) - away(b))[0];
 }
 
 /** A link to every step, the one being read marked. */
@@ -92,16 +109,27 @@ async function start(): Promise<void> {
 	if (location.hash) document.querySelector(location.hash)?.scrollIntoView();
 
 	const lesson = newLesson(language);
+	const waiting = new Set<HTMLElement>();
+	let building = false;
+	// One after the other, what is being looked at first.
+	const next = async () => {
+		const figure = nearest(waiting);
+		if (!figure || building) return;
+		waiting.delete(figure);
+		building = true;
+		void settled(figure, await build(figure, lesson), lesson);
+		building = false;
+		void next();
+	};
 	const near = new IntersectionObserver(
-		async (changes) => {
+		(changes) => {
 			for (const { target, isIntersecting } of changes) {
-				if (!isIntersecting) continue;
+				// It may report a figure twice at once.
+				if (!isIntersecting || (target as HTMLElement).dataset.state) continue;
 				near.unobserve(target);
-				await build(target as HTMLElement, lesson);
-				// The first one settled is the page's own word.
-				if (document.documentElement.dataset.state === 'loading')
-					setState((target as HTMLElement).dataset.state === 'failed' ? 'failed' : 'ready');
+				waiting.add(target as HTMLElement);
 			}
+			void next();
 		},
 		{ rootMargin: MARGIN },
 	);

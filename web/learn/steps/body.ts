@@ -33,6 +33,7 @@ export const mount: Mount = async (place, lesson) => {
 		aspect: 16 / 10,
 		azimuth: 16,
 		elevation: 8,
+		zoom: 1.12,
 		...reach(furry),
 	});
 	view.add(furry.object);

@@ -49,6 +49,8 @@ function pictures(place: HTMLElement, lesson: Lesson, fur: Fur, around: Pick<Vie
 		caption.append(strong, ` ${words.methods[name].costs}`);
 	}
 	const made = view as View;
+	// Less light from all around than elsewhere: here it is about shadow.
+	made.sky.intensity *= 0.5;
 	made.cast(fur.asset.length);
 	return made;
 }

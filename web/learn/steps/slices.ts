@@ -56,7 +56,8 @@ export const mount: Mount = async (place, lesson) => {
 		aspect: 16 / 10,
 		azimuth: 28,
 		elevation: 24,
-		radius: 1.15,
+		zoom: 1.1,
+		radius: 1.1,
 	});
 	view.add(all);
 	for (const solid of [hairs, cubes]) solid.castShadow = solid.receiveShadow = true;
