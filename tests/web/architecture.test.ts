@@ -101,6 +101,13 @@ describe('the pages', () => {
 		for (const name of imports(path)) expect(others).not.toContain(name.split('/')[0]);
 	});
 
+	it.each(shared.flatMap(below))('%s is for any page: it takes three, its own room and the library', (path) => {
+		const [room = ''] = path.split('/');
+		for (const name of imports(path)) {
+			expect(name.startsWith(`${room}/`) || /^three(\/addons\/.*)?$|^fur\/index\.ts$/.test(name), name).toBe(true);
+		}
+	});
+
 	it.each([...modules, ...files.filter((path) => /^\w+\.html$/.test(path))])('%s contains no GLSL', (path) => {
 		expect(text(path)).not.toMatch(/gl_Position|gl_Frag|\.glsl|ShaderMaterial|onBeforeCompile|void\s+main\s*\(/);
 	});
