@@ -1,6 +1,7 @@
 import { readdirSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
+import { lesson } from './tools/lesson.mjs';
 import { headersPlugin, sharePlugin } from './tools/plugins.mjs';
 
 const at = (path: string) => fileURLToPath(new URL(path, import.meta.url));
@@ -15,7 +16,7 @@ export default defineConfig({
 	appType: 'mpa',
 	// The example reads as it would in another app.
 	resolve: { alias: { furbake: at('fur/index.ts') } },
-	plugins: [headersPlugin(), sharePlugin(process.env.SITE_URL)],
+	plugins: [lesson(), headersPlugin(), sharePlugin(process.env.SITE_URL)],
 	server: {
 		// The JSON schema lives in the baker wing.
 		fs: { allow: [at('.'), at('../node_modules'), at('../baker/furbake/asset/schema'), at('../tests')] },
@@ -30,7 +31,11 @@ export default defineConfig({
 			'three',
 			'three/addons/controls/OrbitControls.js',
 			'three/addons/loaders/EXRLoader.js',
+			'three/addons/lines/Line2.js',
+			'three/addons/lines/LineGeometry.js',
+			'three/addons/lines/LineMaterial.js',
 			'three/addons/loaders/GLTFLoader.js',
+			'three/addons/postprocessing/OutputPass.js',
 		],
 		// Modules of one picture each, fetched when wanted.
 		exclude: ['@pmndrs/assets'],

@@ -1,7 +1,7 @@
-import { readFileSync } from 'node:fs';
+import { readdirSync, readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { parseAddress } from '../../web/demo/address.ts';
-import { folderOf, type MenuEntry, offered } from '../../web/demo/models.ts';
+import { folderOf, type MenuEntry, offered, pelts } from '../../web/demo/models.ts';
 
 const menu: MenuEntry[] = JSON.parse(readFileSync(new URL('../../public/models/models.json', import.meta.url), 'utf8'));
 const base = 'https://example.org/fur/?model=x';
@@ -19,10 +19,23 @@ describe('the menu', () => {
 
 	it('leaves out what is only for measuring, which has a name all the same', () => {
 		const names = offered(menu).map(({ name }) => name);
-		expect(names).toEqual(['bunny', 'bunny-eigen', 'torus', 'sphere']);
+		expect(names).toEqual(['bunny', 'torus', 'sphere']);
 		const others = menu.filter(({ name }) => !names.includes(name));
 		expect(others.length).toBeGreaterThan(0);
 		for (const { name } of others) expect(href(name)).toBe(`https://example.org/fur/models/${name}/`);
+	});
+
+	it('has a pelt of every preset in either basis, one of them for each model', () => {
+		const presets = readdirSync(new URL('../../baker/furbake/presets', import.meta.url)).map((name) =>
+			name.replace('.toml', ''),
+		);
+		for (const basis of ['ptm', 'eigen'] as const)
+			expect(
+				pelts(menu, basis)
+					.map(({ pelt }) => pelt)
+					.sort(),
+			).toEqual(presets.sort());
+		for (const { preset } of offered(menu)) expect(presets).toContain(preset);
 	});
 
 	it('has first views that the address understands', () => {

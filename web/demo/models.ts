@@ -1,26 +1,22 @@
 /** From a name or a path in the address to a model in memory. */
 
-import {
-	Box3,
-	InstancedMesh,
-	type IUniform,
-	type LoadingManager,
-	Material,
-	Mesh,
-	type Object3D,
-	Scene,
-	Sprite,
-	Texture,
-	Vector3,
-} from 'three';
+import { Box3, type LoadingManager, Mesh, type Object3D, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { type Fur, FurLoaderPlugin, type TextureLimits } from '../fur/index.ts';
+import { disposeAll } from '../page/dispose.ts';
 import { parseAddress, type Triple } from './address.ts';
 
 /** An entry of models/models.json; its other fields are for the command that bakes it. */
 export interface MenuEntry {
 	name: string;
 	title: string;
+	/** of a model: what it is furry with */
+	preset?: string;
+	/** of a pelt, which other models are dressed in: the preset that it is, and what its light curves are */
+	pelt?: string;
+	basis?: 'ptm' | 'eigen';
+	/** of a pelt: how far a model's own second tip colour shows on it, 0..1 */
+	tips?: number;
 	/** false: shown only where the address asks for it */
 	menu?: boolean;
 	/** first view and light, written as in the address */
@@ -65,6 +61,11 @@ export async function loadMenu(): Promise<MenuEntry[]> {
 /** What the menu lists. */
 export function offered(entries: readonly MenuEntry[]): MenuEntry[] {
 	return entries.filter(({ menu }) => menu !== false);
+}
+
+/** What models can be dressed in, in the paper's basis or in the light curves found for that very fur. */
+export function pelts(entries: readonly MenuEntry[], basis: 'ptm' | 'eigen' = 'ptm'): MenuEntry[] {
+	return entries.filter((entry) => entry.pelt !== undefined && entry.basis === basis);
 }
 
 /** How a model of the menu wants to be seen first. */
@@ -117,6 +118,13 @@ export async function loadModel(
 	return model;
 }
 
+/** A pelt for `dress`, of the caller's to dispose of. @throws Error as `loadModel` */
+export async function loadPelt(source: Source, limits: TextureLimits): Promise<Fur> {
+	const { fur } = await loadModel(source, limits);
+	if (!fur) throw new Error('model.gltf: got a model without fur, expected a pelt');
+	return fur;
+}
+
 /** A model whose fur has not grown yet. */
 function modelOf(object: Object3D): Model {
 	const box = new Box3().setFromObject(object);
@@ -155,21 +163,4 @@ function radiusAround(object: Object3D, centre: Vector3): number {
 		}
 	});
 	return radius;
-}
-
-/** Frees geometries, materials and textures; what is drawn again comes back by itself. */
-export function disposeAll(object: Object3D): void {
-	object.traverse((child) => {
-		if (child instanceof Scene && child.background instanceof Texture) child.background.dispose();
-		if (!(child instanceof Mesh || child instanceof Sprite)) return;
-		if (child instanceof InstancedMesh) child.dispose();
-		child.geometry.dispose();
-		for (const material of [child.material, child.customDepthMaterial, child.customDistanceMaterial].flat()) {
-			if (!(material instanceof Material)) continue;
-			const uniforms = 'uniforms' in material ? Object.values(material.uniforms as Record<string, IUniform>) : [];
-			for (const value of [...Object.values(material), ...uniforms.map((uniform) => uniform.value)])
-				if (value instanceof Texture) value.dispose();
-			material.dispose();
-		}
-	});
 }

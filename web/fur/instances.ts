@@ -140,7 +140,8 @@ export class FurInstances extends Object3D {
 		this.#hull = new BodyHull(fur, (coarseFirst[0] as BodyLevel).shells.material, capacity, this.#bounds);
 		this.add(this.#hull);
 
-		for (let i = 0; i < capacity; i++) this.setMatrixAt(i, matrix.identity());
+		const home = new Matrix4();
+		for (let i = 0; i < capacity; i++) this.setMatrixAt(i, home);
 	}
 
 	/** Takes the length that the fur has now. */

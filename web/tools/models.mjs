@@ -1,11 +1,19 @@
 /**
- * The default models: `public/models/models.json` lists them, this bakes the ones that are missing or stale.
+ * The default models: `public/models/models.json` lists them, this bakes the ones that are missing or stale. So it does
+ * with the lesson's data in `public/lesson`.
  */
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { ensurePython, runFurbake } from './environment.mjs';
-import { Failure, root, say } from './process.mjs';
+import { ensurePython, python } from './environment.mjs';
+import { Failure, root, run, say } from './process.mjs';
+
+/** All in one process: to import its libraries takes Python longer than to see that a model is fresh. */
+const bakeAll = `
+import json, sys
+from furbake.cli import main
+sys.exit(max(main(arguments) for arguments in json.loads(sys.argv[1])))
+`;
 
 const cache = join(root, 'node_modules', '.cache', 'furbake');
 
@@ -15,6 +23,10 @@ const cache = join(root, 'node_modules', '.cache', 'furbake');
  * @property {string} title for the page's menu
  * @property {string} model what furbake bakes: a built-in, or `npm:` and a file that an npm package holds as a module
  * @property {string[]} options of `furbake bake`
+ * @property {string} [preset] of a model: what it is furry with
+ * @property {string} [pelt] of a pelt: the preset that it is
+ * @property {'ptm' | 'eigen'} [basis] of a pelt
+ * @property {number} [tips] of a pelt: how far a model's own second tip colour shows on it
  * @property {boolean} [menu] false: not in the page's menu
  * @property {string} [view] first view and light, written as in the page's address
  */
@@ -52,10 +64,11 @@ export async function bakeDefaultModels() {
 		say(`${error.message}: serving the models as they are`);
 		return;
 	}
-	for (const { name, model, options } of defaultModels()) {
-		const args = ['bake', await unpacked(model), '-o', join('public', 'models', name), ...options, '--if-stale'];
-		// Standard error, as all that is said before the address: the bar still sees a terminal there.
-		const code = await runFurbake(args, { stdio: ['ignore', 2, 2] });
-		if (code !== 0) say(`baking ${name} failed with exit code ${code}: serving it as it is`);
-	}
+	const bakes = [];
+	for (const { name, model, options } of defaultModels())
+		bakes.push(['bake', await unpacked(model), '-o', join('public', 'models', name), ...options, '--if-stale']);
+	bakes.push(['lesson', '-o', join('public', 'lesson'), '--if-stale']);
+	// Standard error, as all that is said before the address: the bar still sees a terminal there.
+	const code = await run(python, ['-c', bakeAll, JSON.stringify(bakes)], { cwd: root, stdio: ['ignore', 2, 2] });
+	if (code !== 0) say(`baking failed with exit code ${code}: serving what could not be baked as it is`);
 }
