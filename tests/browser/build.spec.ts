@@ -79,6 +79,17 @@ test('the built demo, and what it weighs', async ({ page, watch }, { annotations
 	expect(exr()).toEqual(['sunset.exr']);
 });
 
+test('the built lesson shows its figures', async ({ page }) => {
+	await page.goto(`${host.address}learn.html`);
+	// In three dimensions, drawn flat, and of numbers; the others are made of the same.
+	for (const name of ['shells', 'bits', 'numbers']) {
+		const figure = page.locator(`figure[data-figure=${name}]`);
+		await figure.scrollIntoViewIfNeeded();
+		await expect(figure).toHaveAttribute('data-state', 'ready');
+	}
+	expect(await state(page)).toBe('ready');
+});
+
 test('the built bench measures', async ({ page }) => {
 	await page.goto(`${host.address}bench.html?run=1&size=48x32&rounds=1&triangles=512&parts=results&methods=unlit,ptm`);
 	await expect.poll(() => state(page), { timeout: 60_000 }).toBe('done');
@@ -87,7 +98,7 @@ test('the built bench measures', async ({ page }) => {
 
 test('every built page holds the policy, its own files and what a shared link shows', () => {
 	const pages = readdirSync(dist).filter((name) => name.endsWith('.html'));
-	expect(pages).toEqual(expect.arrayContaining(['404.html', 'bench.html', 'index.html']));
+	expect(pages).toEqual(expect.arrayContaining(['404.html', 'bench.html', 'example.html', 'index.html', 'learn.html']));
 	const policies = pages.map((name) => {
 		const html = readFileSync(join(dist, name), 'utf8');
 		const [head = ''] = html.split('</head>');

@@ -1,3 +1,4 @@
+import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { sharePlugin, siteAddress } from '../../web/tools/plugins.mjs';
 
@@ -56,5 +57,15 @@ describe('sharePlugin', () => {
 	it('lets the page of lost addresses find its files from anywhere', () => {
 		expect(tags('https://example.org/fur', '/404.html')).toEqual({ base: '/fur/' });
 		expect(tags(undefined, '/404.html')).toEqual({});
+	});
+});
+
+describe('public/og.jpg', () => {
+	it('is of the size that pages say, and light enough for those who show it', () => {
+		const bytes = readFileSync(new URL('../../public/og.jpg', import.meta.url));
+		// The frame header of a baseline JPEG: length, precision, height, width.
+		const frame = bytes.indexOf(Buffer.from([0xff, 0xc0]));
+		expect([bytes.readUInt16BE(frame + 7), bytes.readUInt16BE(frame + 5)]).toEqual([1200, 630]);
+		expect(bytes.length).toBeLessThan(150_000);
 	});
 });
