@@ -26,6 +26,7 @@ FLOORS = {
     "pathtrace": {"pelt"},
     "verify": {"asset", "pelt", "options", "bake", "pathtrace"},
     "compare": {"pelt", "options", "bake"},
+    "lesson": {"asset", "pelt", "options", "identity", "bake"},
     "cli": {
         "asset",
         "pelt",
@@ -39,6 +40,7 @@ FLOORS = {
         "verify",
         "pathtrace",
         "compare",
+        "lesson",
         "cli",
     },
     "__init__": {"asset", "surface", "options", "bake"},

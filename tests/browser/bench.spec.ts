@@ -1,7 +1,7 @@
 /** The bench's page: it measures when asked to, and hands on what other people's scripts rely on. */
 
 import type { Page } from '@playwright/test';
-import type { BenchFigures, Result } from '../../web/bench/results.ts';
+import type { BenchFigures, Result } from '../../web/measure/results.ts';
 import { expect, site, state, test } from './harness.ts';
 
 /** Opens the page, has it measure and takes what it sends. */
@@ -88,11 +88,15 @@ test('frames upload nothing, wherever the light is', async ({ page }) => {
 	expect(await uploads(2)).toBe(once);
 });
 
-test('nothing is measured unasked, and what the address says wrong is told', async ({ page }) => {
+test('nothing is measured unasked, and what the address says wrong is told, in either language', async ({ page }) => {
 	await page.goto(`${site}bench.html?methods=magic`);
 	await expect.poll(() => state(page)).toBe('ready');
 	await expect(page.locator('#problem')).toHaveText(/methods=magic: expected some of unlit, lengyel/);
 	await expect(page.locator('section')).toHaveCount(0);
+	await page.getByRole('link', { name: '中文' }).click();
+	await expect(page.locator('h1')).toHaveText('到底有多快？');
+	await expect(page.locator('#problem')).toHaveText(/methods=magic，应为 unlit、lengyel/);
+	await expect(page.locator('html')).toHaveAttribute('lang', 'zh-Hans');
 });
 
 test('a measurement can be stopped', async ({ page }) => {

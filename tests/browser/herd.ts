@@ -17,8 +17,8 @@ import {
 	WebGLRenderer,
 	WebGLRenderTarget,
 } from 'three';
-import { loadFur, renderFloats } from '../../web/bench/studio.ts';
 import { type Fur, FurInstances, fitShadow } from '../../web/fur/index.ts';
+import { loadFur, renderFloats } from '../../web/measure/studio.ts';
 
 const renderer = new WebGLRenderer({ antialias: false });
 renderer.info.autoReset = false;

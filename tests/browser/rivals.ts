@@ -11,8 +11,8 @@ import {
 	WebGLRenderer,
 	WebGLRenderTarget,
 } from 'three';
-import { loadFur, renderFloats } from '../../web/bench/studio.ts';
 import { type Fur, type FurMethod, furMethod, type MethodName, type MethodOptions } from '../../web/fur/index.ts';
+import { loadFur, renderFloats } from '../../web/measure/studio.ts';
 
 const SIZE = 120;
 const SHELLS = 16;

@@ -20,10 +20,10 @@ import {
 } from 'three';
 import { LightProbeGenerator } from 'three/addons/lights/LightProbeGenerator.js';
 import { EXRLoader } from 'three/addons/loaders/EXRLoader.js';
-import { measureEnvironment } from '../../web/bench/environment.ts';
-import { measureFins } from '../../web/bench/fins.ts';
-import { loadFur, renderFloats, Studio } from '../../web/bench/studio.ts';
 import { environmentLight, type Fur } from '../../web/fur/index.ts';
+import { measureEnvironment } from '../../web/measure/environment.ts';
+import { measureFins } from '../../web/measure/fins.ts';
+import { loadFur, renderFloats, Studio } from '../../web/measure/studio.ts';
 
 const renderer = new WebGLRenderer({ antialias: false });
 

@@ -1,6 +1,6 @@
 import { PerspectiveCamera, Vector2, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
-import { directionUnder } from '../../web/demo/aim.ts';
+import { directionUnder } from '../../web/page/aim.ts';
 
 const centre = new Vector3(0.4, -0.2, 0.1);
 const radius = 1.3;

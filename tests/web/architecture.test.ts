@@ -39,7 +39,7 @@ const floors = [
 	['instances'],
 	['index'],
 ];
-const pages = ['demo', 'learn', 'bench'];
+const pages = ['demo', 'learn', 'bench', 'example'];
 /** What pages share, and what knows none of them. */
 const shared = ['page', 'measure'];
 
@@ -99,6 +99,13 @@ describe('the pages', () => {
 	it.each(modules)('%s imports no other page', (path) => {
 		const others = pages.filter((page) => !path.startsWith(`${page}/`));
 		for (const name of imports(path)) expect(others).not.toContain(name.split('/')[0]);
+	});
+
+	it.each(shared.flatMap(below))('%s is for any page: it takes three, its own room and the library', (path) => {
+		const [room = ''] = path.split('/');
+		for (const name of imports(path)) {
+			expect(name.startsWith(`${room}/`) || /^three(\/addons\/.*)?$|^fur\/index\.ts$/.test(name), name).toBe(true);
+		}
 	});
 
 	it.each([...modules, ...files.filter((path) => /^\w+\.html$/.test(path))])('%s contains no GLSL', (path) => {

@@ -1,6 +1,6 @@
 import { Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
-import { MovingLight, turned } from '../../web/demo/light.ts';
+import { MovingLight, turned } from '../../web/page/light.ts';
 
 describe('turned', () => {
 	it('moves to the right and up, and stops at the poles', () => {

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { median, perRound, ratio, thereAndBack } from '../../web/bench/statistics.ts';
+import { median, perRound, ratio, thereAndBack } from '../../web/measure/statistics.ts';
 
 describe('the median', () => {
 	it('is the middle, or the mean of the two, whatever their order', () => {

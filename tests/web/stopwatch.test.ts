@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { Stopwatch } from '../../web/bench/stopwatch.ts';
+import { Stopwatch } from '../../web/measure/stopwatch.ts';
 
 describe('a turn', () => {
 	it.each([

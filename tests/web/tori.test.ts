@@ -1,6 +1,6 @@
 import { BufferAttribute, BufferGeometry, Triangle, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
-import { everyNth } from '../../web/bench/tori.ts';
+import { everyNth } from '../../web/measure/tori.ts';
 
 /** A flat lattice, a unit a cell, columns along x and rows along −z, so that its triangles look up. */
 function lattice(rows: number, columns: number): BufferGeometry {

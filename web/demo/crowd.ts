@@ -12,7 +12,7 @@ import {
 	Vector3,
 } from 'three';
 import { type Fur, FurInstances } from '../fur/index.ts';
-import { ContactShadow } from './backdrop.ts';
+import { ContactShadow } from '../page/backdrop.ts';
 import type { Model } from './models.ts';
 
 /** The largest crowd. */

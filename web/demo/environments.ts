@@ -15,7 +15,7 @@ import {
 	Vector3,
 } from 'three';
 import { environmentLight, type Lamp, luminance, visitEnvironment } from '../fur/index.ts';
-import { beforeNeutral } from './backdrop.ts';
+import { beforeNeutral } from '../page/backdrop.ts';
 
 /** Names in the address, and what the menu calls them. */
 export const environments = {

@@ -2,14 +2,14 @@
 
 import { MathUtils } from 'three';
 import { FurGovernor } from '../fur/index.ts';
+import { directionUnder, listenToDrags } from '../page/aim.ts';
+import { Lamp, lampDistance } from '../page/lamp.ts';
+import { MovingLight, turned } from '../page/light.ts';
 import { addressWriter, parseAddress, type Triple } from './address.ts';
-import { directionUnder, listenToDrags } from './aim.ts';
 import { OrbitCamera } from './camera.ts';
 import { type EnvironmentName, loadEnvironment } from './environments.ts';
 import { hasWebGL2, showFallback } from './fallback.ts';
 import { listenToKeys } from './keys.ts';
-import { Lamp, lampDistance } from './lamp.ts';
-import { MovingLight, turned } from './light.ts';
 import { firstView, folderOf, loadMenu, loadModel, type MenuEntry, offered, sourceAt } from './models.ts';
 import { notice } from './notice.ts';
 import { Overlay } from './overlay.ts';

@@ -1,20 +1,9 @@
 /** From a name or a path in the address to a model in memory. */
 
-import {
-	Box3,
-	InstancedMesh,
-	type IUniform,
-	type LoadingManager,
-	Material,
-	Mesh,
-	type Object3D,
-	Scene,
-	Sprite,
-	Texture,
-	Vector3,
-} from 'three';
+import { Box3, type LoadingManager, Mesh, type Object3D, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { type Fur, FurLoaderPlugin, type TextureLimits } from '../fur/index.ts';
+import { disposeAll } from '../page/dispose.ts';
 import { parseAddress, type Triple } from './address.ts';
 
 /** An entry of models/models.json; its other fields are for the command that bakes it. */
@@ -176,21 +165,4 @@ function radiusAround(object: Object3D, centre: Vector3): number {
 		}
 	});
 	return radius;
-}
-
-/** Frees geometries, materials and textures; what is drawn again comes back by itself. */
-export function disposeAll(object: Object3D): void {
-	object.traverse((child) => {
-		if (child instanceof Scene && child.background instanceof Texture) child.background.dispose();
-		if (!(child instanceof Mesh || child instanceof Sprite)) return;
-		if (child instanceof InstancedMesh) child.dispose();
-		child.geometry.dispose();
-		for (const material of [child.material, child.customDepthMaterial, child.customDistanceMaterial].flat()) {
-			if (!(material instanceof Material)) continue;
-			const uniforms = 'uniforms' in material ? Object.values(material.uniforms as Record<string, IUniform>) : [];
-			for (const value of [...Object.values(material), ...uniforms.map((uniform) => uniform.value)])
-				if (value instanceof Texture) value.dispose();
-			material.dispose();
-		}
-	});
 }

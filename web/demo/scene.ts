@@ -16,10 +16,11 @@ import {
 	WebGLRenderer,
 } from 'three';
 import { fitShadow, limitsOf, type TextureLimits } from '../fur/index.ts';
-import { backdrop, ContactShadow } from './backdrop.ts';
+import { backdrop, ContactShadow } from '../page/backdrop.ts';
+import { disposeAll } from '../page/dispose.ts';
 import { Crowd } from './crowd.ts';
 import type { Environment } from './environments.ts';
-import { disposeAll, type Model } from './models.ts';
+import type { Model } from './models.ts';
 
 const maxPixelRatio = 2;
 

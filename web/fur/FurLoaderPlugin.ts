@@ -25,6 +25,7 @@ import { Skin } from './skin.ts';
  */
 const ANISOTROPY = 2;
 
+/** What a FurLoaderPlugin may be told. */
 export interface FurLoaderOptions {
 	/** What the GPU takes, by `limitsOf`: an asset that asks for more is refused before its planes are decoded. */
 	limits?: TextureLimits;
@@ -45,6 +46,7 @@ export interface FurLoaderOptions {
  * Error that says what is wrong.
  */
 export class FurLoaderPlugin implements GLTFLoaderPlugin {
+	/** The extension that it reads. */
 	readonly name = EXTENSION;
 	readonly #parser: GLTFParser;
 	readonly #options: FurLoaderOptions;
@@ -54,6 +56,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		this.#options = options;
 	}
 
+	/** Called by the loader: grows the fur. */
 	async afterRoot(gltf: GLTF): Promise<void> {
 		const extension = this.#parser.json.extensions?.[EXTENSION];
 		if (!extension) return;

@@ -12,7 +12,7 @@ import { command, Failure, say } from './process.mjs';
 import { markdown, table } from './table.mjs';
 import { serve } from './vite.mjs';
 
-/** @import { BenchFigures } from '../bench/results.ts' */
+/** @import { BenchFigures } from '../measure/results.ts' */
 /** @import { Table } from '../bench/tables.ts' */
 
 /** @typedef {{ title: string, tables: Table[] }} Section */
@@ -60,7 +60,7 @@ function queryOf({ rounds, size, quick, ...others }) {
 		const odd = `${others[name] ?? all}`.split(',').some((item) => !all.includes(item));
 		if (odd) throw new Failure(`--${name}: got ${others[name]}, expected some of ${all.join(',')}`);
 	}
-	const query = new URLSearchParams({ run: '1', post: ENDPOINT });
+	const query = new URLSearchParams({ run: '1', post: ENDPOINT, lang: 'en' });
 	for (const [name, value] of Object.entries(given)) if (value !== undefined) query.set(name, `${value}`);
 	return query;
 }

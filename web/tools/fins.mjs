@@ -6,7 +6,7 @@ import { folderOf, inPage, readOptions, writeFigures } from './measure.mjs';
 import { command, say } from './process.mjs';
 import { table } from './table.mjs';
 
-/** @import { FinFigures } from '../bench/figures.ts' */
+/** @import { FinFigures } from '../measure/figures.ts' */
 
 const options = /** @type {const} */ ({ model: { type: 'string', default: 'bunny' }, json: { type: 'string' } });
 
@@ -60,7 +60,7 @@ await command(async () => {
 	say(`measuring ${basename(folder)}; software rendering takes a minute or two`);
 	// As text: what it calls is in the page.
 	/** @type {FinFigures} */
-	const figures = await inPage(folder, '/bench/fins.ts', (page) =>
+	const figures = await inPage(folder, '/measure/fins.ts', (page) =>
 		page.evaluate("loaded.measureFins('/baked/model.gltf')"),
 	);
 	console.log(report(basename(folder), figures));

@@ -8,7 +8,7 @@ import { folderOf, inPage, readOptions, writeFigures } from './measure.mjs';
 import { command, Failure, say } from './process.mjs';
 import { table } from './table.mjs';
 
-/** @import { EnvironmentFigures } from '../bench/figures.ts' */
+/** @import { EnvironmentFigures } from '../measure/figures.ts' */
 
 const options = /** @type {const} */ ({
 	model: { type: 'string', default: 'bunny' },
@@ -48,7 +48,7 @@ await command(async () => {
 	await ensureNode();
 	const pictures = await Promise.all(names.map(picture));
 	say(`measuring ${basename(folder)}; software rendering takes a minute or more for each of ${names.join(', ')}`);
-	const figures = await inPage(folder, '/bench/environment.ts', async (page) => {
+	const figures = await inPage(folder, '/measure/environment.ts', async (page) => {
 		/** @type {Record<string, EnvironmentFigures>} */
 		const measured = {};
 		for (const [i, name] of names.entries()) {

@@ -1,5 +1,6 @@
 /**
- * The default models: `public/models/models.json` lists them, this bakes the ones that are missing or stale.
+ * The default models, which `public/models/models.json` lists, and what the lesson measures with: bakes what is missing or
+ * stale.
  */
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join } from 'node:path';
@@ -67,6 +68,7 @@ export async function bakeDefaultModels() {
 	const bakes = [];
 	for (const { name, model, options } of defaultModels())
 		bakes.push(['bake', await unpacked(model), '-o', join('public', 'models', name), ...options, '--if-stale']);
+	bakes.push(['lesson', '-o', join('public', 'lesson'), '--if-stale']);
 	// Standard error, as all that is said before the address: the bar still sees a terminal there.
 	const code = await run(python, ['-c', bakeAll, JSON.stringify(bakes)], { cwd: root, stdio: ['ignore', 2, 2] });
 	if (code !== 0) say(`baking failed with exit code ${code}: serving what could not be baked as it is`);

@@ -7,7 +7,7 @@ import { folderOf, inPage, readOptions, writeFigures } from './measure.mjs';
 import { command, say } from './process.mjs';
 import { table } from './table.mjs';
 
-/** @import { Quality } from '../bench/figures.ts' */
+/** @import { Quality } from '../measure/figures.ts' */
 
 const options = /** @type {const} */ ({ model: { type: 'string', default: 'bunny' }, json: { type: 'string' } });
 
@@ -16,7 +16,7 @@ await command(async () => {
 	const folder = folderOf(values.model);
 	say(`measuring ${basename(folder)}; software rendering takes a minute or two`);
 	/** @type {Quality[]} As text: what it calls is in the page. */
-	const figures = await inPage(folder, '/bench/quality.ts', (page) =>
+	const figures = await inPage(folder, '/measure/quality.ts', (page) =>
 		page.evaluate("loaded.measureQuality('/baked/model.gltf')"),
 	);
 	const rows = figures.map(({ distance, azimuth, shells, psnr, brightness, pixels }) => [

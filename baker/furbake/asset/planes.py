@@ -96,10 +96,10 @@ def unpack(planes: Planes, coefficients: int) -> Texels:
     return Texels(codes, stacks[1][..., 2], stacks[1][..., 3], colour, direction)
 
 
-def write_png(path: Path, pixels: Bytes, srgb: bool = False) -> None:
-    """Write (height, width, channels) bytes as they are. Raises PlaneError."""
+def write_png(path: Path, pixels: NDArray[np.uint8] | NDArray[np.uint16], srgb: bool = False) -> None:
+    """Write (height, width, channels) of 8 or 16 bits as they are. Raises PlaneError."""
     height, width, channels = pixels.shape
-    spec = oiio.ImageSpec(width, height, channels, "uint8")
+    spec = oiio.ImageSpec(width, height, channels, pixels.dtype.name)
     spec.attribute("oiio:UnassociatedAlpha", 1)  # or RGB is multiplied by A, and coefficients are lost
     spec.attribute("png:compressionLevel", 9)
     spec.attribute("oiio:ColorSpace", "srgb_rec709_scene" if srgb else "data")

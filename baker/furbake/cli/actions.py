@@ -20,6 +20,9 @@ from furbake.body import patch_figures
 from furbake.cli.progress import shown
 from furbake.compare import Row, compare, markdown
 from furbake.identity import bake_key
+from furbake.lesson import STAGES as LESSON_STAGES
+from furbake.lesson import fresh as fresh_lesson
+from furbake.lesson import write as write_lesson
 from furbake.options import BakeOptions, OptionError, as_toml, override, preset, preset_names, preset_summary
 from furbake.report import STAGES as REPORT_STAGES
 from furbake.report import write as write_report
@@ -167,6 +170,22 @@ def run_swatch(args: argparse.Namespace) -> int:
             save(Path(scratch) / "plane", out, args.light, **look)
     if not args.quiet:
         print(out)
+    return 0
+
+
+def run_lesson(args: argparse.Namespace) -> int:
+    """Write the lesson's data."""
+    options, out = chosen(args), Path(args.out)
+    record = fresh_lesson(out, options) if args.if_stale else None
+    done = record is not None
+    if record is None:
+        with shown(LESSON_STAGES, args.quiet) as progress:
+            record = write_lesson(out, options, force=args.force or args.if_stale, progress=progress)
+    if args.json:
+        print(json.dumps({"folder": str(out), "baked": not done, **record}))
+    elif not args.quiet:
+        size = sum(record["bytes"].values()) / 1e6
+        print(f"{out}: up to date" if done else f"{out}: {len(record['samples'])} layers measured, {size:.2f} MB")
     return 0
 
 

@@ -19,7 +19,7 @@ class UsageError(ValueError):
 class _Parser(argparse.ArgumentParser):
     """Says what is wrong in the words of all other errors, instead of printing usage."""
 
-    shape = "furbake bake, inspect, validate, presets, report, swatch, verify, compare or patches"
+    shape = "furbake bake, inspect, validate, presets, report, swatch, lesson, verify, compare or patches"
 
     def error(self, message: str) -> NoReturn:
         if match := re.fullmatch(r"the following arguments are required: (.*)", message, re.DOTALL):
@@ -111,6 +111,7 @@ def parser() -> argparse.ArgumentParser:
     report.add_argument("folder", metavar="DIR", type=_path)
     report.add_argument("--quiet", action="store_true", help="no progress, no summary")
     _swatch_arguments(add("swatch", actions.run_swatch, "DIR -o FILE.png", "picture of a baked pelt, or of a preset's"))
+    _lesson_arguments(add("lesson", actions.run_lesson, "-o DIR", "data of the lesson on the page Learn"))
     _verify_arguments(add("verify", actions.run_verify, "DIR", "compare a bake with a path tracer (Mitsuba 3)"))
     compare = add(
         "compare", actions.run_compare, "[NAME ...]", "table of presets and bases, measured anew, as Markdown"
@@ -186,6 +187,16 @@ def _swatch_arguments(parser: _Parser) -> None:
     add("--light", metavar="X,Y,Z", type=_direction, default=FROM_THE_SIDE, help="towards the lamp: right, up, at you")
     add("--tiles", metavar="T", type=_whole, default=3, help="repeats of the tile along a side (default: 3)")
     add("--pixels", metavar="P", type=_whole, default=512, help="side of the picture (default: 512)")
+    add("--quiet", action="store_true", help="no progress, no summary")
+
+
+def _lesson_arguments(parser: _Parser) -> None:
+    add = parser.add_argument
+    _preset_arguments(parser, "paper")
+    add("-o", "--out", metavar="DIR", required=True, type=_path, help="folder to write, whole or not at all")
+    add("--force", action="store_true", help="replace DIR")
+    add("--if-stale", action="store_true", help="only if DIR differs in options or version; implies --force")
+    add("--json", action="store_true", help="print the record as one JSON object")
     add("--quiet", action="store_true", help="no progress, no summary")
 
 

@@ -2,46 +2,51 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 Bytes = NDArray[np.uint8]
+Codes = NDArray[Any]
+"""Bytes, or words where more than 8 bits are asked for."""
 
 TAIL = 0.02
 """Percentile of the visible texels that may saturate at either end of a coefficient's range."""
 
 
-def byte_range(coefficients: Array, alpha: Array) -> tuple[Array, Array]:
+def byte_range(coefficients: Array, alpha: Array, top: int = 255) -> tuple[Array, Array]:
     """λ and Ω per coefficient, (C,) each, so that the bytes span the coefficients of the visible texels.
 
-    coefficients : (K, N, N, C), alpha : (K, N, N).
+    coefficients : (K, N, N, C), alpha : (K, N, N), top : the greatest code.
     """
     visible = coefficients[alpha > 0.05] if (alpha > 0.05).any() else coefficients.reshape(-1, coefficients.shape[-1])
     low, high = np.percentile(visible, [TAIL, 100 - TAIL], axis=0)
-    scale = np.maximum(high - low, 1e-6) / 255
+    scale = np.maximum(high - low, 1e-6) / top
     return scale, -low / scale
 
 
-def quantise(coefficients: Array, scale: Array, bias: Array, gram: Array) -> Bytes:
+def quantise(coefficients: Array, scale: Array, bias: Array, gram: Array, top: int = 255) -> Codes:
     """Bytes of the coefficients, (..., C) → (..., C), with the rounding errors played off against each other.
 
-    gram : (C, C) mean of φφᵀ over the lights. Coefficients are rounded one after the other, the last first; each takes
-    up what the rounding of those before it did to the light (Babai's nearest plane), which the decoder need not know.
+    gram : (C, C) mean of φφᵀ over the lights, top : the greatest code. Coefficients are rounded one after the other,
+    the last first; each takes up what the rounding of those before it did to the light (Babai's nearest plane), which
+    the decoder need not know.
     """
     count = coefficients.shape[-1]
     upper = np.linalg.cholesky(gram * np.outer(scale, scale)).T
     wanted = coefficients / scale + bias
-    codes = np.empty(coefficients.shape, np.uint8)
+    codes: Codes = np.empty(coefficients.shape, np.uint8 if top < 256 else np.uint16)
     carried = np.zeros_like(wanted)
     for i in reversed(range(count)):
         target = wanted[..., i] + (carried[..., i + 1 :] @ upper[i, i + 1 :]) / upper[i, i]
-        codes[..., i] = np.clip(np.round(target), 0, 255)
+        codes[..., i] = np.clip(np.round(target), 0, top)
         carried[..., i] = wanted[..., i] - codes[..., i]
     return codes
 
 
-def dequantise(codes: Bytes, scale: Array, bias: Array) -> Array:
+def dequantise(codes: Codes, scale: Array, bias: Array) -> Array:
     """(..., C) bytes → coefficients."""
     return scale * (codes - bias)
 

@@ -1,7 +1,9 @@
 /** The light's direction over time: drifting by itself until somebody takes it, then gliding where it is wanted. */
 
 import { MathUtils, Object3D, Spherical, Vector3 } from 'three';
-import type { Triple } from './address.ts';
+
+/** x, y, z. */
+export type Triple = [number, number, number];
 
 const easing = 0.06; // seconds in which the light follows a finger
 const round = 26; // seconds of one turn by itself

@@ -21,7 +21,7 @@ import {
 	fitShadow,
 	furMethod,
 } from '../fur/index.ts';
-import type { Method, Row } from './results.ts';
+import type { Row } from './results.ts';
 import type { Torus, Wardrobe } from './tori.ts';
 
 /** What fur can have besides, and the bench's own table leaves out. */
@@ -59,7 +59,7 @@ function lampAt(step: number, i: number, to: Vector3): Vector3 {
 	return to.set(Math.cos(angle), 0.7 + 0.5 * Math.sin(1.7 * angle), Math.sin(angle)).normalize();
 }
 
-/** @param row what is drawn; its picture's size is the caller's */
+/** @param row what is drawn; its picture's size is the caller's; @param wardrobe with the pelt of its method */
 export function makeRival(row: Row, torus: Torus, wardrobe: Wardrobe, extras: Extras = {}): Rival {
 	const { fur, surface } = torus;
 	const scene = new Scene();
@@ -93,7 +93,8 @@ export function makeRival(row: Row, torus: Torus, wardrobe: Wardrobe, extras: Ex
 		scene.add(probe);
 	}
 
-	const { asset, textures } = coatOf(row.method, torus, wardrobe);
+	// Any pelt fits any of the tori.
+	const { asset, textures } = wardrobe.pelts.get(row.method) ?? fur;
 	const material = new FurMaterial(asset, textures, {
 		environment: extras.environment ?? false,
 		gloss: extras.gloss ? 0.5 : 0,
@@ -125,12 +126,6 @@ export function makeRival(row: Row, torus: Torus, wardrobe: Wardrobe, extras: Ex
 			skinMaterial.dispose();
 		},
 	};
-}
-
-/** Whose texels a method looks up: any pelt fits any of the tori. */
-function coatOf(method: Method, { fur }: Torus, { eigen3, colour }: Wardrobe): Fur {
-	if (method === 'ptm3') return eigen3;
-	return method === 'ptm-colour' ? colour : fur;
 }
 
 /** The body's fins in a material of their own; they are to be made before the shells. */

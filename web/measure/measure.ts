@@ -1,8 +1,8 @@
 /** The whole bench: what is measured, in which order, and what is made of it. */
 
 import { Arena } from './arena.ts';
-import { type BenchOptions, type Part, SHELLS } from './options.ts';
-import type { BenchFigures, Cost, Growth, Method, Point, Result, Row } from './results.ts';
+import { type BenchOptions, type Part, SHELLS } from './plan.ts';
+import type { BenchFigures, Cost, CostName, Growth, Method, Point, Result, Row } from './results.ts';
 import { type Extras, makeRival, type Rival } from './rivals.ts';
 import { median, ratio } from './statistics.ts';
 import { loadWardrobe, type Torus, type Wardrobe } from './tori.ts';
@@ -14,7 +14,7 @@ const CURVE_SHELLS = [8, 16, 32, 64];
 const CURVE_SIZES = [0.25, 0.5, 0.75, 1];
 const CURVE_METHODS: readonly Method[] = ['unlit', 'shadow-layers', 'ptm'];
 
-const COSTS: [name: string, extras: Extras][] = [
+const COSTS: [name: CostName, extras: Extras][] = [
 	['highlight', { gloss: true }],
 	['backlight', { backlight: true }],
 	['shadow', { shadow: true }],
@@ -32,19 +32,12 @@ export interface Portrait {
 }
 
 export interface Listener {
-	/** @param share done of the whole, 0..1; @param what is being measured */
-	progress(share: number, what: string): void;
+	/** @param share done of the whole, 0..1; @param part that is being measured, once the models are there */
+	progress(share: number, part?: Part): void;
 	/** What is known so far. */
 	figures(figures: BenchFigures): void;
 	portraits(portraits: Portrait[]): void;
 }
-
-const TITLES: Record<Part, string> = {
-	results: 'methods',
-	layers: 'methods, triangles counted over all layers',
-	costs: 'what features cost',
-	curves: 'frames against shells and pixels',
-};
 
 /** Of each part about how many frames it draws, in frames of the table at full size. */
 function effort({ rounds, methods, triangles }: BenchOptions, part: Part): number {
@@ -63,9 +56,9 @@ const half = (rounds: number) => Math.ceil(rounds / 2);
 /** @returns all that was measured, as the listener has seen it grow */
 export async function measure(options: BenchOptions, signal: AbortSignal, listener: Listener): Promise<BenchFigures> {
 	const started = performance.now();
-	listener.progress(0, 'loading the models');
+	listener.progress(0);
 	const besides = options.parts.some((part) => part === 'costs' || part === 'curves') ? [MIDDLE] : [];
-	const wardrobe = await loadWardrobe([...options.triangles, ...besides]);
+	const wardrobe = await loadWardrobe([...options.triangles, ...besides], options.methods);
 	const arena = new Arena();
 	try {
 		const { device, clock } = arena.stopwatch;
@@ -88,7 +81,7 @@ export async function measure(options: BenchOptions, signal: AbortSignal, listen
 		let before = 0;
 		for (const part of options.parts) {
 			const share = effort(options, part);
-			bench.progress = (done, of) => listener.progress((before + (share * done) / of) / total, TITLES[part]);
+			bench.progress = (done, of) => listener.progress((before + (share * done) / of) / total, part);
 			await bench[part](figures, listener);
 			before += share;
 			figures.seconds = Math.round((performance.now() - started) / 1000);
@@ -137,7 +130,7 @@ class Bench {
 			makeRival({ ...this.#row('ptm', MIDDLE), ...row }, this.#torus(), this.wardrobe, extras);
 		const features = COSTS.map(([name, extras]) => ({ name, rival: make(extras) }));
 		features.push({ name: 'all of them, and fins', rival: make(COSTS.at(-1)?.[1] ?? {}, { fins: true }) });
-		const lights = [
+		const lights: { name: CostName; rival: Rival }[] = [
 			{ name: 'a still light', rival: make({}, { light: 'still' }) },
 			{ name: '8 lights', rival: make({ lights: 8 }) },
 			{ name: 'fins', rival: make({}, { fins: true }) },
@@ -149,7 +142,7 @@ class Bench {
 		];
 		await this.#with(groups, async () => {
 			const times = await this.#contest(groups, this.options.rounds);
-			const cost = (name: string, rival: Rival, over: Rival): Cost => {
+			const cost = (name: CostName, rival: Rival, over: Rival): Cost => {
 				const rounds = times.get(rival) ?? [];
 				return { name, median_ms: median(rounds), ratio: ratio(rounds, times.get(over) ?? []) };
 			};

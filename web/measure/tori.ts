@@ -2,7 +2,8 @@
 
 import { BufferAttribute, BufferGeometry } from 'three';
 import type { Fur } from '../fur/index.ts';
-import { TORI } from './options.ts';
+import { TORI } from './plan.ts';
+import { METHODS, type Method } from './results.ts';
 import { loadFur } from './studio.ts';
 
 /** Every so many rows and columns of a baked torus make the one whose triangles are those of one of 16 layers. */
@@ -23,9 +24,8 @@ export interface Wardrobe {
 	tori: Map<number, Torus>;
 	/** With fewer triangles, on the same vertices. */
 	coarse: Map<number, Torus>;
-	/** The other pelts are made once: tile and length are the same whatever body they are on. */
-	eigen3: Fur;
-	colour: Fur;
+	/** Of the methods that have a pelt of their own. It is made once: tile and length are the same on any body. */
+	pelts: Map<Method, Fur>;
 	dispose(): void;
 }
 
@@ -60,15 +60,25 @@ function plain({ index, attributes }: BufferGeometry): BufferGeometry {
 	return surface;
 }
 
+/** Whose texels some methods look up. */
+const PELTS: [method: Method, model: string][] = [
+	['ptm3', 'torus-512-eigen3'],
+	['ptm-colour', 'torus-512-colour'],
+];
+
 /** @param triangles of the tori that are wanted */
-export async function loadWardrobe(triangles: readonly number[]): Promise<Wardrobe> {
+export async function loadWardrobe(
+	triangles: readonly number[],
+	methods: readonly Method[] = METHODS,
+): Promise<Wardrobe> {
 	// Without anisotropy: of a software rasteriser's frame it would be the most.
 	const load = (name: string) =>
 		loadFur(new URL(`models/${name}/model.gltf`, document.baseURI).href, { anisotropy: 1 });
 	const sizes = TORI.filter((size) => triangles.includes(size.triangles));
-	const [furs, others] = await Promise.all([
+	const others = PELTS.filter(([method]) => methods.includes(method));
+	const [furs, pelts] = await Promise.all([
 		Promise.all(sizes.map((size) => load(`torus-${size.triangles}`))),
-		Promise.all(['torus-512-eigen3', 'torus-512-colour'].map(load)),
+		Promise.all(others.map(async ([method, model]) => [method, await load(model)] as const)),
 	]);
 	const tori = new Map<number, Torus>();
 	const coarse = new Map<number, Torus>();
@@ -80,16 +90,13 @@ export async function loadWardrobe(triangles: readonly number[]): Promise<Wardro
 		tori.set(triangles, { triangles, surface, fur });
 		coarse.set(few, { triangles: few, surface: everyNth(surface, rows, columns, STEP), fur });
 	});
-	const [eigen3, colour] = others;
-	if (!eigen3 || !colour) throw new Error('the pelts of the other methods: got none, expected two');
 	return {
 		tori,
 		coarse,
-		eigen3,
-		colour,
+		pelts: new Map(pelts),
 		dispose() {
 			for (const { surface } of [...tori.values(), ...coarse.values()]) surface.dispose();
-			for (const fur of [...furs, ...others]) fur.dispose();
+			for (const fur of [...furs, ...pelts.map(([, pelt]) => pelt)]) fur.dispose();
 		},
 	};
 }

@@ -1,0 +1,71 @@
+/** A whole square of fur as six numbers: what it looks like from straight above is as linear in the light as each texel. */
+
+import type { CompressedArrayTexture, Texture } from 'three';
+import { evaluateBasis, type Fur } from '../fur/index.ts';
+
+/** Plane and channel of each coefficient of six, and of α. */
+const WHERE = [
+	[0, 0],
+	[0, 1],
+	[0, 2],
+	[1, 0],
+	[1, 1],
+	[0, 3],
+] as const;
+const ALPHA = [1, 2] as const;
+
+/**
+ * Mean over the tile of Σ_k α_k·Π_{j>k}(1 − α_j)·a_k: coefficients of the fur seen from above, in colours of its own hairs.
+ *
+ * @param fur of six coefficients, stored as λ and Ω say
+ */
+export function seenFromAbove({ asset, textures }: Pick<Fur, 'asset' | 'textures'>): number[] {
+	const { size, layers, pelts } = asset;
+	const pelt = pelts[0];
+	if (!pelt || asset.coefficients !== 6) throw new Error('expected a pelt of six coefficients');
+	const planes = [bytesOf(textures.plane0), bytesOf(textures.plane1)];
+	const texels = size * size;
+	const sums = new Float64Array(6);
+	for (let t = 0; t < texels; t++) {
+		let left = 1;
+		for (let k = layers - 1; k >= 0 && left > 0; k--) {
+			const at = 4 * (k * texels + t);
+			const alpha = (planes[ALPHA[0]]?.[at + ALPHA[1]] ?? 0) / 255;
+			for (const [i, [plane, channel]] of WHERE.entries())
+				sums[i] = (sums[i] ?? 0) + left * alpha * (planes[plane]?.[at + channel] ?? 0);
+			left *= 1 - alpha;
+		}
+	}
+	// Ω is taken off once, by how much hair is seen at all.
+	const seen = coverage(asset, planes[1] as Uint8Array);
+	return Array.from(sums, (sum, i) => (pelt.scale[i] ?? 0) * (sum / texels - seen * (pelt.bias[i] ?? 0)));
+}
+
+/** Mean share of the ground that hair hides. */
+function coverage({ size, layers }: Fur['asset'], plane1: Uint8Array): number {
+	const texels = size * size;
+	let open = 0;
+	for (let t = 0; t < texels; t++) {
+		let left = 1;
+		for (let k = 0; k < layers; k++) left *= 1 - (plane1[4 * (k * texels + t) + ALPHA[1]] ?? 0) / 255;
+		open += left;
+	}
+	return 1 - open / texels;
+}
+
+/** Bytes of a plane as they are stored, layer after layer, the lowest first; not those of its mip levels. */
+export function bytesOf(texture: Texture | undefined): Uint8Array {
+	const levels = (texture as CompressedArrayTexture | undefined)?.mipmaps;
+	return (levels?.[0]?.data as Uint8Array | undefined) ?? new Uint8Array();
+}
+
+/** L of six coefficients under a light. @param light unit vector to it: x along u, y along v, z up */
+export function lit(coefficients: readonly number[], light: readonly [number, number, number]): number {
+	const phi = evaluateBasis({ kind: 'ptm' }, light);
+	return coefficients.reduce((sum, a, i) => sum + a * (phi[i] ?? 0), 0);
+}
+
+/** From world axes (y up, u along x, v against z) to the tile's. */
+export function onTile({ x, y, z }: { x: number; y: number; z: number }): [number, number, number] {
+	return [x, -z, y];
+}

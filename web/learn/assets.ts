@@ -1,0 +1,43 @@
+/** Furry models for the figures, each fetched once. */
+
+import { type Object3D, Vector3 } from 'three';
+import { type GLTF, GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { type Fur, FurLoaderPlugin } from '../fur/index.ts';
+import type { Lesson } from './lesson.ts';
+
+export interface Furry {
+	object: Object3D;
+	fur: Fur;
+}
+
+/**
+ * A model of `models/`, an own one for each caller.
+ *
+ * @throws Error that says what is wrong with it
+ */
+export async function loadFurry(name: string, { painter }: Lesson): Promise<Furry> {
+	const loader = new GLTFLoader();
+	const { limits } = painter;
+	loader.register((parser) => new FurLoaderPlugin(parser, limits ? { limits } : {}));
+	const gltf: GLTF = await loader.loadAsync(new URL(`models/${name}/model.gltf`, document.baseURI).href);
+	const fur: Fur | undefined = gltf.userData.fur;
+	if (!fur) throw new Error(`models/${name}: got a model without fur`);
+	Object.assign(fur.shells.material, { gloss: 0.5, backlight: 6 });
+	return { object: gltf.scene, fur };
+}
+
+/** What `furbake bake` has written about a model. */
+export async function loadReport<T>(name: string): Promise<T> {
+	const response = await fetch(`models/${name}/bake.json`);
+	if (!response.ok) throw new Error(`models/${name}/bake.json: got status ${response.status}`);
+	return response.json();
+}
+
+/** Middle of a furry body, and how far it reaches. */
+export function reach({ fur }: Furry): { centre: Vector3; radius: number } {
+	const sphere = fur.shells.geometry.boundingSphere;
+	if (!sphere) return { centre: new Vector3(), radius: 1 };
+	const { position, quaternion, scale } = fur.shells;
+	const centre = sphere.center.clone().multiply(scale).applyQuaternion(quaternion).add(position);
+	return { centre, radius: sphere.radius * scale.x };
+}

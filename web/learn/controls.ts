@@ -1,0 +1,143 @@
+/** Parts that figures are made of: a canvas, sliders, switches, choices, numbers in words. All of plain HTML. */
+
+let made = 0;
+
+function add<K extends keyof HTMLElementTagNameMap>(parent: Element, tag: K, className = ''): HTMLElementTagNameMap[K] {
+	const element = document.createElement(tag);
+	if (className) element.className = className;
+	parent.append(element);
+	return element;
+}
+
+/**
+ * A canvas that can be focused, as wide as its place.
+ *
+ * @param label for those who cannot see it
+ * @param aspect width over height
+ */
+export function figureCanvas(place: Element, label: string, aspect: number): HTMLCanvasElement {
+	const canvas = add(place, 'canvas');
+	canvas.tabIndex = 0;
+	canvas.setAttribute('role', 'img');
+	canvas.setAttribute('aria-label', label);
+	canvas.style.aspectRatio = String(aspect);
+	return canvas;
+}
+
+/** A row for controls below a picture. */
+export function controlRow(place: Element): HTMLElement {
+	return add(place, 'div', 'controls');
+}
+
+export interface SliderOptions {
+	label: string;
+	min: number;
+	max: number;
+	step: number;
+	value: number;
+	/** What is said of the value beside the slider. */
+	text: (value: number) => string;
+	/** Called when it is moved, and once at first. */
+	input: (value: number) => void;
+}
+
+export interface Slider {
+	value: number;
+	readonly element: HTMLInputElement;
+}
+
+export function slider(place: Element, { label, min, max, step, value, text, input }: SliderOptions): Slider {
+	const row = add(place, 'div', 'slider');
+	const id = `slider-${++made}`;
+	const name = add(row, 'label');
+	name.htmlFor = id;
+	name.textContent = label;
+	const range = add(row, 'input');
+	Object.assign(range, { id, type: 'range', min, max, step, value });
+	const output = add(row, 'output');
+	output.htmlFor.add(id);
+	const show = () => {
+		output.textContent = text(range.valueAsNumber);
+		range.setAttribute('aria-valuetext', output.textContent);
+		input(range.valueAsNumber);
+	};
+	range.addEventListener('input', show);
+	show();
+	return {
+		element: range,
+		get value() {
+			return range.valueAsNumber;
+		},
+		set value(wanted: number) {
+			range.valueAsNumber = wanted;
+			show();
+		},
+	};
+}
+
+/** A button that is on or off. @returns the button */
+export function toggle(place: Element, label: string, on: boolean, change: (on: boolean) => void): HTMLButtonElement {
+	const button = add(place, 'button', 'toggle');
+	button.type = 'button';
+	button.textContent = label;
+	const set = (pressed: boolean) => {
+		button.setAttribute('aria-pressed', String(pressed));
+		change(pressed);
+	};
+	button.addEventListener('click', () => set(button.getAttribute('aria-pressed') !== 'true'));
+	set(on);
+	return button;
+}
+
+/** One of several, as radio buttons in a row. @param options value → label */
+export function choice<T extends string>(
+	place: Element,
+	label: string,
+	options: Readonly<Record<T, string>>,
+	value: T,
+	change: (value: T) => void,
+): HTMLFieldSetElement {
+	const set = add(place, 'fieldset', 'choice');
+	const legend = add(set, 'legend');
+	legend.textContent = label;
+	const name = `choice-${++made}`;
+	for (const [key, text] of Object.entries(options) as [T, string][]) {
+		const item = add(set, 'label');
+		const input = add(item, 'input');
+		Object.assign(input, { type: 'radio', name, value: key, checked: key === value });
+		input.addEventListener('change', () => change(key));
+		add(item, 'span').textContent = text;
+	}
+	change(value);
+	return set;
+}
+
+/** A button that does something. */
+export function action(place: Element, label: string, act: () => void): HTMLButtonElement {
+	const button = add(place, 'button', 'action');
+	button.type = 'button';
+	button.textContent = label;
+	button.addEventListener('click', act);
+	return button;
+}
+
+/** A line of numbers below a figure, spoken when it changes only where `live`. */
+export function note(place: Element, live = false): HTMLParagraphElement {
+	const line = add(place, 'p', 'note');
+	if (live) line.setAttribute('aria-live', 'polite');
+	return line;
+}
+
+/** A row of pictures side by side. */
+export function panes(place: Element, count: number): HTMLElement {
+	const row = add(place, 'div', 'panes');
+	row.style.setProperty('--panes', String(count));
+	return row;
+}
+
+/** One of a row of pictures, with room for words below it. */
+export function pane(row: Element): { element: HTMLElement; caption: HTMLParagraphElement } {
+	const box = add(row, 'div', 'pane');
+	const element = add(box, 'div');
+	return { element, caption: add(box, 'p') };
+}

@@ -1,0 +1,139 @@
+/** The lesson: text of one language, and the figures in it, each built when it comes near the window. */
+
+import 'katex/dist/katex.min.css';
+import { element, setState } from '../page/element.ts';
+import { fillHeader } from '../page/header.ts';
+import { fillIn, type Language, languageOf } from '../page/language.ts';
+import type { Lesson, Mount } from './lesson.ts';
+import { SharedLight } from './light.ts';
+import { MARGIN, Painter } from './painter.ts';
+import { WORDS } from './words/index.ts';
+
+const texts: Record<Language, () => Promise<{ default: string }>> = {
+	en: () => import('./text/en.md'),
+	zh: () => import('./text/zh.md'),
+};
+
+const steps: Record<string, () => Promise<{ mount: Mount }>> = {
+	shells: () => import('./steps/shells.ts'),
+	slices: () => import('./steps/slices.ts'),
+	dome: () => import('./steps/dome.ts'),
+	texel: () => import('./steps/texel.ts'),
+	bits: () => import('./steps/bits.ts'),
+	numbers: () => import('./steps/numbers.ts'),
+	body: () => import('./steps/body.ts'),
+	rivals: () => import('./steps/rivals.ts'),
+	tuft: () => import('./steps/tuft.ts'),
+	turning: () => import('./steps/turning.ts'),
+	short: () => import('./steps/short.ts'),
+};
+
+function newLesson(language: Language): Lesson {
+	const still = new URLSearchParams(location.search).get('still') === '1';
+	const calm = still || matchMedia('(prefers-reduced-motion: reduce)').matches;
+	const painter = new Painter();
+	const light = new SharedLight([-0.62, 0.62, 0.48], calm, () => painter.wake());
+	painter.animate((elapsed) => light.step(elapsed));
+	return { language, words: WORDS[language], calm, light, painter };
+}
+
+/** Builds one figure; where that fails, says why in its place. @returns where it is */
+async function build(figure: HTMLElement, lesson: Lesson): Promise<HTMLElement> {
+	const place = document.createElement('div');
+	place.className = 'live';
+	figure.prepend(place);
+	figure.dataset.state = 'loading';
+	try {
+		const step = steps[figure.dataset.figure ?? ''];
+		if (!step) throw new Error(`no step is called ${figure.dataset.figure}`);
+		const { mount } = await step();
+		await mount(place, lesson);
+	} catch (error) {
+		const { message } = error as Error;
+		const { failed, needsWebGL2 } = lesson.words;
+		place.className = 'words';
+		place.textContent = message === needsWebGL2 ? message : failed(message);
+		figure.dataset.state = 'failed';
+	}
+	return place;
+}
+
+/** Says of the figure, and of the page by its first one, that all of it has been drawn. */
+async function settled(figure: HTMLElement, place: HTMLElement, { painter }: Lesson): Promise<void> {
+	if (figure.dataset.state !== 'failed') {
+		await painter.drawn(place);
+		figure.dataset.state = 'ready';
+	}
+	if (document.documentElement.dataset.state === 'loading') setState(figure.dataset.state as 'ready' | 'failed');
+}
+
+/** The one that is least far from the middle of the window. */
+function nearest(figures: Iterable<HTMLElement>): HTMLElement | undefined {
+	const away = (figure: HTMLElement) => {
+		const { top, bottom } = figure.getBoundingClientRect();
+		return Math.abs((top + bottom - innerHeight) / 2);
+	};
+	return [...figures].sort((a, b) => away(a) - away(b))[0];
+}
+
+/** A link to every step, the one being read marked. */
+function fillContents(nav: HTMLElement, label: string): void {
+	nav.setAttribute('aria-label', label);
+	const links = new Map<Element, HTMLAnchorElement>();
+	for (const section of document.querySelectorAll('main section[id]')) {
+		const link = document.createElement('a');
+		link.href = `#${section.id}`;
+		const name = document.createElement('span');
+		name.textContent = section.querySelector('h2')?.textContent ?? section.id;
+		link.append(name);
+		links.set(section, link);
+		nav.append(link);
+	}
+	const seen = new IntersectionObserver(
+		(changes) => {
+			for (const { target, isIntersecting } of changes)
+				links.get(target)?.setAttribute('aria-current', String(isIntersecting));
+		},
+		{ rootMargin: '-40% 0% -60% 0%' },
+	);
+	for (const section of links.keys()) seen.observe(section);
+}
+
+async function start(): Promise<void> {
+	const language = languageOf(location.search, navigator.languages);
+	fillIn(WORDS[language], language);
+	fillHeader(document.querySelector('nav.site') as HTMLElement, 'learn', language);
+	element('lesson').innerHTML = (await texts[language]()).default;
+	fillContents(element('steps'), WORDS[language].steps);
+	// The text moves the place that the address asks for.
+	if (location.hash) document.querySelector(location.hash)?.scrollIntoView();
+
+	const lesson = newLesson(language);
+	const waiting = new Set<HTMLElement>();
+	let building = false;
+	// One after the other, what is being looked at first.
+	const next = async () => {
+		const figure = nearest(waiting);
+		if (!figure || building) return;
+		waiting.delete(figure);
+		building = true;
+		void settled(figure, await build(figure, lesson), lesson);
+		building = false;
+		void next();
+	};
+	const near = new IntersectionObserver(
+		(changes) => {
+			for (const { target, isIntersecting } of changes) {
+				// It may report a figure twice at once.
+				if (!isIntersecting || (target as HTMLElement).dataset.state) continue;
+				near.unobserve(target);
+				waiting.add(target as HTMLElement);
+			}
+			void next();
+		},
+		{ rootMargin: MARGIN },
+	);
+	for (const figure of document.querySelectorAll('figure[data-figure]')) near.observe(figure);
+}
+
+void start();

@@ -1,0 +1,161 @@
+/** What the baker measured for the lesson, as `furbake lesson` writes it: `lesson/lesson.json` and the pictures beside it. */
+
+import { decode } from 'fast-png';
+import type { Direction } from '../../fur/index.ts';
+
+/** Decibels over lights that no fit has seen, of all layers and of what is seen from above. */
+export interface Figures {
+	psnr: number;
+	psnr_composite: number;
+}
+
+export interface ByNumbers extends Figures {
+	numbers: number;
+	/** Of every layer; null where no hair is. */
+	layers?: (number | null)[];
+}
+
+export interface ByBits extends Figures {
+	bits: number;
+	/** Decibels of the rounded numbers against the unrounded ones. */
+	noise: number;
+	layers: (number | null)[];
+}
+
+export interface LessonRecord {
+	options: { layers: number; size: number };
+	/** First those of the fit, then those held out, then an arc over the tile along v. */
+	lights: Direction[];
+	fitted: number;
+	held_out: number;
+	/** Degrees from upright of the arc's lights. */
+	angles: number[];
+	/** Of the matrix of eq. (2), falling. */
+	singular_values: number[];
+	/** Terms of eq. (2), the most useful first. */
+	terms: number[];
+	eigen: { degree: number; matrix: number[][] };
+	/** λ and Ω of the stored bytes. */
+	scale: number[];
+	bias: number[];
+	/** L that counts as 1 in decibels. */
+	peak: number;
+	/** As in the models' `bake.json`. */
+	fit: {
+		psnr: number;
+		psnr_quantised: number;
+		psnr_quantisation: number;
+		bound: { rank: number; psnr: number };
+	};
+	layers: { psnr: (number | null)[]; psnr_quantised: (number | null)[] };
+	ptm: ByNumbers[];
+	eigen_figures: ByNumbers[];
+	bound: ByNumbers[];
+	bits: ByBits[];
+	samples: { layer: number; file: string; texels: number; scale: number }[];
+	planes: string[];
+}
+
+/** One layer of fur as measured, and the bytes that are stored for it. */
+export interface Layer {
+	/** Counted from the skin. */
+	readonly number: number;
+	/** Texels per side. */
+	readonly size: number;
+	/** Coverage as stored, a byte per texel. */
+	readonly alpha: Uint8Array;
+	/** Texels that hold hair, row after row; row 0 is v = 0. */
+	readonly texels: Int32Array;
+	/** Of every texel its place among those that hold hair, or -1. */
+	readonly place: Int32Array;
+	/** L: a row per light, a column per texel that holds hair. */
+	readonly light: Float32Array;
+	/** The six stored bytes of every texel that holds hair. */
+	readonly codes: Uint8Array;
+}
+
+/** Plane and channel of a0 to a5, as in any asset. */
+const SLOTS = [
+	[0, 0],
+	[0, 1],
+	[0, 2],
+	[1, 0],
+	[1, 1],
+	[0, 3],
+] as const;
+const ALPHA = [1, 2] as const;
+
+/**
+ * @param index of the layer among those that were kept
+ * @param samples its picture, PNG of 16 bits
+ * @param planes the stored bytes of all layers that were kept, PNG
+ * @throws Error where they are not of one make
+ */
+export function decodeLayer(
+	record: LessonRecord,
+	index: number,
+	samples: Uint8Array,
+	planes: readonly Uint8Array[],
+): Layer {
+	const entry = record.samples[index];
+	if (!entry) throw new Error(`layer ${index}: got ${record.samples.length} layers`);
+	const { size } = record.options;
+	const stored = planes.map((plane) => decode(plane));
+	const first = index * size * size;
+	const byte = (texel: number, [plane, channel]: readonly [number, number]) =>
+		stored[plane]?.data[(first + texel) * 4 + channel] ?? 0;
+
+	const alpha = Uint8Array.from({ length: size * size }, (_, texel) => byte(texel, ALPHA));
+	const texels = Int32Array.from([...alpha.keys()].filter((texel) => alpha[texel]));
+	const place = new Int32Array(alpha.length).fill(-1);
+	texels.forEach((texel, i) => {
+		place[texel] = i;
+	});
+	const picture = decode(samples);
+	const { lights } = record;
+	if (texels.length !== entry.texels || picture.width !== texels.length || picture.height !== lights.length)
+		throw new Error(
+			`${entry.file}: got ${picture.width} × ${picture.height}, expected ${texels.length} × ${lights.length}`,
+		);
+	return {
+		number: entry.layer,
+		size,
+		alpha,
+		texels,
+		place,
+		light: Float32Array.from(picture.data, (value) => value * entry.scale),
+		codes: Uint8Array.from({ length: texels.length * 6 }, (_, i) =>
+			byte(texels[Math.floor(i / 6)] ?? 0, SLOTS[i % 6] ?? ALPHA),
+		),
+	};
+}
+
+async function fetched(name: string): Promise<Response> {
+	const response = await fetch(new URL(`lesson/${name}`, document.baseURI));
+	if (!response.ok) throw new Error(`lesson/${name}: got status ${response.status}`);
+	return response;
+}
+
+const bytes = async (name: string) => new Uint8Array(await (await fetched(name)).arrayBuffer());
+
+/** The lesson's measurements: each file is fetched once, when it is wanted first. */
+export class Measurements {
+	#planes: Promise<Uint8Array[]> | undefined;
+	readonly #layers: (Promise<Layer> | undefined)[] = [];
+
+	private constructor(readonly record: LessonRecord) {}
+
+	static async open(): Promise<Measurements> {
+		return new Measurements(await (await fetched('lesson.json')).json());
+	}
+
+	/** @param index of the layer among those that were kept */
+	layer(index: number): Promise<Layer> {
+		const { samples, planes } = this.record;
+		this.#planes ??= Promise.all(planes.map(bytes));
+		this.#layers[index] ??= Promise.all([bytes(samples[index]?.file ?? ''), this.#planes]).then(([picture, stored]) =>
+			decodeLayer(this.record, index, picture, stored),
+		);
+		return this.#layers[index];
+	}
+}

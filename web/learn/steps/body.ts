@@ -1,0 +1,107 @@
+/** Step 7: the fur on a body. Shells, fins, the patches that lap over each other, and the hull that casts the shadow. */
+
+import {
+	BufferAttribute,
+	BufferGeometry,
+	Color,
+	LineBasicMaterial,
+	LineSegments,
+	Vector3,
+	WireframeGeometry,
+} from 'three';
+import type { FurShells } from '../../fur/index.ts';
+import { loadFurry, loadReport, reach } from '../assets.ts';
+import { controlRow, note, toggle } from '../controls.ts';
+import type { Mount } from '../lesson.ts';
+import { patchesOf } from '../patches.ts';
+import { View } from '../view.ts';
+
+const MODEL = 'bunny';
+/** Of the fur's length, where the hull stands that casts the shadow. */
+const HULL = 0.5;
+
+interface Report {
+	asset: Record<'skin' | 'shells', { faces: number }>;
+}
+
+export const mount: Mount = async (place, lesson) => {
+	const words = lesson.words.body;
+	const [furry, report] = await Promise.all([loadFurry(MODEL, lesson), loadReport<Report>(MODEL)]);
+	const { shells, fins, asset } = furry.fur;
+	const view = new View(place, lesson, {
+		label: words.picture,
+		aspect: 16 / 10,
+		azimuth: 16,
+		elevation: 8,
+		zoom: 1.12,
+		...reach(furry),
+	});
+	view.add(furry.object);
+	view.cast(asset.length, view.radius);
+
+	const { of, count } = patchesOf(shells.geometry);
+	const white = new BufferAttribute(new Float32Array(of.length * 3).fill(1), 3);
+	const painted = white.clone();
+	const paint = new Color();
+	for (const [vertex, patch] of of.entries()) {
+		// Neighbours in number are far apart on the wheel.
+		paint.setHSL((patch * 0.618034) % 1, 0.62, 0.56).toArray(painted.array, vertex * 3);
+	}
+	const { root, tip, tip2 } = shells.material;
+	const own = [root, tip, tip2].map((colour) => colour.clone());
+	const plain = [0.1, 0.85, 0.85].map((grey) => new Color(grey, grey, grey));
+	const hull = hullOf(shells);
+	shells.parent?.add(hull);
+
+	const row = controlRow(place);
+	toggle(row, words.shells, true, (on) => {
+		shells.visible = on;
+		view.redraw();
+	});
+	if (fins)
+		toggle(row, words.fins, true, (on) => {
+			fins.visible = on;
+			view.redraw();
+		});
+	toggle(row, words.patches, false, (on) => {
+		shells.geometry.setAttribute('color', on ? painted : white);
+		for (const [i, colour] of [root, tip, tip2].entries()) colour.copy((on ? plain : own)[i] as Color);
+		view.redraw();
+	});
+	toggle(row, words.hull, false, (on) => {
+		hull.visible = on;
+		view.redraw();
+	});
+	const faces = (shells.geometry.index?.count ?? 0) / 3;
+	const line = note(place);
+	line.textContent = words.numbers({
+		skin: report.asset.skin.faces,
+		patches: count,
+		faces,
+		overlap: faces / report.asset.skin.faces,
+		fins: fins ? (fins.geometry.index?.count ?? 0) / 3 : 0,
+	});
+};
+
+/** The shells' surface moved out to half of the fur, as lines. */
+function hullOf(shells: FurShells): LineSegments {
+	const surface = shells.geometry;
+	const moved = surface.getAttribute('position').clone() as BufferAttribute;
+	const [normal, fur] = [surface.getAttribute('normal'), surface.getAttribute('_fur')];
+	const [point, out] = [new Vector3(), new Vector3()];
+	for (let i = 0; i < moved.count; i++) {
+		out.fromBufferAttribute(normal, i).normalize();
+		point.fromBufferAttribute(moved, i).addScaledVector(out, shells.material.furLength * HULL * (fur?.getY(i) ?? 1));
+		moved.setXYZ(i, point.x, point.y, point.z);
+	}
+	const geometry = new BufferGeometry().setAttribute('position', moved).setIndex(surface.index);
+	const lines = new LineSegments(
+		new WireframeGeometry(geometry),
+		new LineBasicMaterial({ color: 0x9cc7ea, transparent: true, opacity: 0.5 }),
+	);
+	lines.position.copy(shells.position);
+	lines.quaternion.copy(shells.quaternion);
+	lines.scale.copy(shells.scale);
+	lines.renderOrder = 1;
+	return lines;
+}

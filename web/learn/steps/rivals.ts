@@ -1,0 +1,119 @@
+/** Step 8: the same fur by four means of light, and Table 1 measured by the machine in front of the reader. */
+
+import type { Fur, MethodName } from '../../fur/index.ts';
+import { furMethod } from '../../fur/index.ts';
+import { ARTICLE, type Table1Row } from '../../measure/results.ts';
+import { measureTable1 } from '../../measure/table1.ts';
+import { loadFurry, reach } from '../assets.ts';
+import { action, controlRow, note, pane, panes } from '../controls.ts';
+import type { Lesson, Mount } from '../lesson.ts';
+import { View, type ViewOptions } from '../view.ts';
+
+const MODEL = 'torus-4608';
+const SHELLS = 16;
+const METHODS = ['unlit', 'lengyel', 'shadow-layers', 'ptm'] as const satisfies MethodName[];
+
+export const mount: Mount = async (place, lesson) => {
+	const furry = await loadFurry(MODEL, lesson);
+	pictures(place, lesson, furry.fur, reach(furry)).add(furry.object);
+	table(place, lesson);
+};
+
+function pictures(place: HTMLElement, lesson: Lesson, fur: Fur, around: Pick<ViewOptions, 'centre' | 'radius'>): View {
+	const words = lesson.words.rivals;
+	const row = panes(place, METHODS.length);
+	fur.shells.shellCount = SHELLS;
+	if (fur.fins) fur.fins.visible = false;
+	const own = { gloss: 0, backlight: 0 };
+	Object.assign(fur.shells.material, own);
+	let view: View | undefined;
+	for (const name of METHODS) {
+		const method = furMethod(name, fur);
+		const { element, caption } = pane(row);
+		const options: ViewOptions = {
+			label: words.picture(words.methods[name].name),
+			aspect: 1,
+			azimuth: 20,
+			elevation: 38,
+			zoom: 1.08,
+			...around,
+			before() {
+				method.wear();
+				if (lesson.painter.renderer && view) method.before(lesson.painter.renderer, view.key);
+			},
+		};
+		if (view) view.window(element, options);
+		else view = new View(element, lesson, options);
+		const strong = document.createElement('strong');
+		strong.textContent = words.methods[name].name;
+		caption.append(strong, ` ${words.methods[name].costs}`);
+	}
+	const made = view as View;
+	// Less light from all around than elsewhere: here it is about shadow.
+	made.sky.intensity *= 0.5;
+	made.cast(fur.asset.length);
+	return made;
+}
+
+/** The article's table, with room beside it for this machine's. */
+function table(place: HTMLElement, { words: { rivals: words }, painter }: Lesson): void {
+	const scroll = document.createElement('div');
+	scroll.className = 'scroll';
+	const made = scroll.appendChild(document.createElement('table'));
+	const caption = made.createCaption();
+	caption.textContent = words.table;
+	const [first, second] = [made.createTHead().insertRow(), made.createTHead().insertRow()];
+	const head = (row: HTMLTableRowElement, text: string, span = 1) => {
+		const cell = row.appendChild(document.createElement('th'));
+		Object.assign(cell, { textContent: text, colSpan: span, scope: span > 1 ? 'colgroup' : 'col' });
+	};
+	head(first, '');
+	head(first, words.article, 3);
+	head(first, words.here, 3);
+	for (const text of [words.triangles, ...words.columns, ...words.columns]) head(second, text);
+	const body = made.createTBody();
+	const here = new Map<number, HTMLTableCellElement[]>();
+	for (const row of ARTICLE) {
+		const line = body.insertRow();
+		const name = line.appendChild(document.createElement('th'));
+		Object.assign(name, { scope: 'row', textContent: words.count(row.triangles) });
+		for (const text of cells(row)) line.insertCell().textContent = text;
+		here.set(
+			row.triangles,
+			cells(row).map(() => line.insertCell()),
+		);
+		for (const cell of here.get(row.triangles) ?? []) cell.textContent = '–';
+	}
+	place.append(scroll);
+
+	const controls = controlRow(place);
+	const line = note(place, true);
+	let running: AbortController | undefined;
+	const button = action(controls, words.measure, async () => {
+		if (running) return running.abort();
+		running = new AbortController();
+		button.textContent = words.stop;
+		// The figures would share the machine with what is measured.
+		painter.paused = true;
+		try {
+			const rows = await measureTable1({ quick: true }, running.signal, (share) => {
+				line.textContent = words.measuring(share);
+			});
+			for (const row of rows)
+				for (const [i, text] of cells(row).entries()) {
+					const cell = here.get(row.triangles)?.[i];
+					if (cell) cell.textContent = text;
+				}
+			line.textContent = words.measured;
+		} catch (error) {
+			line.textContent = running.signal.aborted ? words.stopped : words.cannot((error as Error).message);
+		}
+		running = undefined;
+		painter.paused = false;
+		button.textContent = words.measure;
+	});
+}
+
+function cells({ layered, ptm, ratio }: Table1Row): string[] {
+	return [layered.fps.toFixed(1), ptm.fps.toFixed(1), ratio.toFixed(2)];
+}

@@ -1,0 +1,87 @@
+interface BodyNumbers {
+	skin: number;
+	patches: number;
+	faces: number;
+	overlap: number;
+	fins: number;
+}
+
+export const en = {
+	title: 'furbake · how light gets into fur',
+	description:
+		'A lesson in one scroll: fur in real time by polynomial texture maps, every figure live under one light.',
+	steps: 'Steps of the lesson',
+	needsWebGL2: 'This figure is drawn live and needs WebGL2, which this browser does not offer.',
+	failed: (reason: string) => `This figure cannot be shown: ${reason}`,
+	shells: {
+		askew: 'A square of fur seen from above at an angle. Drag or use the arrow keys to move the light.',
+		side: 'The same fur seen from its edge.',
+		slider: 'Shells',
+		count: (shells: number) => String(shells),
+	},
+	slices: {
+		picture: 'One tile of fur. Drag or use the arrow keys to move the light.',
+		stage: 'Show',
+		stages: { strands: 'strands', volume: 'volume', slices: 'slices' },
+		apart: 'Pull apart',
+		times: (times: number) => `× ${times.toFixed(1)}`,
+		strands: (count: number) => `${count} strands in one periodic tile`,
+		volume: (size: number, layers: number, shown: number, solid: number) =>
+			`${size} × ${size} × ${layers} voxels; the ${shown} that hair covers by more than ${Math.round(100 * solid)} % are shown`,
+		slices: (layers: number, size: number, coefficients: number) =>
+			`${layers} slices of ${size} × ${size} texels, ${coefficients} coefficients and α in each`,
+	},
+	body: {
+		picture: 'A furry bunny. Drag or use the arrow keys to move the light.',
+		shells: 'shells',
+		fins: 'fins',
+		patches: 'a colour per patch',
+		hull: 'hull',
+		numbers: ({ skin, patches, faces, overlap, fins }: BodyNumbers) =>
+			`${skin} triangles of skin · ${patches} patches of ${faces} triangles, ${overlap.toFixed(2)} per triangle of skin · ` +
+			`${fins} triangles of fins`,
+	},
+	rivals: {
+		picture: (method: string) => `A furry ring, lit by ${method}. Drag or use the arrow keys to move the light.`,
+		methods: {
+			unlit: { name: 'Unlit', costs: 'Colour alone: the limit that no light can be cheaper than.' },
+			lengyel: {
+				name: 'Lengyel',
+				costs: 'Light of each hair by itself, one direction fetched per fragment; shadow is a guess by depth.',
+			},
+			'shadow-layers': {
+				name: 'Shadow layers',
+				costs: 'True shadow; the whole fur is drawn again from the lamp whenever it moves.',
+			},
+			ptm: { name: 'PTM', costs: 'True shadow; two fetches and one dot product, wherever the lamp is.' },
+		},
+		table: 'Table 1: frames per second, by triangles of the body; 16 shells, light moving',
+		article: 'The article, 2009',
+		here: 'This machine, now',
+		triangles: 'Triangles',
+		columns: ['layers', 'PTM', 'ratio'],
+		count: (triangles: number) => triangles.toLocaleString('en-GB').replaceAll(',', '\u202f'),
+		measure: 'Measure here',
+		stop: 'Stop',
+		stopped: 'Stopped.',
+		measuring: (share: number) => `Measuring … ${Math.round(100 * share)} %`,
+		measured: 'Measured at 640 × 360 pixels, in turn. The Bench page measures longer and more.',
+		cannot: (reason: string) => `Cannot be measured: ${reason}`,
+	},
+	tuft: {
+		picture: 'A tuft of long fur on a plane and its shadow. Drag or use the arrow keys to move the light.',
+	},
+	turning: {
+		picture: (turn: number) =>
+			`A square of fur, the light turned by ${turn} degrees. Drag or use the arrow keys to move it.`,
+		brightness: (turn: number, brightness: number) => `${turn}°: mean L = ${brightness.toFixed(2)}`,
+	},
+	short: {
+		pictures: [
+			'Long fur. Drag or use the arrow keys to move the light.',
+			'Short fur. Drag or use the arrow keys to move the light.',
+		],
+		swing: (height: number, swing: number) =>
+			`Height ${height} of a tile: once around, L swings by ± ${(100 * swing).toFixed(0)} %.`,
+	},
+};
