@@ -3,8 +3,7 @@
 import type { Language } from '../../page/language.ts';
 
 const en = {
-	layer: 'Layer',
-	layerOf: (layer: number, of: number) => `${layer} of ${of}`,
+	layerOf: (layers: number) => `Layer, of ${layers}`,
 	dark: 'dark',
 	bright: 'bright, L =',
 	dome: 'Dome of lamps over a patch of fur. Drag, or use the arrow keys, to light another lamp.',
@@ -67,8 +66,7 @@ const en = {
 };
 
 const zh: typeof en = {
-	layer: '层',
-	layerOf: (layer, of) => `${layer} / ${of}`,
+	layerOf: (layers) => `层（共 ${layers} 层）`,
 	dark: '暗',
 	bright: '亮，L =',
 	dome: '一小块毛发上方的光源穹顶。拖动或按方向键，点亮另一盏灯。',
