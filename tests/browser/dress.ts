@@ -10,8 +10,8 @@ import {
 	WebGLRenderer,
 	WebGLRenderTarget,
 } from 'three';
-import { loadFur, renderFloats } from '../../web/bench/studio.ts';
 import { dress, type Fur, FurInstances, furMethod } from '../../web/fur/index.ts';
+import { loadFur, renderFloats } from '../../web/measure/studio.ts';
 
 const SIZE = 120;
 const renderer = new WebGLRenderer({ antialias: false });

@@ -105,8 +105,8 @@ describe('the pages', () => {
 		for (const name of imports(path)) expect(name).toMatch(/^(three(\/addons\/.*)?$|measure\/|fur\/index\.ts$)/);
 	});
 
-	it.each(below('page'))('%s is what any page may have: it takes its own room alone', (path) => {
-		for (const name of imports(path)) expect(name).toMatch(/^page\//);
+	it.each(below('page'))('%s is what any page may have: it takes its own room and three', (path) => {
+		for (const name of imports(path)) expect(name).toMatch(/^(page\/|three(\/addons\/.*)?$)/);
 	});
 
 	it.each([...modules, ...files.filter((path) => /^\w+\.html$/.test(path))])('%s contains no GLSL', (path) => {
