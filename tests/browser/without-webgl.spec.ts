@@ -16,3 +16,10 @@ test('a missing picture leaves the words alone', async ({ page, watch }) => {
 	await expect(page.locator('img')).toHaveCount(0);
 	expect(watch.complaints).toEqual([]);
 });
+
+test('the lesson can be read without WebGL2', async ({ page }) => {
+	await open(page, 'learn.html?lang=en');
+	expect(await state(page)).toBe('failed');
+	await expect(page.getByRole('heading', { name: 'Why shells?' })).toBeVisible();
+	await expect(page.locator('figure[data-figure="shells"]')).toContainText('needs WebGL2');
+});

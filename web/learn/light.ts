@@ -6,12 +6,17 @@ import { MovingLight, type Triple, turned } from '../page/light.ts';
 /** How near the horizon it may sink, as its height on the unit sphere: the lesson's dome ends there. */
 const LOWEST = Math.sin(MathUtils.degToRad(4));
 
+/** Seconds between two pictures while it drifts. */
+const DRIFT_FRAME = 1 / 36;
+
 export type LightListener = (direction: Vector3) => void;
 
 export class SharedLight {
 	readonly #moving: MovingLight;
 	readonly #listeners = new Set<LightListener>();
 	readonly #wake: () => void;
+	/** Seconds since the last step. */
+	#late = 0;
 
 	/**
 	 * @param first direction to the lamp
@@ -65,7 +70,12 @@ export class SharedLight {
 
 	/** @param elapsed seconds since the last frame; @returns whether it is still on its way */
 	step(elapsed: number): boolean {
-		if (!this.#moving.step(elapsed)) return false;
+		this.#late += elapsed;
+		// By itself it is slow: half of the frames do, and the machine stays cool.
+		if (this.drifting && this.#late < DRIFT_FRAME) return true;
+		const moved = this.#moving.step(this.#late);
+		this.#late = 0;
+		if (!moved) return false;
 		for (const listener of this.#listeners) listener(this.#moving.direction);
 		return true;
 	}

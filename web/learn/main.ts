@@ -106,7 +106,8 @@ async function start(): Promise<void> {
 	element('lesson').innerHTML = (await texts[language]()).default;
 	fillContents(element('steps'), WORDS[language].steps);
 	// The text moves the place that the address asks for.
-	if (location.hash) document.querySelector(location.hash)?.scrollIntoView();
+	if (location.hash)
+		document.getElementById(decodeURIComponent(location.hash.slice(1)))?.scrollIntoView({ behavior: 'instant' });
 
 	const lesson = newLesson(language);
 	const waiting = new Set<HTMLElement>();
@@ -133,7 +134,12 @@ async function start(): Promise<void> {
 		},
 		{ rootMargin: MARGIN },
 	);
-	for (const figure of document.querySelectorAll('figure[data-figure]')) near.observe(figure);
+	const figures = [...document.querySelectorAll<HTMLElement>('figure[data-figure]')];
+	for (const figure of figures) near.observe(figure);
+	// One is built in any case: in a small window none may be near.
+	const first = nearest(figures);
+	if (first) waiting.add(first);
+	void next();
 }
 
 void start();

@@ -31,6 +31,8 @@ export interface Picture {
 interface Entry extends Picture {
 	draw: () => void;
 	dirty: boolean;
+	/** Whether it has ever been drawn: the first time it is, wherever it is. */
+	drawn: boolean;
 	visible: boolean;
 }
 
@@ -110,6 +112,7 @@ export class Painter {
 		const entry: Entry = {
 			draw,
 			dirty: true,
+			drawn: false,
 			visible: false,
 			redraw: () => {
 				entry.dirty = true;
@@ -181,7 +184,7 @@ export class Painter {
 		this.#before = now;
 		let moving = false;
 		for (const step of this.#steps) if (step(elapsed)) moving = true;
-		this.#paint((entry) => entry.visible);
+		this.#paint((entry) => entry.visible || !entry.drawn);
 		if (moving && [...this.#entries.values()].some(({ visible }) => visible)) this.wake();
 	}
 
@@ -189,6 +192,7 @@ export class Painter {
 		for (const entry of this.#entries.values()) {
 			if (!entry.dirty || !wanted(entry)) continue;
 			entry.dirty = false;
+			entry.drawn = true;
 			entry.draw();
 		}
 		this.#waiting = this.#waiting.filter(({ place, resolve }) => {

@@ -1,0 +1,193 @@
+/** The lesson: figures say what was baked, move with the one light, and fail alone. */
+
+import { readFileSync } from 'node:fs';
+import type { Page } from '@playwright/test';
+import { decode } from 'fast-png';
+import { expect, open, site, state, test } from './harness.ts';
+
+const models = new URL('../../public/models/', import.meta.url);
+const json = (path: string) => JSON.parse(readFileSync(new URL(path, models), 'utf8'));
+const figure = (page: Page, name: string) => page.locator(`figure[data-figure="${name}"]`);
+
+test.use({ viewport: { width: 400, height: 320 } });
+
+/** Brings a figure near and waits until it has been drawn. */
+async function show(page: Page, name: string): Promise<void> {
+	await figure(page, name).evaluate((element) => element.scrollIntoView({ block: 'start', behavior: 'instant' }));
+	await expect(figure(page, name)).toHaveAttribute('data-state', 'ready');
+}
+
+/** Pixels of a canvas when the next frame has been drawn, as one number per pixel. */
+function pixels(page: Page, name: string, nth = 0): Promise<number[]> {
+	return figure(page, name)
+		.locator('canvas')
+		.nth(nth)
+		.evaluate(async (canvas: HTMLCanvasElement) => {
+			for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
+			const small = new OffscreenCanvas(40, 30).getContext('2d', { willReadFrequently: true });
+			small?.drawImage(canvas, 0, 0, 40, 30);
+			const { data = [] } = small?.getImageData(0, 0, 40, 30) ?? {};
+			return Array.from(
+				{ length: 1200 },
+				(_, i) => (data[4 * i] ?? 0) + (data[4 * i + 1] ?? 0) + (data[4 * i + 2] ?? 0),
+			);
+		});
+}
+
+function apart(a: number[], b: number[]): number {
+	return a.reduce((sum, value, i) => sum + Math.abs(value - (b[i] ?? 0)), 0) / a.length / 3;
+}
+
+/** Coefficients of a pelt seen from straight above, from its files. */
+function seenFromAbove(name: string): number[] {
+	const { layers, size, pelts } = json(`${name}/model.gltf`).extensions.FUR_ptm_shells;
+	const [p0, p1] = ['plane0.png', 'plane1.png'].map(
+		(file) => decode(readFileSync(new URL(`${name}/${file}`, models))).data,
+	);
+	const { scale, bias } = pelts[0];
+	const sums = [0, 0, 0, 0, 0, 0];
+	for (let t = 0; t < size * size; t++) {
+		let open = 1;
+		for (let k = layers - 1; k >= 0; k--) {
+			const at = 4 * (k * size * size + t);
+			const stored = [p0?.[at], p0?.[at + 1], p0?.[at + 2], p1?.[at], p1?.[at + 1], p0?.[at + 3]];
+			const alpha = (p1?.[at + 2] ?? 0) / 255;
+			stored.forEach((byte = 0, i) => {
+				sums[i] = (sums[i] ?? 0) + (open * alpha * scale[i] * (byte - bias[i])) / size ** 2;
+			});
+			open *= 1 - alpha;
+		}
+	}
+	return sums;
+}
+
+test('figures say what was baked, and one light moves them all', async ({ page }) => {
+	await open(page, 'learn.html?still=1&lang=en');
+	expect(await state(page)).toBe('ready');
+	await show(page, 'shells');
+	const many = await pixels(page, 'shells');
+	await page.getByLabel('Shells').fill('2');
+	expect(apart(many, await pixels(page, 'shells'))).toBeGreaterThan(1);
+	await expect(figure(page, 'shells').getByRole('status')).toHaveText('2');
+
+	await show(page, 'slices');
+	const { options } = json('pelt-paper/bake.json');
+	await expect(figure(page, 'slices')).toContainText(
+		`${options.layers} slices of ${options.size} × ${options.size} texels, ${options.coefficients} coefficients`,
+	);
+	const [pulled, before] = [await pixels(page, 'slices'), await pixels(page, 'shells')];
+	await figure(page, 'slices').locator('canvas').focus();
+	for (let i = 0; i < 8; i++) await page.keyboard.press('ArrowLeft');
+	expect(apart(pulled, await pixels(page, 'slices'))).toBeGreaterThan(0.5);
+	await show(page, 'shells');
+	expect(apart(before, await pixels(page, 'shells'))).toBeGreaterThan(0.5);
+	await show(page, 'slices');
+	await page.getByText('strands', { exact: true }).click();
+	const { strands } = JSON.parse(readFileSync(new URL('../lesson/lesson.json', models), 'utf8'));
+	await expect(figure(page, 'slices')).toContainText(`${strands.strands} strands`);
+});
+
+test('the body has as many patches and fins as were baked', async ({ page }) => {
+	await open(page, 'learn.html?still=1&lang=en#body');
+	await show(page, 'body');
+	const { asset } = json('bunny/bake.json');
+	const numbers = (await figure(page, 'body').locator('.note').textContent()) ?? '';
+	expect(numbers).toContain(`${asset.skin.faces} triangles of skin`);
+	expect(numbers).toContain(
+		`of ${asset.shells.faces} triangles, ${(asset.shells.faces / asset.skin.faces).toFixed(2)}`,
+	);
+	expect(numbers).toContain(`${asset.fins.faces} triangles of fins`);
+	const whole = await pixels(page, 'body');
+	for (const name of ['hull', 'a colour per patch', 'fins', 'shells']) {
+		const before = await pixels(page, 'body');
+		await page.getByRole('button', { name, exact: true }).click();
+		expect(apart(before, await pixels(page, 'body')), name).toBeGreaterThan(0.02);
+	}
+	expect(apart(whole, await pixels(page, 'body'))).toBeGreaterThan(3);
+});
+
+test('the article’s figures have the brightness of their coefficients', async ({ page, watch }) => {
+	await page.route('**/lesson/strands.bin', (route) => route.fulfill({ body: 'hair' }));
+	await open(page, 'learn.html?still=1&lang=en#paper');
+	await expect(figure(page, 'tuft')).toHaveAttribute('data-state', 'failed');
+	await expect(figure(page, 'tuft')).toContainText('lesson/strands.bin: got 4 bytes');
+	expect(watch.complaints).toEqual([]);
+
+	await show(page, 'turning');
+	const a = seenFromAbove('pelt-paper');
+	// Where the lamp stands before anybody has moved it: x, y up, z; in the tile's frame v runs against z.
+	const [x, y, z] = [-0.62, 0.62, 0.48].map((part) => part / Math.hypot(0.62, 0.62, 0.48)) as [number, number, number];
+	const lit = (turn: number, of = a) => {
+		const [c, s] = [Math.cos((turn * Math.PI) / 180), Math.sin((turn * Math.PI) / 180)];
+		const [u, v] = [c * x + s * z, -(c * z - s * x)];
+		return [u * u, v * v, u * v, u, v, 1].reduce((sum, phi, i) => sum + phi * (of[i] ?? 0), 0);
+	};
+	for (const turn of [0, 90, 180, 270])
+		await expect(figure(page, 'turning')).toContainText(`${turn}°: mean L = ${lit(turn).toFixed(2)}`);
+	expect(y).toBeGreaterThan(0);
+
+	await show(page, 'short');
+	const swings = ['pelt-paper', 'pelt-short'].map((name) => {
+		const of = seenFromAbove(name);
+		const values = Array.from({ length: 36 }, (_, i) => lit(10 * i, of));
+		const [least, most] = [Math.min(...values), Math.max(...values)];
+		return Math.round((100 * (most - least)) / (most + least));
+	});
+	for (const swing of swings) await expect(figure(page, 'short')).toContainText(`± ${swing} %`);
+	expect(swings[1]).toBeLessThan((swings[0] ?? 0) * 0.7);
+});
+
+test('Table 1 stands beside the article’s, and what cannot be measured is said', async ({ page }) => {
+	// Measuring itself has a test of its own; this one is about what becomes of it.
+	let body = `export async function measureTable1({ quick }, signal, progress) {
+		progress(0.5);
+		return [512, 4608, 16896].map((triangles, i) => (
+			{ triangles, layered: { fps: 100 + i }, ptm: { fps: 200 + i }, ratio: quick ? 2 + i / 10 : 0 }
+		));
+	}`;
+	await page.route('**/measure/table1.ts*', (route) => route.fulfill({ contentType: 'text/javascript', body }));
+	await open(page, 'learn.html?still=1&lang=en#rivals');
+	await show(page, 'rivals');
+	const [unlit, lengyel, layers, ptm] = await Promise.all([0, 1, 2, 3].map((nth) => pixels(page, 'rivals', nth)));
+	for (const other of [unlit, lengyel, layers]) expect(apart(ptm ?? [], other ?? [])).toBeGreaterThan(1);
+	const row = page.getByRole('row').filter({ hasText: '4 608' });
+	await expect(row.getByRole('cell')).toHaveText(['14.3', '17.4', '1.22', '–', '–', '–']);
+	await page.getByRole('button', { name: 'Measure here' }).click();
+	await expect(row.getByRole('cell')).toHaveText(['14.3', '17.4', '1.22', '101.0', '201.0', '2.10']);
+	body = 'export async function measureTable1() { throw new Error("no lamp"); }';
+	await page.getByRole('button', { name: 'Measure here' }).focus();
+	// Figures go on after a measurement.
+	const before = await pixels(page, 'rivals', 3);
+	await figure(page, 'rivals').locator('canvas').nth(3).focus();
+	for (let i = 0; i < 8; i++) await page.keyboard.press('ArrowRight');
+	expect(apart(before, await pixels(page, 'rivals', 3))).toBeGreaterThan(0.5);
+});
+
+test('a lost context comes back, and a finger scrolls', async ({ page }) => {
+	await page.addInitScript(() => {
+		const own = HTMLCanvasElement.prototype.getContext;
+		HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, ...args: [never]) {
+			const context = own.apply(this, args);
+			if (context instanceof WebGL2RenderingContext)
+				Object.assign(window, { lost: context.getExtension('WEBGL_lose_context') });
+			return context;
+		} as never;
+	});
+	await page.goto(`${site}learn.html?still=1&lang=zh`);
+	await show(page, 'shells');
+	await expect(page.locator('html')).toHaveAttribute('lang', 'zh-Hans');
+	const before = await pixels(page, 'shells');
+	await page.evaluate(async () => {
+		const { lost } = window as unknown as { lost: WEBGL_lose_context };
+		lost.loseContext();
+		await new Promise((resolve) => setTimeout(resolve, 100));
+		lost.restoreContext();
+		await new Promise((resolve) => setTimeout(resolve, 100));
+	});
+	await expect.poll(async () => apart(before, await pixels(page, 'shells'))).toBeLessThan(0.1);
+	const touch = await figure(page, 'shells')
+		.locator('canvas')
+		.first()
+		.evaluate((canvas) => getComputedStyle(canvas).touchAction);
+	expect(touch).toBe('pan-y');
+});
