@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { fontsPlugin, sharePlugin, siteAddress } from '../../web/tools/plugins.mjs';
+import { bareShader, fontsPlugin, sharePlugin, siteAddress } from '../../web/tools/plugins.mjs';
 
 const page = `<html><head><title>furbake · learn</title>
 	<meta name="description" content="Strands &amp; slices." /></head></html>`;
@@ -27,6 +27,13 @@ describe('siteAddress', () => {
 
 	it.each(['example.org', 'ftp://example.org/', '/furbake/'])('refuses %s', (site) => {
 		expect(() => siteAddress(site)).toThrow(`SITE_URL: got ${site}, expected the address of the site`);
+	});
+});
+
+describe('bareShader', () => {
+	it('leaves every statement and directive on its line', () => {
+		const source = '// what\n\n#define A 2.0 // why\n\tfloat a = A / 2.0; /* b\n c */\n\n\n\treturn a*a;\n}\n';
+		expect(bareShader(source)).toBe('#define A 2.0\nfloat a = A / 2.0;\nreturn a*a;\n}');
 	});
 });
 
