@@ -116,6 +116,27 @@ describe('the fit of the page', () => {
 	});
 });
 
+describe('the text', () => {
+	it('says what was measured', () => {
+		const mean = (layer: Layer | undefined, low: number, high: number) => {
+			const weights = Array.from(layer?.texels ?? [], (texel) => layer?.alpha[texel] ?? 0);
+			const total = weights.reduce((sum, weight) => sum + weight, 0);
+			const lamps = record.lights.slice(0, -record.angles.length).map((light, i) => [i, light[2]] as const);
+			const some = lamps.filter(([, z]) => z > low && z < high);
+			const sum = some.map(([i]) =>
+				weights.reduce((s, w, t) => s + w * (layer?.light[i * weights.length + t] ?? 0), 0),
+			);
+			return sum.reduce((a, b) => a + b, 0) / some.length / total;
+		};
+		const lost = (layer: Layer | undefined) => 1 - mean(layer, 0, 0.26) / mean(layer, 0.966, 1);
+		expect(layers.map(({ number }) => number + 1)).toEqual([4, 8, 12, 14]);
+		expect(lost(layers[0])).toBeCloseTo(0.75, 1);
+		expect(lost(layers[3])).toBeLessThan(0.5);
+		expect(record.eigen_figures[0]?.numbers).toBe(3);
+		expect(record.eigen_figures[0]?.psnr).toBeGreaterThan(record.fit.psnr);
+	});
+});
+
 describe('the record', () => {
 	it('says what the committed models say of themselves', () => {
 		const { fin: _, ...fit } = JSON.parse(file('models/torus/bake.json').toString()).fit;

@@ -124,7 +124,8 @@ async function start(): Promise<void> {
 	const near = new IntersectionObserver(
 		(changes) => {
 			for (const { target, isIntersecting } of changes) {
-				if (!isIntersecting) continue;
+				// It may report a figure twice at once.
+				if (!isIntersecting || (target as HTMLElement).dataset.state) continue;
 				near.unobserve(target);
 				waiting.add(target as HTMLElement);
 			}

@@ -115,6 +115,7 @@ export class View {
 
 	/** The key light casts shadows. @param softness of their edges, world units; @param reach radius of what casts them */
 	cast(softness: number, reach = this.radius): void {
+		this.#shine(this.#here.copy(this.#lesson.light.direction));
 		fitShadow(this.key, new Sphere(this.centre, reach), softness);
 	}
 

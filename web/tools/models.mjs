@@ -1,6 +1,6 @@
 /**
- * The default models: `public/models/models.json` lists them, this bakes the ones that are missing or stale. So it does
- * with the lesson's data in `public/lesson`.
+ * The default models, which `public/models/models.json` lists, and what the lesson measures with: bakes what is missing or
+ * stale.
  */
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join } from 'node:path';

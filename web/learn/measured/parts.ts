@@ -11,10 +11,14 @@ import { wordsIn } from './words.ts';
 export function layerChoice(place: Element, lesson: Lesson, chosen: Chosen): void {
 	const words = wordsIn(lesson.language);
 	const { samples, options } = chosen.record;
-	const labels = Object.fromEntries(
-		samples.map(({ layer }, i) => [String(i), words.layerOf(layer + 1, options.layers)]),
+	const labels = Object.fromEntries(samples.map(({ layer }, i) => [String(i), String(layer + 1)]));
+	const set = choice(
+		place,
+		words.layerOf(options.layers),
+		labels,
+		String(chosen.index),
+		(index) => void chosen.show(Number(index)),
 	);
-	const set = choice(place, words.layer, labels, String(chosen.index), (index) => void chosen.show(Number(index)));
 	chosen.listen(() => {
 		for (const input of set.querySelectorAll('input')) input.checked = input.value === String(chosen.index);
 	});

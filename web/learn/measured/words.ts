@@ -3,8 +3,7 @@
 import type { Language } from '../../page/language.ts';
 
 const en = {
-	layer: 'Layer',
-	layerOf: (layer: number, of: number) => `${layer} of ${of}`,
+	layerOf: (layers: number) => `Layer, of ${layers}`,
 	dark: 'dark',
 	bright: 'bright, L =',
 	dome: 'Dome of lamps over a patch of fur. Drag, or use the arrow keys, to light another lamp.',
@@ -33,7 +32,6 @@ const en = {
 	singular: 'singular values of the light matrix, 64 × 6',
 	condition: (value: string) => `largest / smallest = ${value}: no number of the six is left to chance.`,
 	bits: 'bits per number',
-	bitsOf: (bits: number, bytes: string) => `${bits} bits, ${bytes} bytes a texel`,
 	unrounded: 'six numbers, not rounded',
 	rounded: (bits: number) => `six numbers of ${bits} bits`,
 	noise: 'their difference × 8',
@@ -42,8 +40,8 @@ const en = {
 	noiseCurve: 'Decibels by bits per number: rounding alone, and all errors together.',
 	noiseLine: 'rounding alone',
 	wholeLine: 'rounding and fit, on held-out lamps',
-	atBits: (bits: number, psnr: string, noise: string) =>
-		`All layers, ${bits} bits: ${psnr} dB against what was measured, ${noise} dB against the unrounded numbers.`,
+	atBits: (bits: number, bytes: string, psnr: string, noise: string) =>
+		`All layers, ${bits} bits or ${bytes} bytes a texel: ${psnr} dB against what was measured, ${noise} dB against the unrounded numbers.`,
 	lambda: 'λ',
 	omega: 'Ω',
 	numbersOf: 'Numbers per texel',
@@ -68,8 +66,7 @@ const en = {
 };
 
 const zh: typeof en = {
-	layer: '层',
-	layerOf: (layer, of) => `${layer} / ${of}`,
+	layerOf: (layers) => `层（共 ${layers} 层）`,
 	dark: '暗',
 	bright: '亮，L =',
 	dome: '一小块毛发上方的光源穹顶。拖动或按方向键，点亮另一盏灯。',
@@ -96,7 +93,6 @@ const zh: typeof en = {
 	singular: '光照矩阵（64 × 6）的奇异值',
 	condition: (value) => `最大 / 最小 = ${value}：六个系数都能稳定求出。`,
 	bits: '每个系数的位数',
-	bitsOf: (bits, bytes) => `${bits} 位，每纹素 ${bytes} 字节`,
 	unrounded: '六个系数，未量化',
 	rounded: (bits) => `六个 ${bits} 位系数`,
 	noise: '两者之差 × 8',
@@ -105,7 +101,8 @@ const zh: typeof en = {
 	noiseCurve: '不同位数下的分贝数：仅量化误差，以及全部误差。',
 	noiseLine: '仅量化误差',
 	wholeLine: '量化与拟合，检验灯',
-	atBits: (bits, psnr, noise) => `全部层，${bits} 位：与实测相比 ${psnr} dB，与未量化的系数相比 ${noise} dB。`,
+	atBits: (bits, bytes, psnr, noise) =>
+		`全部层，每个系数 ${bits} 位，每纹素 ${bytes} 字节：与实测相比 ${psnr} dB，与未量化的系数相比 ${noise} dB。`,
 	lambda: 'λ',
 	omega: 'Ω',
 	numbersOf: '每纹素系数个数',

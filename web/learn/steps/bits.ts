@@ -61,8 +61,8 @@ export const mount: Mount = async (place, lesson) => {
 			);
 			for (const entry of record.bits) mark(svg, shape, kind, x(entry.bits), y(entry[key]));
 			if (!now) continue;
-			const anchor = bits > 8 ? 'end' : 'start';
-			const beside = x(bits) + (bits > 8 ? -8 : 8);
+			const anchor = bits > 3 ? 'end' : 'start';
+			const beside = x(bits) + (bits > 3 ? -8 : 8);
 			draw(svg, 'text', { class: 'value', x: beside, y: y(now[key]) - 9, 'text-anchor': anchor }, decimal(now[key], 1));
 		}
 	});
@@ -110,13 +110,13 @@ export const mount: Mount = async (place, lesson) => {
 		max: 10,
 		step: 1,
 		value: bits,
-		text: (value) => words.bitsOf(value, decimal((value * 6) / 8, value % 4 ? 2 : 1).replace(/\.?0+$/, '')),
+		text: String,
 		input: (value) => {
 			bits = value;
 			rounded.say(words.rounded(bits));
 			table.show(rangeOf(record, bits));
 			const now = record.bits.find((entry) => entry.bits === bits);
-			if (now) says(words.atBits(bits, decimal(now.psnr), decimal(now.noise)));
+			if (now) says(words.atBits(bits, String((6 * bits) / 8), decimal(now.psnr), decimal(now.noise)));
 			curve.redraw();
 			redraw();
 		},

@@ -35,12 +35,19 @@ export const mount: Mount = async (place, lesson) => {
 
 	const dome = new Dome(lamps, record.fitted);
 	const lit = () => nearest(lamps, toTile(light.direction));
+	/** The lamp that the light is on its way to: the next key goes on from there. */
+	let asked: number | undefined;
 	const take = (lamp: number | undefined) => {
 		const direction = lamp === undefined ? undefined : lamps[lamp];
-		if (direction) light.set(...toWorld(direction));
+		if (!direction) return;
+		asked = lamp;
+		light.set(...toWorld(direction));
 	};
+	canvas.addEventListener('blur', () => {
+		asked = undefined;
+	});
 	listenToDrags(canvas, ({ x, y }) => take(dome.lampAt(x, y)));
-	arrows(canvas, (right, up) => take(neighbour(lamps, lit(), right, up)));
+	arrows(canvas, (right, up) => take(neighbour(lamps, asked ?? lit(), right, up)));
 
 	const colourOf = (measured: Float32Array) => (texel: number) => lightColour(measured[texel] ?? 0, record.peak);
 	live(lesson, chosen, [
@@ -48,6 +55,7 @@ export const mount: Mount = async (place, lesson) => {
 			canvas,
 			() => {
 				const lamp = lit();
+				if (lamp === asked) asked = undefined;
 				dome.draw(canvas, lamp, chosen.layer, colourOf(chosen.measured(lamp)));
 				const high = decimal(elevationOf(lamps[lamp] ?? [0, 0, 1]), 0);
 				canvas.dataset.lamp = String(lamp);

@@ -49,8 +49,8 @@ export const mount: Mount = async (place, lesson) => {
 	const errorSays = line(surfaceBox);
 	const table = new NumberTable(tableBox, words);
 	const values = chosen.ptm.singularValues;
-	new Plot(tableBox, words.singular, 150, (svg, width, height) => {
-		const y = scale([0, values[0] ?? 1], [height - 24, 30]);
+	new Plot(tableBox, words.singular, 170, (svg, width, height) => {
+		const y = scale([0, values[0] ?? 1], [height - 24, 46]);
 		const step = Math.min(width / values.length, 96);
 		draw(svg, 'text', { class: 'name', x: 2, y: 13 }, words.singular);
 		values.forEach((value, i) => {

@@ -20,7 +20,7 @@ import { View } from '../view.ts';
 
 /** Of the tuft at its foot, tile widths; beyond `RIM` hairs are thinned out. */
 const RADIUS = 0.46;
-const RIM = 0.36;
+const RIM = 0.4;
 /** Of the tuft over the tile's own hairs. */
 const LENGTH = 1.7;
 const GROUND = 2.6;
@@ -35,7 +35,7 @@ export const mount: Mount = async (place, lesson) => {
 	const mask: number[] = [];
 	for (let i = 0; i < position.count; i++) {
 		const away = Math.hypot(position.getX(i), position.getZ(i));
-		mask.push(smooth((RADIUS - away) / (RADIUS - RIM)), 1 - 0.35 * Math.min(away / RADIUS, 1) ** 2, 1, 0);
+		mask.push(smooth((RADIUS - away) / (RADIUS - RIM)), 1 - 0.6 * Math.min(away / RADIUS, 1) ** 2, 1, 0);
 	}
 	surface.setAttribute('_fur', new Float32BufferAttribute(mask, 4));
 	const patch = new FurPatch(fur, 1, surface);
@@ -55,7 +55,7 @@ export const mount: Mount = async (place, lesson) => {
 
 	const ground = new Mesh(
 		new CircleGeometry(GROUND, 64).rotateX(-Math.PI / 2),
-		new MeshStandardMaterial({ color: 0x9a9186, alphaMap: fading(), transparent: true, depthWrite: false }),
+		new MeshStandardMaterial({ color: 0x77716a, alphaMap: fading(), transparent: true, depthWrite: false }),
 	);
 	ground.receiveShadow = true;
 	ground.renderOrder = -1;

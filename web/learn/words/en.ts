@@ -74,7 +74,7 @@ export const en = {
 	turning: {
 		picture: (turn: number) =>
 			`A square of fur, the light turned by ${turn} degrees. Drag or use the arrow keys to move it.`,
-		brightness: (turn: number, brightness: number) => `+${turn}°: mean L = ${brightness.toFixed(2)}`,
+		brightness: (turn: number, brightness: number) => `${turn}°: mean L = ${brightness.toFixed(2)}`,
 	},
 	short: {
 		pictures: [

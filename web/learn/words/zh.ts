@@ -60,7 +60,7 @@ export const zh: Words = {
 	},
 	turning: {
 		picture: (turn) => `一块毛发，光源转过 ${turn} 度。拖动或用方向键移动光源。`,
-		brightness: (turn, brightness) => `+${turn}°：平均 L = ${brightness.toFixed(2)}`,
+		brightness: (turn, brightness) => `${turn}°：平均 L = ${brightness.toFixed(2)}`,
 	},
 	short: {
 		pictures: ['长毛。拖动或用方向键移动光源。', '短毛。拖动或用方向键移动光源。'],
