@@ -2,7 +2,7 @@ import { readdirSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
 import { lesson } from './tools/lesson.mjs';
-import { headersPlugin, sharePlugin } from './tools/plugins.mjs';
+import { fontsPlugin, headersPlugin, shaderPlugin, sharePlugin } from './tools/plugins.mjs';
 
 const at = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 const pages = readdirSync(at('.')).filter((name) => name.endsWith('.html'));
@@ -16,7 +16,7 @@ export default defineConfig({
 	appType: 'mpa',
 	// The example reads as it would in another app.
 	resolve: { alias: { furbake: at('fur/index.ts') } },
-	plugins: [lesson(), headersPlugin(), sharePlugin(process.env.SITE_URL)],
+	plugins: [lesson(), shaderPlugin(), fontsPlugin(), headersPlugin(), sharePlugin(process.env.SITE_URL)],
 	server: {
 		// The JSON schema lives in the baker wing.
 		fs: { allow: [at('.'), at('../node_modules'), at('../baker/furbake/asset/schema'), at('../tests')] },

@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { sharePlugin, siteAddress } from '../../web/tools/plugins.mjs';
+import { bareShader, fontsPlugin, sharePlugin, siteAddress } from '../../web/tools/plugins.mjs';
 
 const page = `<html><head><title>furbake · learn</title>
 	<meta name="description" content="Strands &amp; slices." /></head></html>`;
@@ -27,6 +27,37 @@ describe('siteAddress', () => {
 
 	it.each(['example.org', 'ftp://example.org/', '/furbake/'])('refuses %s', (site) => {
 		expect(() => siteAddress(site)).toThrow(`SITE_URL: got ${site}, expected the address of the site`);
+	});
+});
+
+describe('bareShader', () => {
+	it('leaves every statement and directive on its line', () => {
+		const source = '// what\n\n#define A 2.0 // why\n\tfloat a = A / 2.0; /* b\n c */\n\n\n\treturn a*a;\n}\n';
+		expect(bareShader(source)).toBe('#define A 2.0\nfloat a = A / 2.0;\nreturn a*a;\n}');
+	});
+});
+
+describe('fontsPlugin', () => {
+	it('makes files of fonts in style sheets, beside them, and of nothing else', () => {
+		const { generateBundle } = fontsPlugin() as unknown as {
+			generateBundle: (options: unknown, bundle: Record<string, unknown>) => void;
+		};
+		const sheet = {
+			type: 'asset',
+			fileName: 'assets/a.css',
+			source: `a{src:url("data:application/font-woff2;charset=utf-8;base64,${btoa('font')}")format("woff2");background:url(data:image/png;base64,AAAA)}`,
+		};
+		const emitted: string[] = [];
+		const context = {
+			emitFile({ source }: { source: Buffer }) {
+				emitted.push(source.toString());
+				return 'id';
+			},
+			getFileName: () => 'assets/font-1.woff2',
+		};
+		generateBundle.call(context, {}, { sheet });
+		expect(sheet.source).toBe('a{src:url(./font-1.woff2)format("woff2");background:url(data:image/png;base64,AAAA)}');
+		expect(emitted).toEqual(['font']);
 	});
 });
 

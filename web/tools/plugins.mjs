@@ -1,4 +1,6 @@
 /** What vite does to the pages besides: the policy and the headers of the hosted site, and what a shared link looks like. */
+import { readFile } from 'node:fs/promises';
+import { posix } from 'node:path';
 import { headersFor, policyInPage, siteRules } from './headers.mjs';
 import { Failure } from './process.mjs';
 
@@ -31,6 +33,56 @@ export function headersPlugin() {
 				// Before anything that it rules, behind the encoding, which must be found in the first 1024 bytes.
 				return html.replace(/<meta charset="utf-8" ?\/?>/, `$&\n    ${policy}`);
 			},
+		},
+	};
+}
+
+/** @param {string} source; @returns {string} the same shader without its comments, indents and empty lines */
+export function bareShader(source) {
+	return source
+		.replace(/\/\*[\s\S]*?\*\/|\/\/.*$/gm, '')
+		.replace(/^[ \t]+|[ \t]+$/gm, '')
+		.replace(/\n{2,}/g, '\n')
+		.trim();
+}
+
+/**
+ * Shaders travel without their words, which are two fifths of them.
+ *
+ * @returns {Plugin}
+ */
+export function shaderPlugin() {
+	return {
+		name: 'furbake-shaders',
+		apply: 'build',
+		enforce: 'pre',
+		async load(id) {
+			if (!id.endsWith('.glsl?raw')) return undefined;
+			const source = await readFile(id.replace(/\?raw$/, ''), 'utf8');
+			return { code: `export default ${JSON.stringify(bareShader(source))};`, moduleType: 'js' };
+		},
+	};
+}
+
+/**
+ * Fonts that packages have written into their style sheets become files: the policy allows none in `data:` addresses.
+ *
+ * @returns {Plugin}
+ */
+export function fontsPlugin() {
+	return {
+		name: 'furbake-fonts',
+		apply: 'build',
+		generateBundle(_, bundle) {
+			for (const file of Object.values(bundle)) {
+				if (file.type !== 'asset' || !file.fileName.endsWith('.css')) continue;
+				const folder = posix.dirname(file.fileName);
+				const font = /url\(["']?data:(?:application|font)\/[\w-]*woff2[^,"')]*;base64,([^"')]*)["']?\)/g;
+				file.source = `${file.source}`.replace(font, (_, base64) => {
+					const id = this.emitFile({ type: 'asset', name: 'font.woff2', source: Buffer.from(base64, 'base64') });
+					return `url(./${posix.relative(folder, this.getFileName(id))})`;
+				});
+			}
 		},
 	};
 }
