@@ -82,7 +82,7 @@ test('figures say what was baked, and one light moves them all', async ({ page }
 	await show(page, 'shells');
 	expect(apart(before, await pixels(page, 'shells'))).toBeGreaterThan(0.5);
 	await show(page, 'slices');
-	await page.getByText('strands', { exact: true }).click();
+	await page.getByRole('radio', { name: 'strands' }).check();
 	const { strands } = JSON.parse(readFileSync(new URL('../lesson/lesson.json', models), 'utf8'));
 	await expect(figure(page, 'slices')).toContainText(`${strands.strands} strands`);
 });

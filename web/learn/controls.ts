@@ -20,7 +20,7 @@ export function figureCanvas(place: Element, label: string, aspect: number): HTM
 	canvas.tabIndex = 0;
 	canvas.setAttribute('role', 'img');
 	canvas.setAttribute('aria-label', label);
-	canvas.style.aspectRatio = String(aspect);
+	canvas.style.setProperty('--aspect', String(aspect));
 	return canvas;
 }
 

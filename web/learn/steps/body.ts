@@ -86,12 +86,14 @@ export const mount: Mount = async (place, lesson) => {
 /** The shells' surface moved out to half of the fur, as lines. */
 function hullOf(shells: FurShells): LineSegments {
 	const surface = shells.geometry;
-	const moved = surface.getAttribute('position').clone() as BufferAttribute;
-	const [normal, fur] = [surface.getAttribute('normal'), surface.getAttribute('_fur')];
+	const [position, normal, fur] = ['position', 'normal', '_fur'].map((name) => surface.getAttribute(name));
+	// In floats: as they are stored, no position is outside of the skin's own box.
+	const moved = new BufferAttribute(new Float32Array(3 * (position?.count ?? 0)), 3);
+	if (!position || !normal) throw new Error(`models/${MODEL}: its shells have no normals`);
 	const [point, out] = [new Vector3(), new Vector3()];
 	for (let i = 0; i < moved.count; i++) {
 		out.fromBufferAttribute(normal, i).normalize();
-		point.fromBufferAttribute(moved, i).addScaledVector(out, shells.material.furLength * HULL * (fur?.getY(i) ?? 1));
+		point.fromBufferAttribute(position, i).addScaledVector(out, shells.material.furLength * HULL * (fur?.getY(i) ?? 1));
 		moved.setXYZ(i, point.x, point.y, point.z);
 	}
 	const geometry = new BufferGeometry().setAttribute('position', moved).setIndex(surface.index);

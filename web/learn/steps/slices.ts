@@ -27,6 +27,8 @@ import { View } from '../view.ts';
 const SOLID = 0.35;
 /** Heights of the fur that the slices fill when they are pulled apart. */
 const APART = 3.6;
+/** Share of the slider at first. */
+const PULLED = 0.6;
 
 export const mount: Mount = async (place, lesson) => {
 	const words = lesson.words.slices;
@@ -79,17 +81,20 @@ export const mount: Mount = async (place, lesson) => {
 		min: 0,
 		max: 1,
 		step: 0.01,
-		value: 0.6,
+		value: PULLED,
 		text: (share) => words.times(1 + (APART - 1) * share),
 		input: pull,
 	});
 	const line = note(place);
+	let pulled = PULLED;
 	const shown = { strands: hairs, volume: cubes, slices: patch };
 	const stages = choice(row, words.stage, words.stages, 'slices', (stage) => {
 		for (const [name, object] of Object.entries(shown)) object.visible = name === stage;
 		frames.visible = stage === 'slices';
+		// What is in one piece is shown as it is.
+		if (!apart.element.disabled) pulled = apart.value;
 		apart.element.disabled = stage !== 'slices';
-		apart.value = stage === 'slices' ? apart.value : 0;
+		apart.value = stage === 'slices' ? pulled : 0;
 		line.textContent = {
 			strands: words.strands(strands.count),
 			volume: words.volume(size, layers, cubes.count, SOLID),
