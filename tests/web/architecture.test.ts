@@ -99,11 +99,12 @@ describe('the pages', () => {
 		for (const name of imports(path)) expect(others).not.toContain(name.split('/')[0]);
 	});
 
-	it.each(shared.flatMap(below))('%s is for any page: it takes three, its own room and the library', (path) => {
-		const [room = ''] = path.split('/');
-		for (const name of imports(path)) {
-			expect(name.startsWith(`${room}/`) || /^three(\/addons\/.*)?$|^fur\/index\.ts$/.test(name), name).toBe(true);
-		}
+	it.each(below('measure'))('%s measures for any page: it takes packages, its own room and the library', (path) => {
+		for (const name of imports(path)) expect(name).toMatch(/^(three(\/addons\/.*)?$|measure\/|fur\/index\.ts$)/);
+	});
+
+	it.each(below('page'))('%s is what any page may have: it takes its own room and three', (path) => {
+		for (const name of imports(path)) expect(name).toMatch(/^(page\/|three(\/addons\/.*)?$)/);
 	});
 
 	it.each([...modules, ...files.filter((path) => /^\w+\.html$/.test(path))])('%s contains no GLSL', (path) => {
