@@ -107,7 +107,7 @@ test('a place is fetched when it is wanted, lights the model and stands behind i
 }) => {
 	await page.setViewportSize({ width: 900, height: 600 });
 	const at = '?model=sphere&shells=4&still=1&light=-1,.5,.4';
-	const places = () => watch.requests.filter((url) => url.includes('.exr.js'));
+	const places = () => watch.requests.filter((url) => /\.exr[.-]/.test(url));
 	await open(page, at);
 	expect(places()).toEqual([]);
 	const own = await picture(page);
@@ -139,7 +139,7 @@ test('the sun of a place is where the light begins', async ({ page }) => {
 });
 
 test('a place that cannot be fetched is told, and the page stays usable', async ({ page, watch }) => {
-	await page.route('**/city.exr.js*', (route) => route.abort());
+	await page.route('**/city.exr*', (route) => route.abort());
 	await open(page, '?model=sphere&shells=4&still=1&env=city');
 	expect(await state(page)).toBe('ready');
 	await expect(page.getByRole('status')).toContainText('The environment city cannot be shown');
