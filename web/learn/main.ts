@@ -4,6 +4,7 @@ import 'katex/dist/katex.min.css';
 import { element, setState } from '../page/element.ts';
 import { fillHeader } from '../page/header.ts';
 import { fillIn, type Language, languageOf } from '../page/language.ts';
+import { action } from './controls.ts';
 import type { Lesson, Mount } from './lesson.ts';
 import { SharedLight } from './light.ts';
 import { MARGIN, Painter } from './painter.ts';
@@ -140,6 +141,16 @@ async function start(): Promise<void> {
 	const first = nearest(figures);
 	if (first) waiting.add(first);
 	void next();
+
+	const print = action(document.querySelector('section.end') ?? document.body, WORDS[language].print, async () => {
+		print.disabled = true;
+		for (const figure of figures) if (!figure.dataset.state) waiting.add(figure);
+		void next();
+		while (figures.some(({ dataset: { state } }) => !state || state === 'loading'))
+			await new Promise(requestAnimationFrame);
+		print.disabled = false;
+		window.print();
+	});
 }
 
 void start();

@@ -203,6 +203,8 @@ export class Painter {
 	}
 
 	#fit(canvas: HTMLCanvasElement): void {
+		// On paper a picture stays what it was on screen: there is no next frame to draw it anew.
+		if (matchMedia('print').matches) return;
 		const ratio = Math.min(devicePixelRatio, MAX_PIXEL_RATIO);
 		const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((side) => Math.round(side * ratio));
 		// Not shown just now.

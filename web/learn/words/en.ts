@@ -11,6 +11,7 @@ export const en = {
 	description:
 		'A lesson in one scroll: fur in real time by polynomial texture maps, every figure live under one light.',
 	steps: 'Steps of the lesson',
+	print: 'Print, with all figures',
 	needsWebGL2: 'This figure is drawn live and needs WebGL2, which this browser does not offer.',
 	failed: (reason: string) => `This figure cannot be shown: ${reason}`,
 	shells: {
