@@ -26,6 +26,7 @@ export default defineConfig({
 		include: [
 			'@cfworker/json-schema',
 			'fast-png',
+			'fflate',
 			'lil-gui',
 			'stats-gl',
 			'three',

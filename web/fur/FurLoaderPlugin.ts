@@ -31,6 +31,8 @@ export interface FurLoaderOptions {
 	limits?: TextureLimits;
 	/** Most texels that are averaged along the slant in which a shell is seen, 1 to 16, where the GPU can; 2 by default. */
 	anisotropy?: number;
+	/** Called where the fur is of a newer version than `VERSION`, so that the skin stays alone; without it, a warning on the console. */
+	newer?: (version: string) => void;
 	/** Called with the loaded scene once its skin has the colour that it has under fur, before any plane has come. */
 	skin?: (scene: Object3D) => void;
 }
@@ -62,8 +64,9 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		if (!extension) return;
 		const asset = parseFur(extension);
 		if (!asset) {
-			console.warn(`${EXTENSION}: version ${extension.version} is newer than ${VERSION}; showing the skin alone`);
-			return;
+			const warn = (version: string) =>
+				console.warn(`${EXTENSION}: version ${version} is newer than ${VERSION}; showing the skin alone`);
+			return (this.#options.newer ?? warn)(extension.version);
 		}
 		if (this.#options.limits) checkLimits(asset, this.#options.limits);
 		gltf.userData.fur = await this.#grow(asset, gltf.scene);
