@@ -212,8 +212,10 @@ def test_a_vertex_is_at_most_32_bytes_with_all_it_can_have(write: Callable[..., 
 
 
 def test_large_surfaces_take_32_bit_indices(write: Callable[..., Any]) -> None:
-    asset, surface, *_ = write("torus:300x300")
-    assert len(surface.vertices) > 65535
+    torus = builtin("torus:257x257")
+    assert len(torus.vertices) > 65535
+    # Patches would take a hundred times as long as all else.
+    asset, surface, *_ = write(surface=torus, charts=own_charts(torus, 0.2, "torus"))
     accessor = asset.document["accessors"][asset.primitive(0)["indices"]]
     assert accessor["componentType"] == 5125
     np.testing.assert_array_equal(asset.accessor(asset.primitive(0)["indices"]).reshape(-1, 3), surface.faces)

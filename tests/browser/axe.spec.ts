@@ -5,6 +5,7 @@ import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
 import { expect, site, state, test } from './harness.ts';
 import { repository } from './library.ts';
+import { restyle } from './robust.ts';
 
 /** What each page shows here: as little as it can. */
 const PAGES = {
@@ -47,3 +48,29 @@ for (const [file, query] of Object.entries(PAGES)) {
 		}
 	});
 }
+
+test('where reduced motion is asked for, nothing moves by itself', async ({ page }) => {
+	await page.emulateMedia({ reducedMotion: 'reduce' });
+	const rests = async (what: string) => {
+		let before = await page.screenshot();
+		// What is drawn as soon as it comes into view has a moment for it.
+		await expect(async () => {
+			const now = await page.screenshot();
+			const same = now.equals(before);
+			before = now;
+			expect(same, what).toBe(true);
+		}).toPass({ intervals: [500] });
+		await page.waitForTimeout(1000);
+		expect((await page.screenshot()).equals(before), what).toBe(true);
+	};
+	await load(page, '?model=sphere&shells=4');
+	// Numbers of the last frame may come late; they are no motion.
+	await restyle(page, '#overlay { visibility: hidden }');
+	await rests('the demo');
+	if (!existsSync(`${repository}web/learn.html`)) return;
+	await load(page, 'learn.html');
+	for (const figure of await page.locator('figure:has(canvas)').all()) {
+		await figure.scrollIntoViewIfNeeded();
+		await rests((await figure.getAttribute('data-figure')) ?? 'a figure');
+	}
+});

@@ -32,11 +32,11 @@ test('a moving light uploads neither texture nor buffer', async ({ page }) => {
 });
 
 test('steady frames under a moving light allocate nothing', async ({ page }) => {
-	test.setTimeout(400_000);
+	test.setTimeout(200_000);
 	await shrinkPicture(page, 48, 36);
 	await hasten(page);
 	// From its sources, whose names tell the page's own allocations from three's.
-	await open(page, 'sources.html?model=sphere&shells=2');
+	await open(page, 'sources.html?model=torus-512&shells=2');
 	const devtools = await page.context().newCDPSession(page);
 	await devtools.send('HeapProfiler.enable');
 	const heap = async () => {

@@ -76,7 +76,10 @@ await command(async () => {
 			'pytest',
 			async () => {
 				await ensurePython({ dev: true });
-				const args = ['-c', 'pyproject.toml', `--junitxml=${report('pytest.xml')}`, join('..', 'tests', 'baker')];
+				// On every core: each test keeps to one.
+				const split = ['-n', 'auto', '--dist=worksteal'];
+				const folder = join('..', 'tests', 'baker');
+				const args = ['-c', 'pyproject.toml', ...split, `--junitxml=${report('pytest.xml')}`, folder];
 				return run(python, ['-m', 'pytest', ...args], { cwd: join(root, 'baker') });
 			},
 			report('pytest.xml'),
