@@ -1,8 +1,11 @@
+import { readdirSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
 import { lesson } from './tools/lesson.mjs';
+import { fontsPlugin, headersPlugin, shaderPlugin, sharePlugin } from './tools/plugins.mjs';
 
 const at = (path: string) => fileURLToPath(new URL(path, import.meta.url));
+const pages = readdirSync(at('.')).filter((name) => name.endsWith('.html'));
 
 export default defineConfig({
 	root: at('.'),
@@ -11,7 +14,9 @@ export default defineConfig({
 	cacheDir: at('../node_modules/.vite'),
 	// Pages, no single-page fallback: a missing file is a 404 here as on any static host.
 	appType: 'mpa',
-	plugins: [lesson()],
+	// The example reads as it would in another app.
+	resolve: { alias: { furbake: at('fur/index.ts') } },
+	plugins: [lesson(), shaderPlugin(), fontsPlugin(), headersPlugin(), sharePlugin(process.env.SITE_URL)],
 	server: {
 		// The JSON schema lives in the baker wing.
 		fs: { allow: [at('.'), at('../node_modules'), at('../baker/furbake/asset/schema'), at('../tests')] },
@@ -21,6 +26,7 @@ export default defineConfig({
 		include: [
 			'@cfworker/json-schema',
 			'fast-png',
+			'fflate',
 			'lil-gui',
 			'stats-gl',
 			'three',
@@ -38,7 +44,12 @@ export default defineConfig({
 	build: {
 		outDir: at('../dist'),
 		emptyOutDir: true,
-		rolldownOptions: { input: [at('index.html'), at('learn.html'), at('bench.html')] },
+		rolldownOptions: { input: pages.map(at) },
+		// The policy allows no fonts nor scripts in data: addresses, and files of their own are kept by browsers.
+		assetsInlineLimit: 0,
+		// Browsers with WebGL2 that lack it load the same modules, a little later.
+		modulePreload: { polyfill: false },
+		license: { fileName: 'licenses.md' },
 		// three.js alone is larger than the default limit.
 		chunkSizeWarningLimit: 1200,
 	},

@@ -88,11 +88,15 @@ test('frames upload nothing, wherever the light is', async ({ page }) => {
 	expect(await uploads(2)).toBe(once);
 });
 
-test('nothing is measured unasked, and what the address says wrong is told', async ({ page }) => {
+test('nothing is measured unasked, and what the address says wrong is told, in either language', async ({ page }) => {
 	await page.goto(`${site}bench.html?methods=magic`);
 	await expect.poll(() => state(page)).toBe('ready');
 	await expect(page.locator('#problem')).toHaveText(/methods=magic: expected some of unlit, lengyel/);
 	await expect(page.locator('section')).toHaveCount(0);
+	await page.getByRole('link', { name: '中文' }).click();
+	await expect(page.locator('h1')).toHaveText('到底有多快？');
+	await expect(page.locator('#problem')).toHaveText(/methods=magic，应为 unlit、lengyel/);
+	await expect(page.locator('html')).toHaveAttribute('lang', 'zh-Hans');
 });
 
 test('a measurement can be stopped', async ({ page }) => {

@@ -1,24 +1,18 @@
-import { createReadStream, mkdtempSync, readFileSync, rmSync, statSync } from 'node:fs';
-import { createServer, type Server } from 'node:http';
-import type { AddressInfo } from 'node:net';
+import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { extname, join, normalize } from 'node:path';
+import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { build } from 'vite';
 import { expect, open, state, test } from './harness.ts';
+import { type Host, serveFolder, weightOf } from './host.ts';
 
-const types: Record<string, string> = {
-	'.html': 'text/html',
-	'.js': 'text/javascript',
-	'.css': 'text/css',
-	'.json': 'application/json',
-	'.png': 'image/png',
-	'.jpg': 'image/jpeg',
-};
-const folder = '/some/folder/';
+/** Bytes over the wire of the demo with its default model. */
+const [UNTIL_FUR, WHOLE] = [1.2e6, 2.5e6];
 
 let dist = '';
-let server: Server;
+let host: Host;
+
+test.use({ viewport: { width: 240, height: 180 } });
 
 test.beforeAll(async () => {
 	dist = mkdtempSync(join(tmpdir(), 'furbake-dist-'));
@@ -27,47 +21,112 @@ test.beforeAll(async () => {
 		logLevel: 'error',
 		build: { outDir: dist },
 	});
-	// As bare as a static host can be: files below one folder, and nothing else.
-	server = createServer((request, response) => {
-		const { pathname } = new URL(request.url ?? '/', 'http://localhost');
-		const file = join(dist, normalize(pathname.slice(folder.length) || 'index.html'));
-		if (!pathname.startsWith(folder) || !statSync(file, { throwIfNoEntry: false })?.isFile()) {
-			response.writeHead(404).end();
-			return;
-		}
-		response.writeHead(200, { 'content-type': types[extname(file)] ?? 'application/octet-stream' });
-		createReadStream(file).pipe(response);
-	});
-	await new Promise<void>((resolve) => server.listen(0, '127.0.0.1', resolve));
+	host = await serveFolder(dist, '/some/sub/folder/');
 });
 
 test.afterAll(() => {
-	server?.close();
+	host?.close();
 	rmSync(dist, { recursive: true, force: true });
 });
 
-const originOf = () => `http://127.0.0.1:${(server.address() as AddressInfo).port}`;
-
-test('the built bench measures from a sub-folder of a static host', async ({ page, watch }) => {
-	const address = `${originOf()}${folder}bench.html`;
-	await page.goto(`${address}?run=1&size=48x32&rounds=1&triangles=512&parts=results&methods=unlit,ptm`);
-	await expect.poll(() => state(page), { timeout: 60_000 }).toBe('done');
-	await expect(page.locator('table').first()).toContainText('PTM');
-	expect(watch.requests.filter((url) => !url.startsWith('data:') && !url.startsWith(originOf() + folder))).toEqual([]);
+// What the policy stops is a complaint, and any complaint fails its test.
+test.beforeEach(async ({ page }) => {
+	await page.addInitScript(() => {
+		addEventListener('securitypolicyviolation', ({ effectiveDirective, blockedURI, sourceFile, lineNumber }) => {
+			console.warn(`policy: ${effectiveDirective} stops ${blockedURI} in ${sourceFile}:${lineNumber}`);
+		});
+	});
 });
 
-test('the built site works from a sub-folder of a static host', async ({ page, watch }) => {
-	const origin = originOf();
-	await open(page, '?still=1', origin + folder);
-	expect(await state(page)).toBe('ready');
-	expect(watch.requests.filter((url) => url.includes('.exr'))).toEqual([]);
-	const scripts = watch.requests.filter((url) => url.endsWith('.js')).map((url) => url.slice((origin + folder).length));
-	expect(scripts.length).toBeGreaterThan(0);
-	for (const script of scripts) expect(readFileSync(join(dist, script), 'utf8')).not.toContain('application/exr');
+test.afterEach(({ watch }) => {
+	const elsewhere = watch.requests.filter((url) => !/^(data|blob):/.test(url) && !url.startsWith(host.address));
+	expect(elsewhere, 'requests that leave the folder').toEqual([]);
+});
 
-	await open(page, '?still=1&env=sunset', origin + folder);
+test('the built demo, and what it weighs', async ({ page, watch }, { annotations }) => {
+	host.sent.length = 0;
+	await open(page, '?still=1', host.address);
 	expect(await state(page)).toBe('ready');
-	expect(watch.requests.filter((url) => url.includes('sunset.exr'))).toHaveLength(1);
-	const elsewhere = watch.requests.filter((url) => !url.startsWith('data:') && !url.startsWith(origin + folder));
-	expect(elsewhere).toEqual([]);
+	// The mark of the first furry frame.
+	const fur = await page.evaluate(() => {
+		const mark = performance.getEntriesByName('furbake:fur')[0];
+		return performance.timeOrigin + (mark?.startTime ?? performance.now());
+	});
+	await page.waitForLoadState('networkidle');
+	const weights = {
+		'until the first furry frame': weightOf(host.sent.filter(({ ended }) => ended <= fur)),
+		whole: weightOf(host.sent),
+	};
+	const written = Object.entries(weights).map(([type, bytes]) => ({
+		type,
+		description: `${(bytes / 1e6).toFixed(3)} MB`,
+	}));
+	process.stdout.write(
+		`     the demo: ${written.map(({ type, description }) => `${description} ${type}`).join(', ')}\n`,
+	);
+	annotations.push(...written);
+	for (const { path, bytes } of host.sent) annotations.push({ type: path, description: `${bytes} B` });
+	expect(weights['until the first furry frame'], 'until the first furry frame').toBeLessThan(UNTIL_FUR);
+	expect(weights.whole, 'the whole page').toBeLessThan(WHOLE);
+	expect(weights.whole).toBeGreaterThan(0.5e6);
+
+	// Timers of five microseconds, and places of light only where they are asked for.
+	expect(await page.evaluate(() => crossOriginIsolated)).toBe(true);
+	const exr = () => watch.requests.filter((url) => /\.exr/.test(url)).map((url) => url.replace(/.*\/|-[^-]*$/g, ''));
+	expect(exr()).toEqual([]);
+	await open(page, '?still=1&env=sunset&model=sphere&shells=4', host.address);
+	expect(await state(page)).toBe('ready');
+	expect(exr()).toEqual(['sunset.exr']);
+});
+
+test('the built lesson shows its figures', async ({ page }) => {
+	await page.goto(`${host.address}learn.html`);
+	// In three dimensions, drawn flat, and of numbers; the others are made of the same.
+	for (const name of ['shells', 'bits', 'numbers']) {
+		const figure = page.locator(`figure[data-figure=${name}]`);
+		await figure.scrollIntoViewIfNeeded();
+		await expect(figure).toHaveAttribute('data-state', 'ready');
+	}
+	expect(await state(page)).toBe('ready');
+});
+
+test('the built bench measures', async ({ page }) => {
+	await page.goto(`${host.address}bench.html?run=1&size=48x32&rounds=1&triangles=512&parts=results&methods=unlit,ptm`);
+	await expect.poll(() => state(page), { timeout: 60_000 }).toBe('done');
+	await expect(page.locator('table').first()).toContainText('PTM');
+});
+
+test('every built page holds the policy, its own files and what a shared link shows', () => {
+	const pages = readdirSync(dist).filter((name) => name.endsWith('.html'));
+	expect(pages).toEqual(expect.arrayContaining(['404.html', 'bench.html', 'example.html', 'index.html', 'learn.html']));
+	const policies = pages.map((name) => {
+		const html = readFileSync(join(dist, name), 'utf8');
+		const [head = ''] = html.split('</head>');
+		expect(html, name).not.toMatch(/<style|\sstyle=|<script(?![^>]*\ssrc=)|\son\w+=/);
+		const policy = head.indexOf('Content-Security-Policy');
+		for (const [tag] of head.matchAll(/<(script|link)\b[^>]*>/g)) {
+			expect(head.indexOf(tag), `${name}: ${tag}`).toBeGreaterThan(policy);
+			const [, path] = /\s(?:src|href)="([^"]*)"/.exec(tag) ?? [];
+			expect(existsSync(join(dist, `${path}`)), `${name}: ${path}`).toBe(true);
+		}
+		if (name !== '404.html') {
+			expect(head, name).toMatch(/<meta property="og:title" content="furbake · [^"]+">/);
+			expect(head, name).toContain('<meta property="og:image" content="./og.jpg">');
+		}
+		return /Content-Security-Policy" content="([^"]*)"/.exec(head)?.[1];
+	});
+	expect(new Set(policies).size).toBe(1);
+	expect(policies[0]).toMatch(/^default-src 'self'; script-src 'self'; /);
+	expect(policies[0]).not.toMatch(/frame-ancestors|unsafe-eval|script-src[^;]*unsafe-inline/);
+});
+
+test('an address that leads nowhere says so', async ({ page, watch }) => {
+	await page.goto(`${host.address}nothing`);
+	await expect(page.getByRole('heading')).toHaveText('No fur grows here');
+	expect(await page.evaluate(() => getComputedStyle(document.querySelector('main') as Element).textAlign)).toBe(
+		'center',
+	);
+	await expect(page.getByRole('link', { name: 'To the bunny' })).toHaveAttribute('href', './');
+	// Chromium's own word about the status.
+	for (const complaint of watch.complaints.splice(0)) expect(complaint).toContain('404');
 });

@@ -28,7 +28,12 @@ test('a body in the pelt that it was baked with looks as it does undressed, in a
 });
 
 test('two furs share a picture, each in its own columns', async ({ page }) => {
-	const { differences, error } = await page.evaluate((url) => loaded.split(url, 0.4), model('torus-512'));
+	const { left, early, roots, differences, error } = await page.evaluate(
+		(url) => loaded.split(url, 0.4),
+		model('torus-512'),
+	);
+	expect(early, 'before there is any fur').toEqual(['skin']);
+	expect(roots, 'share of the colour of roots').toBeCloseTo(0.35);
 	expect(differences).toEqual({
 		left: 0,
 		right: 0,
@@ -40,11 +45,13 @@ test('two furs share a picture, each in its own columns', async ({ page }) => {
 	});
 	expect(differences.swapped).toBeGreaterThan(0.1);
 	expect(differences.bare).toBeGreaterThan(0.1);
+	// One texture is three's own, a table for the skin's reflections.
+	expect(left).toEqual({ geometries: 0, textures: 1 });
 	expect(error).toBe(0);
 });
 
 test('denser fur covers more, longer fur reaches farther, whatever it is lit by', async ({ page }) => {
-	const { densities, light, rivals, maps, lengths, herds, error } = await page.evaluate(
+	const { crowd, densities, light, rivals, maps, lengths, herds, error } = await page.evaluate(
 		(url) => loaded.cover(url),
 		model('torus-512'),
 	);
@@ -68,6 +75,9 @@ test('denser fur covers more, longer fur reaches farther, whatever it is lit by'
 		expect(more.radius).toBeGreaterThan(less.radius);
 		expect(more.fins).toBeGreaterThan(less.fins);
 	}
+	expect(crowd).toEqual({ denser: expect.any(Number), left: 0, right: expect.any(Number) });
+	expect(crowd.denser).toBeGreaterThan(1.005);
+	expect(crowd.right).toBeGreaterThan(0.1);
 	expect((herds[0] ?? 0) / (herds[1] ?? 0), 'of a herd').toBeGreaterThan(1.02);
 	expect(error).toBe(0);
 });

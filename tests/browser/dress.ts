@@ -5,6 +5,9 @@ import {
 	DirectionalLight,
 	FloatType,
 	HemisphereLight,
+	Mesh,
+	type MeshStandardMaterial,
+	type Object3D,
 	PerspectiveCamera,
 	Scene,
 	WebGLRenderer,
@@ -115,7 +118,15 @@ export async function wardrobe(body: string, same: string, other: string) {
 
 /** One body whose two furs, white and dark, meet at a column. */
 export async function split(url: string, at: number) {
-	const white = await loadFur(url);
+	// What is there when the skin can be shown: no fur, and the body as dark as below it.
+	const early: string[] = [];
+	const skin = (scene: Object3D) => {
+		scene.traverse((part) => {
+			if (part instanceof Mesh) early.push(part.name);
+		});
+	};
+	const white = await loadFur(url, { skin });
+	const roots = (white.skin as Mesh<never, MeshStandardMaterial>).material.color.r / white.asset.ramp.root[0];
 	const stage = new Scenery(white);
 	const dark = dress(white, white);
 	dark.shells.shellCount = 8;
@@ -147,11 +158,13 @@ export async function split(url: string, at: number) {
 		lower: apart(rows(part, 0, SIZE / 2), rows(both, 0, SIZE / 2)),
 		upper: Math.max(...rows(part, SIZE / 2, SIZE)),
 	};
-	dark.dispose();
+	// The body before what it wears: whatever the order, nothing is left.
 	white.dispose();
+	dark.dispose();
 	half.dispose();
 	stage.dispose();
-	return { differences, error: gl.getError() };
+	const { geometries, textures } = renderer.info.memory;
+	return { left: { geometries, textures }, early, roots, differences, error: gl.getError() };
 }
 
 /** How much of the picture fur covers, by density and by length, and by methods that were made before and after. */
@@ -211,10 +224,21 @@ export async function cover(url: string) {
 		fur.length = length;
 		return outline(stage.draw());
 	});
+	const whole = stage.draw();
+	fur.clip = { from: 0, to: 0.5 };
+	const half = stage.draw();
+	fur.clip = undefined;
+	material.density = 3;
+	const crowd = {
+		denser: covered(stage.draw()) / covered(whole),
+		left: apart(half, whole, 0, SIZE / 2),
+		right: apart(half, whole, SIZE / 2),
+	};
 	herd.dispose();
 	fur.dispose();
 	stage.dispose();
 	return {
+		crowd,
 		densities,
 		light,
 		rivals: {

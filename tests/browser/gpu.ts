@@ -84,16 +84,13 @@ export async function watchGpu(page: Page, missing: string[] = []): Promise<void
 	}, missing);
 }
 
-/** @param width of the picture in CSS pixels; the page around it keeps its own size */
+/** @param width of the picture in CSS pixels, until it is restyled; the page around it keeps its own size */
 export async function shrinkPicture(page: Page, width: number, height: number): Promise<void> {
 	await page.addInitScript(
 		([width, height]) => {
-			addEventListener('DOMContentLoaded', () => {
-				const style = document.createElement('style');
-				style.id = 'shrink';
-				style.textContent = `#picture { width: ${width}px !important; height: ${height}px !important }`;
-				document.head.append(style);
-			});
+			const sheet = new CSSStyleSheet();
+			sheet.replaceSync(`#picture { width: ${width}px !important; height: ${height}px !important }`);
+			document.adoptedStyleSheets = [sheet];
 		},
 		[width, height],
 	);

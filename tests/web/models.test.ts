@@ -1,4 +1,4 @@
-import { readdirSync, readFileSync } from 'node:fs';
+import { readdirSync, readFileSync, statSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { parseAddress } from '../../web/demo/address.ts';
 import { folderOf, type MenuEntry, offered, pelts } from '../../web/demo/models.ts';
@@ -36,6 +36,20 @@ describe('the menu', () => {
 					.sort(),
 			).toEqual(presets.sort());
 		for (const { preset } of offered(menu)) expect(presets).toContain(preset);
+	});
+
+	it('has for the models that it offers the very planes that they were baked with, and few bytes beside', () => {
+		const file = (path: string) => new URL(`../../public/models/${path}`, import.meta.url);
+		for (const { name, preset } of offered(menu)) {
+			const planes = readdirSync(file(name)).filter((path) => path.endsWith('.png'));
+			expect(planes.length).toBeGreaterThanOrEqual(4);
+			for (const plane of planes)
+				expect(readFileSync(file(`pelt-${preset}/${plane}`)).equals(readFileSync(file(`${name}/${plane}`)))).toBe(true);
+		}
+		const bytes = [...pelts(menu), ...pelts(menu, 'eigen')].map(({ name }) =>
+			readdirSync(file(name)).reduce((sum, path) => sum + statSync(file(`${name}/${path}`)).size, 0),
+		);
+		for (const size of bytes) expect(size).toBeLessThan(500_000);
 	});
 
 	it('has first views that the address understands', () => {

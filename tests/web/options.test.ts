@@ -43,7 +43,7 @@ describe('the address of the bench', () => {
 	])('is told off for %s, and the default stands', (query) => {
 		const { options, post, problems } = parseOptions(`?${query}`);
 		expect(problems).toHaveLength(1);
-		expect(problems[0]).toContain(query);
+		expect(problems[0]?.given).toBe(query);
 		expect(options).toEqual(DEFAULTS);
 		expect(post).toBeUndefined();
 	});

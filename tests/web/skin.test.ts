@@ -38,13 +38,17 @@ const shade = new Color(0.1, 0.2, 0.3);
 
 describe('a piece of the skin', () => {
 	it('is darkened by its material where all is under fur', () => {
-		const own = new MeshStandardMaterial({ color: new Color(0.5, 1, 1) });
+		const own = new MeshStandardMaterial({ color: new Color(0.5, 1, 1), roughness: 0.5 });
 		const mesh = new Mesh(points(0, 1), own);
 		const piece = new ShadedPiece(mesh, undefined);
 		expect(mesh.material).toBe(piece.material);
 		piece.shade(new Color(0, 0, 0));
 		piece.shade(shade);
 		expect(piece.material.color.toArray()).toEqual([0.05, 0.2, 0.3].map((c) => expect.closeTo(c)));
+		expect(piece.material.roughness, 'dull').toBe(1);
+		piece.shade(undefined);
+		expect(piece.material.color.toArray()).toEqual(own.color.toArray());
+		expect(piece.material.roughness).toBe(0.5);
 		expect(own.color.r).toBeCloseTo(0.5);
 	});
 

@@ -1,8 +1,10 @@
 import { describe, expect, it } from 'vitest';
 import { sections } from '../../web/bench/report.ts';
 import { articleTable, methodTable, overdrawTable, titleOf } from '../../web/bench/tables.ts';
+import { WORDS } from '../../web/bench/words/index.ts';
 import type { BenchFigures, Result } from '../../web/measure/results.ts';
 
+const { en, zh } = WORDS;
 const row = (more: Partial<Result>): Result => ({
 	method: 'ptm',
 	light: 'moving',
@@ -43,7 +45,7 @@ const plain = (rows: string[][]) => rows.map((cells) => cells.map((cell) => cell
 
 describe('the table of methods', () => {
 	it('has a row for every rival and two columns for every number of triangles', () => {
-		const { head, rows } = methodTable(results);
+		const { head, rows } = methodTable(results, en);
 		expect(plain([head])).toEqual([['', '512: ms', 'of unlit', '4 608: ms', 'of unlit']]);
 		expect(plain(rows)).toEqual([
 			['unlit', '66.7', '× 1.00', '–', '–'],
@@ -54,8 +56,8 @@ describe('the table of methods', () => {
 	});
 
 	it('has no two rivals of one name', () => {
-		expect(titleOf(row({ fins: true }))).toBe('PTM, fins');
-		expect(titleOf(row({ method: 'shadow-layers', light: 'still' }))).toBe('shadow layers, still light');
+		expect(titleOf(row({ fins: true }), en)).toBe('PTM, fins');
+		expect(titleOf(row({ method: 'shadow-layers', light: 'still' }), en)).toBe('shadow layers, still light');
 	});
 });
 
@@ -65,7 +67,7 @@ describe("the article's table", () => {
 			row({ triangles: 32, median_ms: 10 }),
 			row({ method: 'shadow-layers', triangles: 32, median_ms: 40 }),
 		];
-		const { rows } = articleTable({ results, results_of_layers: coarse });
+		const { rows } = articleTable({ results, results_of_layers: coarse }, en);
 		expect(plain(rows)).toEqual([
 			['512, the article', '41.6', '57.3', '× 1.38'],
 			['512, here', '4.00', '10.0', '× 2.00'],
@@ -78,17 +80,33 @@ describe("the article's table", () => {
 
 describe('the report', () => {
 	it('has what there is', () => {
-		expect(sections({ ...figures, results: [] })).toEqual([]);
-		expect(sections(figures).map(({ title }) => title)).toEqual([
+		expect(sections({ ...figures, results: [] }, en)).toEqual([]);
+		expect(sections(figures, en).map(({ title }) => title)).toEqual([
 			'Methods',
 			"The article's Table 1",
 			'Overdraw',
 			'What a frame grows with',
 		]);
-		expect(sections(figures)[0]?.words).toContain('grows from 512 to 4\u00a0608 triangles ×\u00a01.23');
+		expect(sections(figures, en)[0]?.text).toContain('grows from 512 to 4\u00a0608 triangles ×\u00a01.23');
+	});
+
+	it('has the same numbers in Chinese, under Chinese words', () => {
+		const everything: BenchFigures = {
+			...figures,
+			results_of_layers: [row({ triangles: 32 }), row({ method: 'shadow-layers', triangles: 32 })],
+			costs: [{ name: 'plain', median_ms: 10, ratio: 1 }],
+			lights: [{ name: '8 lights', median_ms: 11, ratio: 1.1 }],
+		};
+		const [english, chinese] = [sections(everything, en), sections(everything, zh)];
+		const numbers = (those: typeof english) =>
+			those.flatMap(({ tables }) => tables.map(({ rows }) => rows.map(([, ...cells]) => cells)));
+		expect(numbers(chinese)).toEqual(numbers(english));
+		const said = chinese.flatMap(({ title, text, tables }) => [title, text, ...tables.map(({ caption }) => caption)]);
+		for (const words of said) expect(words).toMatch(/\p{Script=Han}/u);
+		expect(chinese.map(({ plots }) => plots.length)).toEqual(english.map(({ plots }) => plots.length));
 	});
 
 	it('tells the overdraw of those rivals that have one', () => {
-		expect(overdrawTable(results).rows[0]?.slice(1)).toEqual(['25 %', '13.8', '9.3']);
+		expect(overdrawTable(results, en).rows[0]?.slice(1)).toEqual(['25 %', '13.8', '9.3']);
 	});
 });

@@ -1,27 +1,23 @@
 /** The bench's page: measures when asked to, shows what it finds, and hands it on. */
 
 import { type Listener, measure } from '../measure/measure.ts';
-import { DEFAULTS, type Part, QUICK } from '../measure/plan.ts';
+import { DEFAULTS, QUICK } from '../measure/plan.ts';
 import type { BenchFigures } from '../measure/results.ts';
-import { parseOptions } from './options.ts';
+import { element, setState } from '../page/element.ts';
+import { fillHeader } from '../page/header.ts';
+import { fillIn, languageOf } from '../page/language.ts';
+import { type Problem, parseOptions } from './options.ts';
 import { gallery, sectionElement } from './page.ts';
 import { sections } from './report.ts';
-
-const DOING: Record<Part, string> = {
-	results: 'methods',
-	layers: 'methods, triangles counted over all layers',
-	costs: 'what features cost',
-	curves: 'frames against shells and pixels',
-};
+import { WORDS } from './words/index.ts';
 
 /** Milliseconds between two words on the progress: the page must not draw much while it measures. */
 const PAUSE = 1000;
 
-function element<T extends HTMLElement>(id: string): T {
-	const found = document.getElementById(id);
-	if (!found) throw new Error(`#${id} is not in the page`);
-	return found as T;
-}
+const language = languageOf(location.search, navigator.languages);
+const words = WORDS[language];
+fillIn(words, language);
+fillHeader(element('site'), 'bench', language);
 
 const { options, quick: asked, run, post, problems } = parseOptions(location.search);
 const [button, quick] = [element<HTMLButtonElement>('run'), element<HTMLInputElement>('quick')];
@@ -32,22 +28,14 @@ element('report').append(pictures, texts);
 let running: AbortController | undefined;
 let latest: BenchFigures | undefined;
 
-function setState(state: 'ready' | 'running' | 'done' | 'failed'): void {
-	document.documentElement.dataset.state = state;
-}
-
-function complain(words: string): void {
-	problem.textContent = words;
-	problem.hidden = words === '';
+function complain(text: string): void {
+	problem.textContent = text;
+	problem.hidden = text === '';
 }
 
 /** Tells the command that opened this page. Where it has gone there is nobody to tell. */
 async function tell(message: object): Promise<void> {
 	if (post) await fetch(post, { method: 'POST', body: JSON.stringify(message) }).catch(() => {});
-}
-
-function duration(seconds: number): string {
-	return seconds < 90 ? `${Math.ceil(seconds)} s` : `${Math.round(seconds / 60)} min`;
 }
 
 function listener(): Listener {
@@ -60,11 +48,11 @@ function listener(): Listener {
 			said = now;
 			bar.value = share;
 			// An estimate from the first few frames, which compile, would frighten.
-			const left = share > 0.04 ? `, about ${duration(((now - started) / 1000) * (1 / share - 1))} left` : '';
-			doing.textContent = `${Math.floor(100 * share)} %${left}: ${part ? DOING[part] : 'loading the models'}`;
+			const left = share > 0.04 ? ((now - started) / 1000) * (1 / share - 1) : undefined;
+			doing.textContent = words.doing(Math.floor(100 * share), left, part ?? 'loading');
 			void tell({ doing: doing.textContent });
 		},
-		portraits: (portraits) => pictures.replaceChildren(gallery(portraits)),
+		portraits: (portraits) => pictures.replaceChildren(gallery(portraits, words)),
 		figures: show,
 	};
 }
@@ -73,14 +61,14 @@ function show(figures: BenchFigures): void {
 	latest = figures;
 	const machine = document.createElement('p');
 	machine.id = 'machine';
-	machine.textContent = `${figures.device}, ${figures.cores} cores, ${duration(figures.seconds)} in all. ${figures.browser}`;
-	texts.replaceChildren(machine, ...sections(figures).map(sectionElement));
+	machine.textContent = words.machine(figures.device, figures.cores, figures.seconds, figures.browser);
+	texts.replaceChildren(machine, ...sections(figures, words).map(sectionElement));
 	element('keep').hidden = false;
 }
 
 async function start(): Promise<void> {
 	running = new AbortController();
-	button.textContent = 'Stop';
+	button.textContent = words.stop;
 	quick.disabled = true;
 	element('progress').hidden = false;
 	bar.value = 0;
@@ -90,18 +78,18 @@ async function start(): Promise<void> {
 		const wanted = quick.checked === asked ? options : quick.checked ? QUICK : DEFAULTS;
 		const figures = await measure(wanted, running.signal, listener());
 		setState('done');
-		await tell({ figures, sections: sections(figures).map(({ title, tables }) => ({ title, tables })) });
+		await tell({ figures, sections: sections(figures, words).map(({ title, tables }) => ({ title, tables })) });
 	} catch (error) {
 		const stopped = running.signal.aborted;
-		const words = (error as Error).message;
+		const { message } = error as Error;
 		if (!stopped) {
-			complain(`It could not be measured: ${words}`);
-			await tell({ error: words });
+			complain(words.failed(message));
+			await tell({ error: message });
 		}
 		setState(stopped ? 'ready' : 'failed');
 	}
 	running = undefined;
-	button.textContent = latest ? 'Measure again' : 'Measure';
+	button.textContent = latest ? words.again : words.measure;
 	quick.disabled = false;
 	element('progress').hidden = true;
 }
@@ -124,9 +112,9 @@ copy.addEventListener('click', async () => {
 		() => true,
 		() => false,
 	);
-	copy.textContent = copied ? 'Copied' : 'The browser does not allow it';
+	copy.textContent = copied ? words.copied : words.notCopied;
 	setTimeout(() => {
-		copy.textContent = 'Copy';
+		copy.textContent = words.copy;
 	}, 2000);
 });
 
@@ -134,7 +122,12 @@ function json(): string {
 	return `${JSON.stringify(latest, null, '\t')}\n`;
 }
 
+function told({ given, expected }: Problem): string {
+	const { some } = words.expected;
+	return words.problem(given, typeof expected === 'string' ? words.expected[expected] : some(expected));
+}
+
 quick.checked = asked;
-if (problems.length) complain(`In the address: ${problems.join('; ')}.`);
+if (problems.length) complain(words.problems(problems.map(told)));
 setState('ready');
 if (run) void start();

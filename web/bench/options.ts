@@ -3,6 +3,12 @@
 import { type BenchOptions, DEFAULTS, PARTS, QUICK } from '../measure/plan.ts';
 import { METHODS } from '../measure/results.ts';
 
+/** A parameter that was not understood, as it stands in the address, and what was expected there. */
+export interface Problem {
+	given: string;
+	expected: 'rounds' | 'size' | 'post' | readonly string[];
+}
+
 export interface BenchAddress {
 	options: BenchOptions;
 	/** Whether they are those of a first look, but for what else the address says. */
@@ -11,33 +17,33 @@ export interface BenchAddress {
 	run: boolean;
 	/** Path on this very site that the figures are sent to. */
 	post: string | undefined;
-	/** What was not understood, a line each; the default stands there. */
-	problems: string[];
+	/** What was not understood; the default stands there. */
+	problems: Problem[];
 }
 
 /** @param search `?...` of the page's address */
 export function parseOptions(search: string): BenchAddress {
 	const query = new URLSearchParams(search);
-	const problems: string[] = [];
+	const problems: Problem[] = [];
 	const quick = query.get('quick') === '1';
 	const options = { ...(quick ? QUICK : DEFAULTS) };
 
 	const rounds = query.get('rounds');
 	if (rounds !== null) {
 		if (/^[1-9]\d?$/.test(rounds)) options.rounds = Number(rounds);
-		else problems.push(`rounds=${rounds}: expected 1 to 99`);
+		else problems.push({ given: `rounds=${rounds}`, expected: 'rounds' });
 	}
 	const size = query.get('size');
 	if (size !== null) {
 		const [width = 0, height = 0] = (/^(\d{1,4})x(\d{1,4})$/.exec(size) ?? []).slice(1).map(Number);
 		if (width >= 16 && height >= 16) Object.assign(options, { width, height });
-		else problems.push(`size=${size}: expected width and height, 16 to 9999 pixels, as in 1280x720`);
+		else problems.push({ given: `size=${size}`, expected: 'size' });
 	}
 	options.parts = some('parts', PARTS, options.parts);
 	options.methods = some('methods', METHODS, options.methods);
 	options.triangles = some('triangles', DEFAULTS.triangles.map(String), options.triangles.map(String)).map(Number);
 	const post = query.get('post');
-	if (post !== null && !/^\/(?!\/)/.test(post)) problems.push(`post=${post}: expected a path on this site`);
+	if (post !== null && !/^\/(?!\/)/.test(post)) problems.push({ given: `post=${post}`, expected: 'post' });
 	return {
 		options,
 		quick,
@@ -53,7 +59,7 @@ export function parseOptions(search: string): BenchAddress {
 		const odd = named.filter((item) => !all.includes(item as T));
 		const found = all.filter((item) => named.includes(item));
 		if (odd.length || !found.length) {
-			problems.push(`${name}=${query.get(name)}: expected some of ${all.join(', ')}`);
+			problems.push({ given: `${name}=${query.get(name)}`, expected: all });
 			return otherwise;
 		}
 		return found;

@@ -3,6 +3,7 @@
 import type { Portrait } from '../measure/measure.ts';
 import type { Section } from './report.ts';
 import { type Table, titleOf } from './tables.ts';
+import type { Words } from './words/en.ts';
 
 /** Linear colour behind fur in pictures. */
 const BACKDROP = [0.024, 0.037, 0.053];
@@ -44,7 +45,7 @@ function tableElement({ caption, head, rows }: Table): HTMLElement {
 	return frame;
 }
 
-export function sectionElement({ title, words, tables, plots }: Section): HTMLElement {
+export function sectionElement({ title, text, tables, plots }: Section): HTMLElement {
 	const drawings = element('div');
 	drawings.className = 'plots';
 	drawings.innerHTML = plots.join('');
@@ -52,26 +53,27 @@ export function sectionElement({ title, words, tables, plots }: Section): HTMLEl
 		'section',
 		'',
 		element('h2', title),
-		element('p', words),
+		element('p', text),
 		...tables.map((table) => tableElement(table)),
 		...(plots.length ? [drawings] : []),
 	);
 }
 
 /** Pictures side by side, each with its method's name. */
-export function gallery(portraits: readonly Portrait[]): HTMLElement {
-	const made = element('div', '', ...portraits.map((portrait) => figureElement(portrait)));
+export function gallery(portraits: readonly Portrait[], words: Words): HTMLElement {
+	const made = element('div', '', ...portraits.map((portrait) => figureElement(portrait, words)));
 	made.className = 'gallery';
 	return made;
 }
 
-function figureElement({ row, width, height, rgba }: Portrait): HTMLElement {
+function figureElement({ row, width, height, rgba }: Portrait, words: Words): HTMLElement {
+	const name = titleOf(row, words);
 	const canvas = element('canvas');
 	Object.assign(canvas, { width, height });
 	canvas.getContext('2d')?.putImageData(new ImageData(toBytes(rgba, width, height), width, height), 0, 0);
 	canvas.setAttribute('role', 'img');
-	canvas.setAttribute('aria-label', `A furry torus, ${titleOf(row)}`);
-	return element('figure', '', canvas, element('figcaption', titleOf(row)));
+	canvas.setAttribute('aria-label', words.portrait(name));
+	return element('figure', '', canvas, element('figcaption', name));
 }
 
 /** sRGB over the backdrop, row by row from the top. */

@@ -3,119 +3,76 @@
 import { ARTICLE, type BenchFigures, type Point, type Result } from '../measure/results.ts';
 import { plot, type Series } from './plot.ts';
 import { articleTable, costTable, count, methodTable, overdrawTable, type Table, times } from './tables.ts';
+import type { Words } from './words/en.ts';
 
 export interface Section {
 	title: string;
 	/** One paragraph below the title. */
-	words: string;
+	text: string;
 	tables: Table[];
 	/** SVG text. */
 	plots: string[];
 }
 
-/** Lines of the plots and how they are coloured. */
-const LINES: [method: Result['method'], name: string][] = [
-	['shadow-layers', 'shadow layers'],
-	['ptm', 'PTM'],
-	['unlit', 'unlit'],
-];
+/** Lines of the plots, as they are coloured. */
+const LINES: Result['method'][] = ['shadow-layers', 'ptm', 'unlit'];
 
-export function sections(figures: BenchFigures): Section[] {
-	const { results, results_of_layers, growth, costs, lights, curves } = figures;
+export function sections(figures: BenchFigures, words: Words): Section[] {
+	const { results, results_of_layers, costs, lights, curves } = figures;
 	const found: Section[] = [];
-	if (results.length) {
-		const { shells, width, height } = results[0] as Result;
-		found.push({
-			title: 'Methods',
-			words: `Milliseconds a frame at ${width} × ${height} with ${shells} shells: the median of ${figures.rounds === 1 ? 'one round' : `${figures.rounds} rounds`} of turns there and back, each frame ended by ${figures.clock === 'readPixels' ? 'reading a pixel of it' : "the GPU's own clock"}. Ratios are medians of the rounds' ratios. ${grown(growth)}`,
-			tables: [methodTable(results)],
-			plots: [],
-		});
-	}
-	const article = articleTable(figures);
+	const add = (title: string, text: string, tables: Table[], plots: string[] = []) =>
+		found.push({ title, text, tables: tables.filter(({ rows }) => rows.length), plots });
+	if (results.length) add(words.methodsTitle, methodsText(figures, words), [methodTable(results, words)]);
+	const article = articleTable(figures, words);
 	// Beside the article's own rows there has to be one from here.
 	if (article.rows.length > ARTICLE.length) {
-		found.push({
-			title: "The article's Table 1",
-			words:
-				"Frames per second. The article does not say whether its numbers of triangles are the body's or the sum over all 16 layers, so both are measured. Its machine was a Quadro NVS 110 with 64 MB, its rival a layered shadow map of which no text is to be had.",
-			tables: [
-				article,
-				methodTable(
-					results_of_layers,
-					'Milliseconds a frame by triangles of the body, of which 16 layers have 512, 4 608 and 16 896',
-				),
-			].filter(({ rows }) => rows.length),
-			plots: [],
-		});
+		const layers = methodTable(results_of_layers, words, words.tables.layers);
+		add(words.articleTitle, words.articleText, [article, layers]);
 	}
-	if (results.some(({ overdraw }) => overdraw)) {
-		found.push({
-			title: 'Overdraw',
-			words:
-				'Share of the picture that fur covers, and fragments there per pixel: shaded at the most (in front of the skin), and blended (above the alpha cut and not behind other fur).',
-			tables: [overdrawTable(results)],
-			plots: [],
-		});
-	}
+	const overdraw = overdrawTable(results, words);
+	if (overdraw.rows.length) add(words.overdrawTitle, words.overdrawText, [overdraw]);
 	if (costs.length || lights.length) {
-		found.push({
-			title: 'What else costs what',
-			words: `PTM with 4 608 triangles. First what fur can have besides, each by itself and all together, then what light costs: whether it moves, eight lamps for one, and fins.`,
-			tables: [
-				costTable('What fur can have besides', costs, 'plain'),
-				costTable('What light costs', lights, 'one lamp'),
-			],
-			plots: [],
-		});
+		add(words.costsTitle, words.costsText, [
+			costTable(words.tables.features, costs, words.tables.ofPlain, words),
+			costTable(words.tables.light, lights, words.tables.ofOneLamp, words),
+		]);
 	}
+	const { shells, pixels, triangles } = words.curves;
 	const plots = [
-		curve(curves.shells, 'Shells', 'shells', ({ shells }) => shells),
-		curve(curves.pixels, 'Pixels', 'million pixels', ({ width, height }) => (width * height) / 1e6),
-		curve(
-			[...results_of_layers, ...results].filter(byMoving),
-			'Triangles',
-			'triangles',
-			({ triangles }) => triangles,
-			true,
-		),
+		curve(curves.shells, shells, words, (point) => point.shells),
+		curve(curves.pixels, pixels, words, ({ width, height }) => (width * height) / 1e6),
+		curve([...results_of_layers, ...results].filter(byMoving), triangles, words, (point) => point.triangles, true),
 	].filter((svg) => svg !== undefined);
-	if (plots.length) {
-		found.push({
-			title: 'What a frame grows with',
-			words: 'Milliseconds a frame against the number of shells, of pixels and of triangles.',
-			tables: [],
-			plots,
-		});
-	}
+	if (plots.length) add(words.curvesTitle, words.curvesText, [], plots);
 	return found;
 }
 
 const byMoving = ({ light, fins }: Result) => light === 'moving' && !fins;
 
-function grown(growth: BenchFigures['growth']): string {
+function methodsText({ results, growth, rounds, clock }: BenchFigures, words: Words): string {
+	const { width, height, shells } = results[0] as Result;
 	const ptm = growth.filter(({ method }) => method === 'ptm');
-	if (!ptm.length) return '';
-	const said = ptm.map(({ from, to, ratio }) => `from ${count(from)} to ${count(to)} triangles ${times(ratio)}`);
-	return `A frame of PTM grows ${said.join(', ')}.`;
+	const steps = ptm.map(({ from, to, ratio }) => ({ from: count(from), to: count(to), ratio: times(ratio) }));
+	const text = words.methodsText(width, height, shells, rounds, clock === 'readPixels');
+	return steps.length ? `${text} ${words.growth(steps)}` : text;
 }
 
 /** Undefined where there is not yet a line to draw. */
 function curve(
 	points: readonly Point[],
-	title: string,
-	x: string,
+	[title, x]: readonly [title: string, x: string],
+	words: Words,
 	of: (point: Point) => number,
 	log = false,
 ): string | undefined {
 	const ticks = [...new Set(points.map(of))].sort((a, b) => a - b);
 	if (ticks.length < 2) return undefined;
-	const series = LINES.map(([method, name]): Series => {
+	const series = LINES.map((method): Series => {
 		const own = points.filter((point) => point.method === method).sort((a, b) => of(a) - of(b));
-		return { name, kind: method, points: own.map((point) => [of(point), point.median_ms]) };
+		return { name: words.methods[method], kind: method, points: own.map((point) => [of(point), point.median_ms]) };
 	});
 	return plot(
 		series.filter((line) => line.points.length > 1),
-		{ title, x, y: 'ms', ticks, log },
+		{ title, x, y: words.curves.unit, ticks, log },
 	);
 }

@@ -1,6 +1,7 @@
 /** Figures as rows of text: what the page's tables say. */
 
 import { ARTICLE, type BenchFigures, type Cost, type Result } from '../measure/results.ts';
+import type { Words } from './words/en.ts';
 
 /** A table's text; a cell is a heading where its column or row begins. */
 export interface Table {
@@ -14,31 +15,23 @@ export const time = (milliseconds: number) =>
 	milliseconds >= 100 ? milliseconds.toFixed(0) : milliseconds.toPrecision(3);
 export const times = (factor: number) => (Number.isFinite(factor) ? `×\u00a0${factor.toFixed(2)}` : '–');
 
-const TITLES: Record<Result['method'], string> = {
-	unlit: 'unlit',
-	lengyel: 'Lengyel',
-	'shadow-layers': 'shadow layers',
-	ptm: 'PTM',
-	ptm3: 'PTM, 3 numbers',
-	'ptm-colour': 'PTM with colours, 3 fetches',
-};
-
 /** What a row of the table is called, `PTM, still light` or the like. */
-export function titleOf({ method, light, fins }: Pick<Result, 'method' | 'light' | 'fins'>): string {
-	return [TITLES[method], ...(light === 'still' ? ['still light'] : []), ...(fins ? ['fins'] : [])].join(', ');
+export function titleOf({ method, light, fins }: Pick<Result, 'method' | 'light' | 'fins'>, words: Words): string {
+	return words.rival(method, light === 'still', fins);
 }
 
 /** A row for every rival; for every number of triangles its time and what it is of unlit fur's. */
-export function methodTable(results: readonly Result[], caption = 'Milliseconds a frame by triangles'): Table {
+export function methodTable(results: readonly Result[], words: Words, caption = words.tables.methods): Table {
+	const { milliseconds, ofUnlit } = words.tables;
 	const sizes = [...new Set(results.map(({ triangles }) => triangles))];
-	const titles = [...new Set(results.map(titleOf))];
+	const titles = [...new Set(results.map((row) => titleOf(row, words)))];
 	return {
 		caption,
-		head: ['', ...sizes.flatMap((triangles) => [`${count(triangles)}: ms`, 'of unlit'])],
+		head: ['', ...sizes.flatMap((triangles) => [milliseconds(count(triangles)), ofUnlit])],
 		rows: titles.map((title) => [
 			title,
 			...sizes.flatMap((triangles) => {
-				const result = results.find((row) => row.triangles === triangles && titleOf(row) === title);
+				const result = results.find((row) => row.triangles === triangles && titleOf(row, words) === title);
 				return result ? [time(result.median_ms), times(result.ratio_to_unlit)] : ['–', '–'];
 			}),
 		]),
@@ -46,53 +39,54 @@ export function methodTable(results: readonly Result[], caption = 'Milliseconds 
 }
 
 /** The article's frames per second beside those measured here, its triangles taken for the body's and for all layers'. */
-export function articleTable({
-	results,
-	results_of_layers,
-}: Pick<BenchFigures, 'results' | 'results_of_layers'>): Table {
-	const row = (triangles: number, who: string, shadows: number, ptm: number, faster: number) => [
-		`${count(triangles)}, ${who}`,
+export function articleTable(
+	{ results, results_of_layers }: Pick<BenchFigures, 'results' | 'results_of_layers'>,
+	{ tables }: Words,
+): Table {
+	const row = (title: string, shadows: number, ptm: number, faster: number) => [
+		title,
 		fps(shadows),
 		fps(ptm),
 		times(faster),
 	];
-	const here = (those: readonly Result[], triangles: number, named: number, who: string) => {
+	const here = (those: readonly Result[], triangles: number, title: string) => {
 		const of = (method: Result['method']) =>
 			those.find((one) => one.method === method && one.triangles === triangles && one.light === 'moving' && !one.fins);
 		const [shadows, ptm] = [of('shadow-layers'), of('ptm')];
 		if (!shadows || !ptm) return [];
-		return [row(named, who, 1000 / shadows.median_ms, 1000 / ptm.median_ms, 1 / ptm.ratio_to_shadow_layers)];
+		return [row(title, 1000 / shadows.median_ms, 1000 / ptm.median_ms, 1 / ptm.ratio_to_shadow_layers)];
 	};
 	return {
-		caption: 'Frames per second by triangles',
-		head: ['', 'shadow layers', 'PTM', 'PTM is faster'],
+		caption: tables.article,
+		head: ['', tables.shadowLayers, tables.ptm, tables.faster],
 		rows: ARTICLE.flatMap(({ triangles, layered, ptm, ratio }) => [
-			row(triangles, 'the article', layered.fps, ptm.fps, ratio),
-			...here(results, triangles, triangles, 'here'),
-			...here(results_of_layers, triangles / 16, triangles, 'here, all layers together'),
+			row(tables.theArticle(count(triangles)), layered.fps, ptm.fps, ratio),
+			...here(results, triangles, tables.here(count(triangles))),
+			...here(results_of_layers, triangles / 16, tables.hereOfLayers(count(triangles))),
 		]),
 	};
 }
 
 const fps = (value: number) => value.toPrecision(3);
 
-export function costTable(caption: string, costs: readonly Cost[], base: string): Table {
+/** @param of what the ratio is a ratio of */
+export function costTable(caption: string, costs: readonly Cost[], of: string, words: Words): Table {
 	return {
 		caption,
-		head: ['', 'ms', `of ${base}`],
-		rows: costs.map(({ name, median_ms, ratio }) => [name, time(median_ms), times(ratio)]),
+		head: ['', 'ms', of],
+		rows: costs.map(({ name, median_ms, ratio }) => [words.costs[name], time(median_ms), times(ratio)]),
 	};
 }
 
 /** Fragments per covered pixel, of every number of triangles. */
-export function overdrawTable(results: readonly Result[]): Table {
+export function overdrawTable(results: readonly Result[], { tables }: Words): Table {
 	return {
-		caption: 'Fragments per covered pixel',
-		head: ['', 'covered', 'shaded', 'blended'],
+		caption: tables.overdraw,
+		head: ['', tables.covered, tables.shaded, tables.blended],
 		rows: results.flatMap(({ triangles, fins, overdraw }) => {
 			if (!overdraw) return [];
 			const { covered, shaded, blended } = overdraw;
-			const title = `${count(triangles)} triangles${fins ? ', fins' : ''}`;
+			const title = tables.triangles(count(triangles), fins);
 			return [[title, `${(100 * covered).toFixed(0)} %`, shaded.toFixed(1), blended.toFixed(1)]];
 		}),
 	};

@@ -102,8 +102,8 @@ export class OrbitCamera extends PerspectiveCamera {
 		this.orbit = [a + azimuth, MathUtils.clamp(e + elevation, -89.9, 89.9), d * factor];
 	}
 
-	/** Once per frame: lets a turn run out. */
-	glide(): void {
-		if (this.#controls.enableDamping) this.#controls.update();
+	/** Once per frame: lets a turn run out. @returns whether the camera has moved */
+	glide(): boolean {
+		return this.#controls.enableDamping && this.#controls.update();
 	}
 }

@@ -13,6 +13,7 @@ import {
 } from 'three';
 import { type Fur, FurInstances } from '../fur/index.ts';
 import { ContactShadow } from '../page/backdrop.ts';
+import { random } from '../page/random.ts';
 import type { Model } from './models.ts';
 
 /** The largest crowd. */
@@ -29,17 +30,6 @@ export interface Spot {
 const candidates = 24;
 /** Radius of the ground that `count` bodies stand on, in the same units. */
 export const spread = (count: number) => 0.85 * Math.sqrt(count);
-
-/** Numbers in 0..1, the same for the same seed (Weyl sequence through a mixer, after Steele and Vigna 2021). */
-function random(seed: number): () => number {
-	let state = seed >>> 0;
-	return () => {
-		state = (state + 0x9e3779b9) >>> 0;
-		let mixed = Math.imul(state ^ (state >>> 16), 0x21f0aaad);
-		mixed = Math.imul(mixed ^ (mixed >>> 15), 0x735a2d97);
-		return ((mixed ^ (mixed >>> 15)) >>> 0) / 2 ** 32;
-	};
-}
 
 /**
  * Scatters bodies without rows or clumps: each takes that of some random spots which is farthest from all before it
@@ -95,8 +85,11 @@ export class Crowd extends Group {
 	/** Width of the ground that a body takes up. */
 	readonly #room: number;
 
-	/** @param fur the model's, which has to outlive the crowd */
-	constructor(model: Model, fur: Fur) {
+	/** @param fur on the model's body, which has to outlive the crowd */
+	constructor(
+		model: Model,
+		readonly fur: Fur,
+	) {
 		super();
 		const { box } = model;
 		const { x: width, y: height, z: depth } = box.getSize(new Vector3());

@@ -17,18 +17,13 @@ import {
 import { environmentLight, type Lamp, luminance, visitEnvironment } from '../fur/index.ts';
 import { beforeNeutral } from '../page/backdrop.ts';
 
-/** Names in the address, and what the menu calls them. */
-export const environments = {
-	studio: 'Studio',
-	city: 'City, overcast',
-	sky: 'Sea and sun',
-	sunset: 'Sunset',
-	forest: 'Forest',
-} as const;
+/** Their names in the address. */
+export const environments = ['studio', 'city', 'sky', 'sunset', 'forest'] as const;
 
-export type EnvironmentName = keyof typeof environments;
+export type EnvironmentName = (typeof environments)[number];
 
-export const isEnvironment = (name: string): name is EnvironmentName => Object.hasOwn(environments, name);
+export const isEnvironment = (name: string): name is EnvironmentName =>
+	(environments as readonly string[]).includes(name);
 
 const files: Record<EnvironmentName, () => Promise<{ default: string }>> = {
 	studio: () => import('@pmndrs/assets/hdri/studio.exr.js'),

@@ -18,9 +18,9 @@ const arrows: Record<string, [number, number]> = {
 
 export function listenToKeys({ arrow, zoom }: KeyHandlers): void {
 	addEventListener('keydown', (event) => {
-		// The panel's fields have their own use for these keys.
+		// The panel's fields and the line of the split have their own use for these keys.
 		if (event.ctrlKey || event.altKey || event.metaKey) return;
-		if (event.target instanceof Element && event.target.closest('#panel')) return;
+		if (event.target instanceof Element && event.target.closest('#panel, [role=slider]')) return;
 		const way = arrows[event.key];
 		const size = event.shiftKey ? 3 * step : step;
 		if (way) arrow(way[0] * size, way[1] * size);

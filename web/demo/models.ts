@@ -15,6 +15,8 @@ export interface MenuEntry {
 	/** of a pelt, which other models are dressed in: the preset that it is, and what its light curves are */
 	pelt?: string;
 	basis?: 'ptm' | 'eigen';
+	/** of a pelt: strength of the highlights that suits it, where it is not that of all others */
+	gloss?: number;
 	/** of a pelt: how far a model's own second tip colour shows on it, 0..1 */
 	tips?: number;
 	/** false: shown only where the address asks for it */
@@ -44,6 +46,8 @@ export interface Model {
 	object: Object3D;
 	/** undefined where the file has none that this page can grow */
 	fur: Fur | undefined;
+	/** the version of its fur, where that is newer than what this page knows */
+	newer?: string;
 	/** box around the skin */
 	box: Box3;
 	/** of the sphere around the box's centre that holds the skin */
@@ -101,6 +105,7 @@ export async function loadModel(
 	{ skin }: ModelOptions = {},
 ): Promise<Model> {
 	let model: Model | undefined;
+	let newer: string | undefined;
 	const loader = new GLTFLoader(manager);
 	loader.register((parser) => {
 		const early = (scene: Object3D) => {
@@ -108,13 +113,20 @@ export async function loadModel(
 			model = modelOf(scene);
 			skin(model);
 		};
-		return new FurLoaderPlugin(parser, { limits, skin: early });
+		return new FurLoaderPlugin(parser, {
+			limits,
+			skin: early,
+			newer: (version) => {
+				newer = version;
+			},
+		});
 	});
 	const gltf = await loader.loadAsync(url).catch((error: unknown) => {
 		throw new Error(reason(error));
 	});
 	model ??= modelOf(gltf.scene);
 	model.fur = gltf.userData.fur;
+	if (newer) model.newer = newer;
 	return model;
 }
 

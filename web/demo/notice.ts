@@ -1,24 +1,27 @@
 /** Words for the visitor, above the picture. */
 
-const readingTime = 9000; // milliseconds
+import { words } from './words/index.ts';
+
+const readingTime = 9000; // milliseconds, at least
+const letterTime = 60; // of a letter
 
 /**
- * @param kind `error` stays until it is closed, `note` goes by itself
+ * @param kind `note` goes by itself; `advice`, to be followed, and `error` stay until they are closed
  * @returns what takes it away
  */
-export function notice(text: string, kind: 'note' | 'error' = 'note'): () => void {
+export function notice(text: string, kind: 'note' | 'advice' | 'error' = 'note'): () => void {
 	const box = document.createElement('div');
 	box.className = `notice ${kind}`;
-	const words = document.createElement('p');
-	words.textContent = text;
+	const sentence = document.createElement('p');
+	sentence.textContent = text;
 	const close = document.createElement('button');
 	close.type = 'button';
 	close.textContent = '✕';
-	close.setAttribute('aria-label', 'Close this message');
+	close.setAttribute('aria-label', words.close);
 	const remove = () => box.remove();
 	close.addEventListener('click', remove);
-	box.append(words, close);
+	box.append(sentence, close);
 	document.getElementById('notices')?.append(box);
-	if (kind === 'note') setTimeout(remove, readingTime);
+	if (kind === 'note') setTimeout(remove, Math.max(readingTime, letterTime * text.length));
 	return remove;
 }

@@ -1,94 +1,181 @@
-/** The small panel: which model, in which place, how many shells, how many bodies. */
+/** The panel: what can be set, and what it is set to. What a control does is up to who made the panel. */
 
-import GUI from 'lil-gui';
+import GUI, { type Controller, type OptionController } from 'lil-gui';
+import { type Method, methods } from './address.ts';
 import { maxCrowd } from './crowd.ts';
 import { type EnvironmentName, environments } from './environments.ts';
-import type { MenuEntry } from './models.ts';
+import { maxLamps } from './lamps.ts';
+import { words } from './words/index.ts';
 
 /** Shells that the slider reaches; the address may ask for more. */
 const sliderEnd = 128;
 
-export interface PanelHandlers {
-	model(name: string): void;
-	environment(name: EnvironmentName | 'none'): void;
-	/** @param count undefined: as many as the picture needs */
-	shells(count: number | undefined): void;
-	crowd(count: number): void;
+/** What the controls show. */
+export interface Settings {
+	/** '' for none */
+	model: string;
+	/** '' for the model's own */
+	preset: string;
+	crowd: number;
+	method: Method;
+	split: Method | 'none';
+	lights: number;
+	environment: EnvironmentName | 'none';
+	automatic: boolean;
+	shells: number;
+	fins: boolean;
+	length: number;
+	density: number;
+	/** sRGB, #rrggbb */
+	root: string;
+	tip: string;
 }
 
+/** What can be done with what is on show. */
+export interface Abilities {
+	fur: boolean;
+	fins: boolean;
+	/** Whether it has light curves of its own kind. */
+	eigen: boolean;
+	/** Whether the root has one colour everywhere. */
+	root: boolean;
+}
+
+export type Changed = <Name extends keyof Settings>(name: Name, value: Settings[Name]) => void;
+
+export interface PanelHandlers {
+	changed: Changed;
+	/** Buttons, by their words. */
+	copy(): void;
+	save(): void;
+	reset(): void;
+	bakedColours(): void;
+}
+
+/** Titles of a menu, by the values that they stand for. */
+export type Menu = readonly { value: string; title: string }[];
+
 export class Panel {
-	readonly #values = {
-		model: '',
-		environment: 'none' as EnvironmentName | 'none',
-		shells: 1,
-		automatic: true,
-		crowd: 1,
+	/** What the controls show. */
+	readonly settings: Settings = {
+		...{ model: '', preset: '', crowd: 1, method: 'ptm', split: 'none', lights: 1, environment: 'none' },
+		...{ automatic: true, shells: 1, fins: true, length: 1, density: 1, root: '#000000', tip: '#000000' },
 	};
-	readonly #gui: GUI;
-	readonly #model;
-	readonly #environment;
-	readonly #automatic;
-	readonly #shells;
-	readonly #crowd;
-	#titles: Record<string, string> = {};
+	readonly #controls: { [Name in keyof Settings]: Controller };
+	readonly #baked: Controller;
+	readonly #offered = { model: '', preset: '' };
+	/** Below the controls of each folder: why some of them can't be used. */
+	readonly #reasons: Record<'body' | 'light' | 'hair', HTMLElement>;
+	readonly #actions = document.createElement('div');
 
 	constructor(container: HTMLElement, handlers: PanelHandlers) {
-		this.#gui = new GUI({ container, title: 'Fur' });
-		this.#gui.domElement.setAttribute('role', 'group');
-		this.#gui.domElement.setAttribute('aria-label', 'Settings');
-		this.#model = this.#gui
-			.add(this.#values, 'model', [])
-			.name('Model')
-			.onChange((name: string) => name && handlers.model(name));
-		const places = Object.entries(environments).map(([name, title]) => [title, name]);
-		this.#environment = this.#gui
-			.add(this.#values, 'environment', { None: 'none', ...Object.fromEntries(places) })
-			.name('Environment')
-			.onChange(handlers.environment);
-		this.#automatic = this.#gui
-			.add(this.#values, 'automatic')
-			.name('Automatic')
-			.onChange((automatic: boolean) => {
-				handlers.shells(automatic ? undefined : this.#values.shells);
-				this.#shells.enable(!automatic);
-			});
-		this.#shells = this.#gui.add(this.#values, 'shells', 1, sliderEnd, 1).name('Shells').onChange(handlers.shells);
-		this.#automatic.disable();
-		this.#shells.disable();
-		this.#crowd = this.#gui.add(this.#values, 'crowd', 1, maxCrowd, 1).name('Crowd').onChange(handlers.crowd);
-		this.#crowd.disable();
-		if (matchMedia('(max-width: 620px), (max-height: 420px)').matches) this.#gui.close();
+		const gui = new GUI({ container, title: words.panel, injectStyles: false });
+		gui.domElement.setAttribute('role', 'group');
+		gui.domElement.setAttribute('aria-label', words.settings);
+		const settings = this.settings;
+		const add = (folder: GUI, name: keyof Settings, first?: number | object, most?: number, step?: number) =>
+			folder
+				.add(settings, name, first, most, step)
+				.name(words[name])
+				.onChange((value: never) => handlers.changed(name, value));
+		const body = gui.addFolder(words.body);
+		const light = gui.addFolder(words.light);
+		const hair = gui.addFolder(words.hair);
+		const named = (names: readonly (Method | 'none')[]) =>
+			Object.fromEntries(names.map((name) => [name === 'none' ? words.none : words.methods[name], name]));
+		const places = (['none', ...environments] as const).map((name) => [words.environments[name], name]);
+		this.#controls = {
+			model: add(body, 'model', []),
+			preset: add(body, 'preset', []),
+			crowd: add(body, 'crowd', 1, maxCrowd, 1),
+			method: add(light, 'method', named(methods)),
+			split: add(light, 'split', named(['none', ...methods])),
+			lights: add(light, 'lights', 1, maxLamps, 1),
+			environment: add(light, 'environment', Object.fromEntries(places)),
+			automatic: add(hair, 'automatic'),
+			shells: add(hair, 'shells', 1, sliderEnd, 1),
+			fins: add(hair, 'fins'),
+			length: add(hair, 'length', 0.2, 1.5, 0.01),
+			density: add(hair, 'density', 0.2, 2, 0.01),
+			root: this.#colour(hair, 'root', handlers),
+			tip: this.#colour(hair, 'tip', handlers),
+		};
+		const buttons = { bakedColours: () => handlers.bakedColours() };
+		this.#baked = hair.add(buttons, 'bakedColours').name(words.bakedColours);
+		const reason = (folder: GUI) => {
+			const place = document.createElement('p');
+			place.className = 'reason';
+			place.hidden = true;
+			folder.$children.append(place);
+			return place;
+		};
+		this.#reasons = { body: reason(body), light: reason(light), hair: reason(hair) };
+		this.#actions.className = 'actions';
+		for (const name of ['copy', 'save', 'reset'] as const) this.button(words[name], () => handlers[name]());
+		gui.$children.append(this.#actions);
+		if (matchMedia('(max-width: 880px), (max-height: 560px)').matches) gui.close();
 	}
 
-	menu(entries: readonly MenuEntry[]): void {
-		this.#titles = Object.fromEntries(entries.map(({ name, title }) => [title, name]));
-		this.#model.options(this.#titles);
+	#colour(folder: GUI, name: 'root' | 'tip', handlers: PanelHandlers): Controller {
+		const controller = folder.addColor(this.settings, name).name(words[name]);
+		// The text beside it has the name already; the swatch is reached by the keyboard, too.
+		controller.domElement.querySelector('input[type=color]')?.removeAttribute('tabindex');
+		return controller.onChange((value: string) => handlers.changed(name, value));
 	}
 
-	/** Shows where the model stands. */
-	place(name: EnvironmentName | 'none'): void {
-		this.#values.environment = name;
-		this.#environment.updateDisplay();
+	/** One more button in the row at the end. */
+	button(text: string, pressed: () => void, tip = ''): void {
+		const made = document.createElement('button');
+		made.type = 'button';
+		made.textContent = text;
+		made.title = tip;
+		made.addEventListener('click', pressed);
+		this.#actions.append(made);
 	}
 
-	/**
-	 * Shows what is on show.
-	 *
-	 * @param model a name of the menu, or any other address, which then gets an entry of its own; '' for none
-	 * @param fur undefined where the model has none
-	 * @param crowd bodies, of which each of several has shells by its size; undefined where there can be one only
-	 */
-	update(model: string, fur: { shellCount: number; automatic: boolean } | undefined, crowd: number | undefined): void {
-		this.#values.model = model;
-		if (model && !Object.values(this.#titles).includes(model)) this.#titles[model] = model;
-		this.#model.options(model ? this.#titles : { '–': '', ...this.#titles });
-		const { shellCount, automatic } = fur ?? { shellCount: 1, automatic: true };
-		this.#values.shells = Math.round(shellCount);
-		this.#values.automatic = automatic;
-		this.#shells.max(Math.max(sliderEnd, shellCount));
-		this.#automatic.updateDisplay().enable(fur !== undefined && crowd === 1);
-		this.#shells.updateDisplay().enable(fur !== undefined && crowd === 1 && !automatic);
-		this.#values.crowd = crowd ?? 1;
-		this.#crowd.updateDisplay().enable(crowd !== undefined);
+	/** What a menu offers. */
+	offer(name: 'model' | 'preset', menu: Menu): void {
+		const titles = Object.fromEntries(menu.map(({ value, title }) => [title, value]));
+		const key = JSON.stringify(titles);
+		if (this.#offered[name] === key) return;
+		this.#offered[name] = key;
+		(this.#controls[name] as OptionController).options(titles);
+	}
+
+	/** Shows how things are, lets through what makes sense, and says why where something does not. */
+	update(settings: Settings, { fur, fins, eigen, root }: Abilities): void {
+		Object.assign(this.settings, settings);
+		const controls = this.#controls;
+		controls.shells.max(Math.max(sliderEnd, settings.shells));
+		const alone = settings.crowd <= 1;
+		for (const name of ['preset', 'crowd', 'method', 'length', 'density', 'tip'] as const) controls[name].enable(fur);
+		controls.split.enable(fur && alone);
+		controls.automatic.enable(fur && alone);
+		controls.shells.enable(fur && alone && !settings.automatic);
+		controls.fins.enable(fins);
+		controls.root.enable(fur && root);
+		for (const name of ['root', 'tip'] as const)
+			for (const input of controls[name].domElement.querySelectorAll('input'))
+				input.disabled = controls[name]._disabled;
+		this.#baked.enable(fur);
+		for (const name of ['method', 'split'] as const) {
+			const { options } = (controls[name] as OptionController).$select;
+			for (const option of options) {
+				const method = methods.find((own) => words.methods[own] === option.text);
+				const rival = method !== undefined && method !== 'ptm' && method !== 'eigen';
+				option.disabled = (method === 'eigen' && !eigen) || (rival && !alone);
+			}
+		}
+		const { noFur, noEigen, crowd, colourPlane } = words.reasons;
+		this.#say('body', fur || !settings.model ? '' : noFur);
+		this.#say('light', !fur ? '' : !alone ? crowd : eigen ? '' : noEigen);
+		this.#say('hair', fur && !root ? colourPlane : '');
+		for (const controller of Object.values(controls)) controller.updateDisplay();
+	}
+
+	#say(folder: 'body' | 'light' | 'hair', reason: string): void {
+		const place = this.#reasons[folder];
+		place.textContent = reason;
+		place.hidden = reason === '';
 	}
 }

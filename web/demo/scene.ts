@@ -15,23 +15,26 @@ import {
 	Vector3,
 	WebGLRenderer,
 } from 'three';
-import { fitShadow, limitsOf, type TextureLimits } from '../fur/index.ts';
+import { type Fur, fitShadow, limitsOf, type TextureLimits } from '../fur/index.ts';
 import { backdrop, ContactShadow } from '../page/backdrop.ts';
 import { disposeAll } from '../page/dispose.ts';
 import { Crowd } from './crowd.ts';
 import type { Environment } from './environments.ts';
+import { Lamps } from './lamps.ts';
 import type { Model } from './models.ts';
 
 const maxPixelRatio = 2;
 
-/** Linear colour times irradiance: 2.8π makes a white matt surface facing it 2.8 bright. */
-const keyColour = new Color(1, 0.95, 0.87).multiplyScalar(2.8 * Math.PI);
+/** Irradiance: 2.8π makes a white matt surface facing it 2.8 bright. */
+const keyPower = 2.8 * Math.PI;
+const keyColour = new Color(1, 0.95, 0.87).multiplyScalar(keyPower);
 
 export class Stage {
 	readonly renderer: WebGLRenderer;
 	readonly scene = new Scene();
 	readonly key = new DirectionalLight();
 	readonly sky = new HemisphereLight(0xffffff, 0xffffff, 0.7 * Math.PI);
+	readonly #lamps = new Lamps(keyPower);
 	/** Of the model on show. */
 	readonly centre = new Vector3();
 	radius = 1;
@@ -64,46 +67,50 @@ export class Stage {
 		this.sky.groundColor.setRGB(0.28, 0.24, 0.2);
 		this.#backdrop = backdrop(Boolean(half));
 		this.#shadow.visible = false;
-		this.scene.add(this.key, this.key.target, this.sky, this.#around, this.#shadow);
+		this.scene.add(this.key, this.key.target, this.#lamps, this.sky, this.#around, this.#shadow);
 		this.surround(undefined);
 	}
 
-	/** Puts a model in the place of the one before, which is disposed of. */
-	show(model: Model): void {
+	/** Puts a model in the place of the one before, which is disposed of; undefined: none. */
+	show(model: Model | undefined): void {
+		this.#disband();
 		if (this.model) {
-			this.#crowd?.dispose();
-			this.#crowd = undefined;
 			this.scene.remove(this.model.object);
 			this.model.dispose();
 		}
 		this.model = model;
-		this.scene.add(model.object);
-		this.#shadow.fit(model.box, model.fur?.asset.length ?? 0);
-		if (model.fur) {
-			model.fur.shells.material.gloss = 0.5;
-			model.fur.shells.material.backlight = 6;
-		}
+		this.#shadow.visible = model !== undefined;
+		if (model) this.scene.add(model.object);
 	}
 
-	/** Has so many bodies of the model on show. A model without fur is alone. */
-	gather(count: number): void {
+	#disband(): void {
+		this.#crowd?.dispose();
+		this.#crowd = undefined;
+	}
+
+	/**
+	 * Has so many bodies of the model on show, and sees to it that light and camera take all of them in.
+	 *
+	 * @param fur that they wear; undefined where there is none, which is alone
+	 */
+	gather(count: number, fur: Fur | undefined): void {
 		const { model } = this;
 		if (!model) return;
-		const { fur } = model;
 		const many = fur !== undefined && count > 1;
+		if (!many || this.#crowd?.fur !== fur) this.#disband();
 		if (many && !this.#crowd) {
 			this.#crowd = new Crowd(model, fur);
 			this.#crowd.pictureHeight = this.renderer.domElement.height;
 			this.scene.add(this.#crowd);
 		}
-		const crowd = many ? this.#crowd : undefined;
+		const crowd = this.#crowd;
 		if (crowd) crowd.count = count;
-		if (this.#crowd) this.#crowd.visible = many;
 		model.object.visible = this.#shadow.visible = !many;
 		this.closest = model.radius;
 		this.radius = crowd?.radius ?? model.radius;
 		model.box.getCenter(this.centre);
-		const length = fur?.asset.length ?? 0.05 * this.radius;
+		const length = fur?.shells.furLength ?? 0.05 * model.radius;
+		this.#shadow.fit(model.box, fur ? length : 0);
 		this.light(this.key.position.clone().sub(this.key.target.position).normalize());
 		fitShadow(this.key, new Sphere(this.centre, (crowd?.reach ?? this.radius) + length), length);
 	}
@@ -129,6 +136,13 @@ export class Stage {
 	light(direction: Vector3): void {
 		this.key.target.position.copy(this.centre);
 		this.key.position.copy(this.centre).addScaledVector(direction, 4 * this.radius);
+		this.#lamps.turn(direction);
+	}
+
+	/** Lamps in all, 1 to 8: the one that is dragged and those around it. */
+	set lamps(count: number) {
+		this.#lamps.lit = count;
+		this.key.intensity = this.#lamps.share;
 	}
 
 	get gl(): WebGL2RenderingContext {
@@ -137,11 +151,6 @@ export class Stage {
 
 	get limits(): TextureLimits {
 		return limitsOf(this.gl);
-	}
-
-	/** Of the one model; undefined where there are many, or it has no fur. */
-	get shells(): number | undefined {
-		return this.#crowd?.visible ? undefined : this.model?.fur?.shells.shellCount;
 	}
 
 	/** @param width of the window in CSS pixels */

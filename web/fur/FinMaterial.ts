@@ -30,8 +30,11 @@ const SHARED = [
  * Colours and lengths are the shells'. They write no depth: the shells are blended over them.
  */
 export class FinMaterial extends PeltMaterial {
+	/** {@inheritDoc FinMaterialParameters.finLength} */
 	declare finLength: number;
+	/** {@inheritDoc FinMaterialParameters.finOpacity} */
 	declare finOpacity: number;
+	/** {@inheritDoc FinMaterialParameters.finHeights} */
 	declare finHeights: number;
 
 	constructor(fin: Fin, textures: FurTextures, shells: FurMaterial, parameters: FinMaterialParameters = {}) {

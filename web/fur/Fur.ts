@@ -25,9 +25,11 @@ export interface Ground {
 
 /** Shells, fins and the shade of the skin below them: `gltf.userData.fur` of a loaded asset, or made by `dress`. */
 export class Fur {
+	/** What its file says of it. */
 	readonly asset: FurAsset;
-	/** What the shells are drawn with, and what else the asset holds of them; the fins', where it has some. */
+	/** What the shells are drawn with, and what else the asset holds of them. */
 	readonly textures: FurTextures;
+	/** What the fins are drawn with, where it has some. */
 	readonly finTextures: FurTextures | undefined;
 	/** The shells' own, whatever method they wear. */
 	readonly material: FurMaterial;
@@ -37,6 +39,7 @@ export class Fur {
 	readonly fins: FurFins | undefined;
 	/** The body: a mesh, or a group of one for each material. */
 	readonly skin: Object3D;
+	/** What it stands on, for `dress`. */
 	readonly ground: Ground;
 	readonly #parts = new Object3D();
 	readonly #release: () => void;
@@ -134,6 +137,7 @@ function unshareGeometry(geometry: BufferGeometry): void {
 	for (const name of Object.keys(geometry.attributes)) geometry.deleteAttribute(name);
 }
 
+/** What `dress` may be told. */
 export interface DressOptions {
 	/** How far the body's second tip colour shows (on its belly, in patches), 0..1: 0 for a pelt that is the same all over. */
 	tips?: number;

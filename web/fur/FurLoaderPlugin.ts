@@ -25,11 +25,14 @@ import { Skin } from './skin.ts';
  */
 const ANISOTROPY = 2;
 
+/** What a FurLoaderPlugin may be told. */
 export interface FurLoaderOptions {
 	/** What the GPU takes, by `limitsOf`: an asset that asks for more is refused before its planes are decoded. */
 	limits?: TextureLimits;
 	/** Most texels that are averaged along the slant in which a shell is seen, 1 to 16, where the GPU can; 2 by default. */
 	anisotropy?: number;
+	/** Called where the fur is of a newer version than `VERSION`, so that the skin stays alone; without it, a warning on the console. */
+	newer?: (version: string) => void;
 	/** Called with the loaded scene once its skin has the colour that it has under fur, before any plane has come. */
 	skin?: (scene: Object3D) => void;
 }
@@ -45,6 +48,7 @@ export interface FurLoaderOptions {
  * Error that says what is wrong.
  */
 export class FurLoaderPlugin implements GLTFLoaderPlugin {
+	/** The extension that it reads. */
 	readonly name = EXTENSION;
 	readonly #parser: GLTFParser;
 	readonly #options: FurLoaderOptions;
@@ -54,13 +58,15 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		this.#options = options;
 	}
 
+	/** Called by the loader: grows the fur. */
 	async afterRoot(gltf: GLTF): Promise<void> {
 		const extension = this.#parser.json.extensions?.[EXTENSION];
 		if (!extension) return;
 		const asset = parseFur(extension);
 		if (!asset) {
-			console.warn(`${EXTENSION}: version ${extension.version} is newer than ${VERSION}; showing the skin alone`);
-			return;
+			const warn = (version: string) =>
+				console.warn(`${EXTENSION}: version ${version} is newer than ${VERSION}; showing the skin alone`);
+			return (this.#options.newer ?? warn)(extension.version);
 		}
 		if (this.#options.limits) checkLimits(asset, this.#options.limits);
 		gltf.userData.fur = await this.#grow(asset, gltf.scene);

@@ -21,22 +21,29 @@ export interface FurMaterialParameters extends ShaderMaterialParameters {
 	bodyRadius?: number;
 	/** Base colour of the model, which multiplies the fur's. */
 	skinColour?: Color;
-	/** Colour at the skin and at the tips; where the pelt has a colour plane only the ratio of the tips counts. */
+	/** Linear colour at the skin. */
 	root?: Color;
+	/** Linear colour of the tips; where the pelt has a colour plane only the ratio of the two tips counts. */
 	tip?: Color;
 	/** Colour of the other tips, to which the mesh's attributes lead over. */
 	tip2?: Color;
 	/** How much of the way there the attributes lead, 0..1. */
 	tipShare?: number;
+	/** p in mix(root, tip, s^p), s from 0 at the skin to 1 at the tip. */
 	rampPower?: number;
 	/** Exponent of the highlights: 20 is matt, 200 wet. */
 	sharpness?: number;
-	/** As of PeltMaterial. */
+	/** {@inheritDoc FurMaterial.environment} */
 	environment?: boolean;
+	/** {@inheritDoc FurMaterial.gloss} */
 	gloss?: number;
+	/** {@inheritDoc FurMaterial.backlight} */
 	backlight?: number;
+	/** {@inheritDoc FurMaterial.density} */
 	density?: number;
+	/** {@inheritDoc FurMaterial.lampsPerFragment} */
 	lampsPerFragment?: boolean;
+	/** {@inheritDoc FurMaterial.multisampled} */
 	multisampled?: boolean;
 }
 
@@ -61,16 +68,27 @@ const MIRRORED = [
  * product. Colours are linear, blending is premultiplied, depth is written: shells have to be drawn inside-out.
  */
 export class FurMaterial extends PeltMaterial {
+	/** {@inheritDoc FurMaterialParameters.furLength} */
 	declare furLength: number;
+	/** {@inheritDoc FurMaterialParameters.shellCount} */
 	declare shellCount: number;
+	/** {@inheritDoc FurMaterialParameters.alphaCut} */
 	declare alphaCut: number;
+	/** {@inheritDoc FurMaterialParameters.bodyRadius} */
 	declare bodyRadius: number;
+	/** {@inheritDoc FurMaterialParameters.skinColour} */
 	declare skinColour: Color;
+	/** {@inheritDoc FurMaterialParameters.root} */
 	declare root: Color;
+	/** {@inheritDoc FurMaterialParameters.tip} */
 	declare tip: Color;
+	/** {@inheritDoc FurMaterialParameters.tip2} */
 	declare tip2: Color;
+	/** {@inheritDoc FurMaterialParameters.tipShare} */
 	declare tipShare: number;
+	/** {@inheritDoc FurMaterialParameters.rampPower} */
 	declare rampPower: number;
+	/** {@inheritDoc FurMaterialParameters.sharpness} */
 	declare sharpness: number;
 
 	constructor(asset: FurAsset, textures: FurTextures, parameters: FurMaterialParameters = {}) {

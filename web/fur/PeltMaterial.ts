@@ -31,9 +31,13 @@ import shadow from './shaders/shadow.glsl?raw';
 import sky from './shaders/sky.glsl?raw';
 import view from './shaders/view.glsl?raw';
 
+/** An asset's planes as texture arrays, a slab per layer. */
 export interface FurTextures {
+	/** Coefficients (a0, a1, a2, a5); of three coefficients (a0, a1, a2, α). */
 	plane0: Texture;
+	/** (a3, a4, α, tint). */
 	plane1?: Texture | undefined;
+	/** The hairs' own colours, sRGB. */
 	colour?: Texture | undefined;
 	/** Mean tangent of the hairs, for renderers that don't light by coefficients; mips are means, shorter than 1. */
 	direction?: Texture | undefined;

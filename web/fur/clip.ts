@@ -4,7 +4,9 @@ import { Vector4, type WebGLRenderer } from 'three';
 
 /** From where to where, shares of the picture's width, 0..1 from the left. */
 export interface Columns {
+	/** Left edge. */
 	from: number;
+	/** Right edge. */
 	to: number;
 }
 

@@ -30,6 +30,7 @@ const BRIGHTEST = 65504;
 /** Brightness of linear red, green and blue (ITU-R BT.709). */
 const LUMINANCE = [0.2126, 0.7152, 0.0722] as const;
 
+/** Light from one direction, as a `DirectionalLight` gives it. */
 export interface Lamp {
 	/** Unit vector to it, world axes. */
 	direction: Vector3;
@@ -37,6 +38,7 @@ export interface Lamp {
 	colour: Color;
 }
 
+/** A place's light, in what three's scenes are lit by. */
 export interface EnvironmentLight {
 	/** Spherical harmonics of the radiance to order 2, world axes, as three's own generator gives them. */
 	probe: LightProbe;
@@ -44,9 +46,10 @@ export interface EnvironmentLight {
 	lamps: Lamp[];
 }
 
-/** @param direction unit vector to the texel, world axes; @param solidAngle its steradians; both reused */
-type Visit = (radiance: Color, direction: Vector3, solidAngle: number) => void;
+/** Called for a texel of a picture of the light all around. @param direction unit vector to it, world axes; @param solidAngle its steradians; both reused */
+export type Visit = (radiance: Color, direction: Vector3, solidAngle: number) => void;
 
+/** Of a linear colour: how bright it looks. */
 export const luminance = ({ r, g, b }: Color): number => LUMINANCE[0] * r + LUMINANCE[1] * g + LUMINANCE[2] * b;
 
 /**

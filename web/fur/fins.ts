@@ -34,6 +34,8 @@ export class FurFins extends Mesh<BufferGeometry, FinMaterial> {
 	}
 
 	/**
+	 * Takes the place of the shells.
+	 *
 	 * @param shells the shells that are drawn over these fins
 	 * @param placement the node whose transform takes the quads' units to the model's
 	 */
@@ -56,10 +58,12 @@ export class FurFins extends Mesh<BufferGeometry, FinMaterial> {
 		this.geometry.boundingSphere = new Sphere(center.clone(), radius + longer);
 	}
 
+	/** In the columns that are the fur's. */
 	override onBeforeRender(renderer: WebGLRenderer): void {
 		beginClip(renderer, this.clip);
 	}
 
+	/** Other objects have the whole picture. */
 	override onAfterRender(renderer: WebGLRenderer): void {
 		endClip(renderer, this.clip);
 	}

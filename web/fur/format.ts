@@ -3,14 +3,28 @@
 import { Validator } from '@cfworker/json-schema';
 import schema from '../../baker/furbake/asset/schema/FUR_ptm_shells.schema.json';
 
+/** The extension's name in a glTF file. */
 export const EXTENSION = 'FUR_ptm_shells';
 
 /** The newest version that this reader knows; a higher major version shows the skin alone. */
 export const VERSION = '1.0';
 
 /** What the coefficients multiply: the paper's eq. (2), or weights of the smooth functions, a row per coefficient. */
-export type Basis = { kind: 'ptm' } | { kind: 'eigen'; degree: number; matrix: number[][] };
+export type Basis =
+	| {
+			/** Six products of the light's coordinates. */
+			kind: 'ptm';
+	  }
+	| {
+			/** Curves found for this very fur. */
+			kind: 'eigen';
+			/** Of the smooth functions that they are made of, 1 to 8. */
+			degree: number;
+			/** A row of weights per coefficient, one for each smooth function. */
+			matrix: number[][];
+	  };
 
+/** A linear colour. */
 export type RGB = [number, number, number];
 
 /** The same fur cut from the side, for the fins. Its frame is (edge, normal, across): φ takes (l·edge, l·normal). */
@@ -23,8 +37,11 @@ export interface Fin {
 	planes: number[];
 	/** As of the pelt, there where the pelt has one. */
 	colour?: number;
+	/** As of the pelt. */
 	scale: number[];
+	/** As of the pelt. */
 	bias: number[];
+	/** Its own, in the fin's frame. */
 	basis: Basis;
 	/** Harmonics in the fin's frame, over the half sphere around the normal. */
 	environment: number[][];
@@ -32,6 +49,7 @@ export interface Fin {
 
 /** One state of the fur. */
 export interface Pelt {
+	/** Of the preset that it was baked by. */
 	name: string;
 	/** Indices of images: (a0, a1, a2, a5) and (a3, a4, α, tint); with three coefficients one image (a0, a1, a2, α). */
 	planes: number[];
@@ -43,14 +61,19 @@ export interface Pelt {
 	scale: number[];
 	/** The paper's Ω. */
 	bias: number[];
+	/** Its side view, where the asset has fins. */
 	fin?: Fin;
 }
 
+/** The extension's object in a glTF file: the fur of one body. */
 export interface FurAsset {
+	/** Of the format, major and minor. */
 	version: string;
-	/** Indices of nodes. */
+	/** Index of the node of the body without fur. */
 	skin: number;
+	/** Index of the node that is drawn once per shell. */
 	shells: number;
+	/** Index of the node of quads on the edges. */
 	fins?: number;
 	/** What TEXCOORD_0 is multiplied by to be in tiles; 1 where absent. */
 	tiles?: number;
@@ -64,13 +87,24 @@ export interface FurAsset {
 	length: number;
 	/** Longest fur, tile widths. */
 	height: number;
+	/** What the coefficients of all pelts multiply. */
 	basis: Basis;
 	/** A row of 9 per coefficient: spherical harmonics of the radiance → light moments. */
 	environment: number[][];
 	/** Per slab: mean displacement of the hairs at its middle, tile widths. */
 	drift: [number, number][];
 	/** Linear colours along a hair: mix(root, tip, s^power). */
-	ramp: { root: RGB; tip: RGB; tip2: RGB; power: number };
+	ramp: {
+		/** At the skin. */
+		root: RGB;
+		/** At the tips. */
+		tip: RGB;
+		/** At the tips there where the mesh's attributes lead over to it. */
+		tip2: RGB;
+		/** The exponent. */
+		power: number;
+	};
+	/** One at least; the first is worn. */
 	pelts: Pelt[];
 }
 

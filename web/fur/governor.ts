@@ -26,6 +26,7 @@ const WORTH = 0.9;
 const DESCENT = 4;
 const HOPELESS_WAIT = 30_000;
 
+/** What a FurGovernor goes by. */
 export interface GovernorOptions {
 	/** Milliseconds that a frame may take. */
 	target?: number;

@@ -1,6 +1,6 @@
 /** furbake for three.js: load baked fur, light it with three's own lights. */
 
-export { type FurMethod, furMethod, type MethodOptions } from './baselines/method.ts';
+export { type Coat, type FurMethod, furMethod, type MethodOptions } from './baselines/method.ts';
 export { METHODS, type MethodName } from './baselines/names.ts';
 export type { Columns } from './clip.ts';
 export {
@@ -8,6 +8,7 @@ export {
 	environmentLight,
 	type Lamp,
 	luminance,
+	type Visit,
 	visitEnvironment,
 } from './environment.ts';
 export { FinMaterial, type FinMaterialParameters } from './FinMaterial.ts';
@@ -15,7 +16,7 @@ export { type DressOptions, dress, Fur } from './Fur.ts';
 export { type FurLoaderOptions, FurLoaderPlugin } from './FurLoaderPlugin.ts';
 export { FurMaterial, type FurMaterialParameters } from './FurMaterial.ts';
 export { FurFins } from './fins.ts';
-export { type Basis, EXTENSION, type Fin, type FurAsset, type Pelt, VERSION } from './format.ts';
+export { type Basis, EXTENSION, type Fin, type FurAsset, type Pelt, type RGB, VERSION } from './format.ts';
 export { FurGovernor, type GovernorOptions } from './governor.ts';
 export { FurInstances } from './instances.ts';
 export { checkLimits, limitsOf, type TextureLimits } from './limits.ts';

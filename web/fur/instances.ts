@@ -58,6 +58,7 @@ interface Skin {
 export class FurInstances extends Object3D {
 	/** What the renderer asks for before it calls `update`. */
 	readonly isLOD = true;
+	/** Whether the renderer calls `update` before every picture. */
 	autoUpdate = true;
 	/** Most bodies that there can be. */
 	readonly capacity: number;
@@ -180,7 +181,11 @@ export class FurInstances extends Object3D {
 		this.#moved = true;
 	}
 
-	/** @param given the body's axes (those of the loaded scene) → these bodies' own; uniform scale */
+	/**
+	 * Places a body.
+	 *
+	 * @param given the body's axes (those of the loaded scene) → these bodies' own; uniform scale
+	 */
 	setMatrixAt(i: number, given: Matrix4): void {
 		given.toArray(this.#matrices, 16 * i);
 		matrix.multiplyMatrices(given, this.#furMatrix).toArray(this.#furMatrices, 16 * i);
@@ -196,6 +201,7 @@ export class FurInstances extends Object3D {
 		this.#moved = true;
 	}
 
+	/** The matrix that `setMatrixAt` was given last. */
 	getMatrixAt(i: number, target: Matrix4): Matrix4 {
 		return target.fromArray(this.#matrices, 16 * i);
 	}

@@ -2,6 +2,7 @@
 
 import { EXTENSION, type FurAsset } from './format.ts';
 
+/** The largest textures of a GPU. */
 export interface TextureLimits {
 	/** Texels per side. */
 	size: number;
@@ -9,11 +10,16 @@ export interface TextureLimits {
 	layers: number;
 }
 
+/** Those of the GPU behind a context. */
 export function limitsOf(gl: WebGL2RenderingContext): TextureLimits {
 	return { size: gl.getParameter(gl.MAX_TEXTURE_SIZE), layers: gl.getParameter(gl.MAX_ARRAY_TEXTURE_LAYERS) };
 }
 
-/** @throws Error where the asset's planes do not fit into this GPU's textures */
+/**
+ * Refuses an asset that is too large.
+ *
+ * @throws Error where the asset's planes do not fit into this GPU's textures
+ */
 export function checkLimits({ size, layers, fins, pelts }: FurAsset, limits: TextureLimits): void {
 	const expected = `expected at most ${limits.size} × ${limits.size} on this GPU`;
 	if (size > limits.size) throw new Error(`${EXTENSION}/size: got tiles of ${size} × ${size} texels, ${expected}`);

@@ -26,6 +26,7 @@ const viewport = new Vector4();
 
 /** The shells of a furry surface: one instanced draw, instance = shell, the innermost first. */
 export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
+	/** Draws the hull into shadow maps. */
 	override readonly customDepthMaterial: HullMaterial;
 	/** Whether there are as many shells as the picture needs, or as many as `shellCount` was last set to. */
 	automatic = true;
@@ -116,6 +117,7 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 		beginClip(renderer, this.clip);
 	}
 
+	/** Other objects have the whole picture. */
 	override onAfterRender(renderer: WebGLRenderer): void {
 		endClip(renderer, this.clip);
 	}
@@ -125,6 +127,7 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 		this.geometry.instanceCount = 1;
 	}
 
+	/** The shells are back for the picture. */
 	override onAfterShadow(): void {
 		this.geometry.instanceCount = Math.ceil(this.shellCount);
 	}

@@ -41,10 +41,15 @@ export function furCover(skin: BufferGeometry, shells: BufferGeometry): Float32A
 /** How much of the roots' colour the skin shows: it lies in the shadow of all the fur above it. */
 const SHADE = 0.35;
 
+const WHITE = new Color(1, 1, 1);
+
 /** A piece of the skin, in a copy of its material that can be darkened where fur stands on it. */
 export class ShadedPiece {
 	readonly material: MeshStandardMaterial;
 	readonly #own: Color | undefined;
+	readonly #roughness: number | undefined;
+	/** Mean cover. */
+	readonly #covered: number;
 	/** Of every vertex where it is not all under fur: its own colour, the cover, and what both make. */
 	readonly #vertices: { own: Float32Array; cover: Float32Array; shaded: BufferAttribute } | undefined;
 
@@ -53,6 +58,8 @@ export class ShadedPiece {
 		const own = piece.material as MeshStandardMaterial;
 		this.material = own.clone();
 		this.#own = own.color?.clone();
+		this.#roughness = own.roughness;
+		this.#covered = cover ? cover.reduce((sum, share) => sum + share, 0) / cover.length : 1;
 		if (cover) {
 			const before = own.vertexColors ? piece.geometry.getAttribute('color') : undefined;
 			const colours = Float32Array.from(
@@ -66,8 +73,12 @@ export class ShadedPiece {
 		piece.material = this.material;
 	}
 
-	/** @param shade how bright it is under fur, of its own colour */
-	shade(shade: Color): void {
+	/** @param fur how bright it is under fur, of its own colour; undefined: there is no fur */
+	shade(fur: Color | undefined): void {
+		// What lies below fur does not shine through it.
+		if (this.#roughness !== undefined)
+			this.material.roughness = this.#roughness + (fur ? (1 - this.#roughness) * this.#covered : 0);
+		const shade = fur ?? WHITE;
 		if (!this.#vertices) {
 			if (this.#own) this.material.color.copy(this.#own).multiply(shade);
 			return;
@@ -124,7 +135,7 @@ export class Skin {
 	}
 
 	#shade(): void {
-		const shade = [...this.#worn.values()].at(-1) ?? new Color(1, 1, 1);
+		const shade = [...this.#worn.values()].at(-1);
 		for (const piece of this.#pieces) piece.shade(shade);
 	}
 

@@ -2,7 +2,7 @@
 
 import { Arena } from './arena.ts';
 import { type BenchOptions, type Part, SHELLS } from './plan.ts';
-import type { BenchFigures, Cost, Growth, Method, Point, Result, Row } from './results.ts';
+import type { BenchFigures, Cost, CostName, Growth, Method, Point, Result, Row } from './results.ts';
 import { type Extras, makeRival, type Rival } from './rivals.ts';
 import { median, ratio } from './statistics.ts';
 import { loadWardrobe, type Torus, type Wardrobe } from './tori.ts';
@@ -14,7 +14,7 @@ const CURVE_SHELLS = [8, 16, 32, 64];
 const CURVE_SIZES = [0.25, 0.5, 0.75, 1];
 const CURVE_METHODS: readonly Method[] = ['unlit', 'shadow-layers', 'ptm'];
 
-const COSTS: [name: string, extras: Extras][] = [
+const COSTS: [name: CostName, extras: Extras][] = [
 	['highlight', { gloss: true }],
 	['backlight', { backlight: true }],
 	['shadow', { shadow: true }],
@@ -130,7 +130,7 @@ class Bench {
 			makeRival({ ...this.#row('ptm', MIDDLE), ...row }, this.#torus(), this.wardrobe, extras);
 		const features = COSTS.map(([name, extras]) => ({ name, rival: make(extras) }));
 		features.push({ name: 'all of them, and fins', rival: make(COSTS.at(-1)?.[1] ?? {}, { fins: true }) });
-		const lights = [
+		const lights: { name: CostName; rival: Rival }[] = [
 			{ name: 'a still light', rival: make({}, { light: 'still' }) },
 			{ name: '8 lights', rival: make({ lights: 8 }) },
 			{ name: 'fins', rival: make({}, { fins: true }) },
@@ -142,7 +142,7 @@ class Bench {
 		];
 		await this.#with(groups, async () => {
 			const times = await this.#contest(groups, this.options.rounds);
-			const cost = (name: string, rival: Rival, over: Rival): Cost => {
+			const cost = (name: CostName, rival: Rival, over: Rival): Cost => {
 				const rounds = times.get(rival) ?? [];
 				return { name, median_ms: median(rounds), ratio: ratio(rounds, times.get(over) ?? []) };
 			};

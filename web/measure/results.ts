@@ -39,9 +39,23 @@ export interface Overdraw {
 	blended: number;
 }
 
+/** What is measured beside the bench's plain PTM: its features, and its lights and fins. */
+export type CostName =
+	| 'plain'
+	| 'highlight'
+	| 'backlight'
+	| 'shadow'
+	| 'environment'
+	| 'all of them'
+	| 'all of them, and fins'
+	| 'one, moving'
+	| 'a still light'
+	| '8 lights'
+	| 'fins';
+
 /** What something costs beside the bench's plain PTM. */
 export interface Cost {
-	name: string;
+	name: CostName;
 	median_ms: number;
 	/** Median over the rounds of its time over that of the base in the same round. */
 	ratio: number;

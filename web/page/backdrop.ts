@@ -16,6 +16,7 @@ import {
 	UnsignedByteType,
 	Vector3,
 } from 'three';
+import { random } from './random.ts';
 
 const middle: ColorRepresentation = '#56687a';
 const rim: ColorRepresentation = '#212a33';
@@ -46,12 +47,14 @@ export function backdrop(half: boolean, size = 384): DataTexture {
 	const outer = new Color(rim).convertLinearToSRGB();
 	const colour = new Color();
 	const texels = new (half ? Uint16Array : Uint8Array)(size * size * 4);
+	// The same grain every time: a link shows the same picture to the bit.
+	const grain = random(1);
 	const stored = half ? DataUtils.toHalfFloat : (value: number) => value * 255 + 0.5;
 	for (let y = 0; y < size; y++) {
 		for (let x = 0; x < size; x++) {
 			const away = Math.hypot((x + 0.5) / size - 0.5, ((y + 0.5) / size - 0.47) * 1.1) / 0.72;
 			colour.lerpColors(inner, outer, smoothstep(away));
-			colour.addScalar((Math.random() + Math.random() - 1) / 255);
+			colour.addScalar((grain() + grain() - 1) / 255);
 			beforeNeutral(colour.convertSRGBToLinear());
 			if (!half) colour.convertLinearToSRGB();
 			const at = (y * size + x) * 4;

@@ -69,7 +69,7 @@ export class Lamp extends Group {
 	readonly #ray: Mesh<PlaneGeometry, MeshBasicMaterial>;
 	readonly #faint: (LineMaterial | MeshBasicMaterial)[] = [];
 	readonly #eye = new Vector3();
-	#strength = resting;
+	#strength = 0;
 	readonly #dim = (material: LineMaterial | MeshBasicMaterial) => {
 		material.opacity = this.#strength;
 	};
@@ -129,13 +129,21 @@ export class Lamp extends Group {
 		this.#arm.rotation.z = Math.asin(Math.min(Math.max(direction.y, -1), 1));
 	}
 
-	/** Turns the ray's band to the camera. @param elapsed seconds since the last frame; Infinity for no gliding */
-	glide(camera: Camera, elapsed: number): void {
+	/**
+	 * Turns the ray's band to the camera.
+	 *
+	 * @param elapsed seconds since the last frame; Infinity for no gliding
+	 * @returns whether it is still becoming brighter or darker
+	 */
+	glide(camera: Camera, elapsed: number): boolean {
 		this.#arm.updateWorldMatrix(true, false);
 		const eye = this.#arm.worldToLocal(this.#eye.setFromMatrixPosition(camera.matrixWorld));
 		this.#ray.rotation.x = Math.atan2(-eye.y, eye.z);
 		const goal = this.active ? 1 : resting;
+		if (this.#strength === goal) return false;
 		this.#strength += (goal - this.#strength) * (1 - Math.exp(-elapsed / easing));
+		if (Math.abs(goal - this.#strength) < 0.004) this.#strength = goal;
 		this.#faint.forEach(this.#dim);
+		return true;
 	}
 }

@@ -60,7 +60,7 @@ function queryOf({ rounds, size, quick, ...others }) {
 		const odd = `${others[name] ?? all}`.split(',').some((item) => !all.includes(item));
 		if (odd) throw new Failure(`--${name}: got ${others[name]}, expected some of ${all.join(',')}`);
 	}
-	const query = new URLSearchParams({ run: '1', post: ENDPOINT });
+	const query = new URLSearchParams({ run: '1', post: ENDPOINT, lang: 'en' });
 	for (const [name, value] of Object.entries(given)) if (value !== undefined) query.set(name, `${value}`);
 	return query;
 }

@@ -20,7 +20,7 @@ await command(async () => {
 	const py = (/** @type {string[]} */ ...args) => run(python, ['-m', ...args], { cwd: baker });
 
 	const biome = module('@biomejs', 'biome', 'bin', 'biome');
-	const tsc = module('typescript', 'bin', 'tsc');
+	const tsc = module('@typescript', 'native', 'bin', 'tsc');
 	const pyproject = ['--config', 'pyproject.toml'];
 	const sources = ['.', join('..', 'tests', 'baker'), join('..', 'tests', 'golden')];
 
@@ -42,6 +42,8 @@ await command(async () => {
 		['tsc web', () => node(tsc, '-p', '.')],
 		['tsc web/tools', () => node(tsc, '-p', 'tools')],
 		['tsc tests', () => node(tsc, '-p', join('..', 'tests'))],
+		// What is public has its words; `npm run docs` makes pages of them.
+		['typedoc', () => node(module('typedoc', 'bin', 'typedoc'), '--options', 'typedoc.json', '--emit', 'none')],
 		['ruff check', () => py('ruff', 'check', ...(write ? ['--fix'] : []), ...pyproject, ...sources)],
 		['ruff format', () => py('ruff', 'format', ...(write ? [] : ['--check']), ...pyproject, ...sources)],
 		['mypy', () => py('mypy', '--strict', 'furbake')],

@@ -25,8 +25,7 @@ export function typeset(source) {
 }
 
 /**
- * `import html from './text/en.md'`; and of KaTeX's fonts the one format that every browser with WebGL2 reads, as files: a
- * policy without `data:` fonts refuses those that vite would write into the style sheet.
+ * `import html from './text/en.md'`; and of KaTeX's fonts the one format that every browser with WebGL2 reads.
  *
  * @returns {import('vite').Plugin}
  */
@@ -34,9 +33,6 @@ export function lesson() {
 	return {
 		name: 'furbake:lesson',
 		enforce: 'pre',
-		config: () => ({
-			build: { assetsInlineLimit: (/** @type {string} */ path) => (path.endsWith('.woff2') ? false : undefined) },
-		}),
 		transform(source, id) {
 			const [path = ''] = id.split('?');
 			if (path.endsWith('.md'))

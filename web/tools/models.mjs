@@ -1,6 +1,6 @@
 /**
- * The default models: `public/models/models.json` lists them, this bakes the ones that are missing or stale. So it does
- * with the lesson's data in `public/lesson`.
+ * The default models, which `public/models/models.json` lists, and what the lesson measures with: bakes what is missing or
+ * stale.
  */
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join } from 'node:path';
@@ -26,6 +26,7 @@ const cache = join(root, 'node_modules', '.cache', 'furbake');
  * @property {string} [preset] of a model: what it is furry with
  * @property {string} [pelt] of a pelt: the preset that it is
  * @property {'ptm' | 'eigen'} [basis] of a pelt
+ * @property {number} [gloss] of a pelt: strength of the highlights that suits it
  * @property {number} [tips] of a pelt: how far a model's own second tip colour shows on it
  * @property {boolean} [menu] false: not in the page's menu
  * @property {string} [view] first view and light, written as in the page's address

@@ -43,9 +43,7 @@ def builtin(name: str) -> Surface:
         return torus(ROWS, COLUMNS)
     size = re.fullmatch(r"(plane|torus):(\d{1,9})x(\d{1,9})", name, re.ASCII)
     if not size:
-        raise MeshError(
-            f"{name}: no such built-in, expected sphere, plane, torus, or plane:RxC or torus:RxC as in torus:48x96"
-        )
+        raise MeshError(f"{name}: no such built-in, expected sphere, plane, torus, plane:RxC or torus:RxC")
     shape, rows, columns = size[1], int(size[2]), int(size[3])
     fewest = FEWEST[shape]
     if not (fewest <= rows <= MOST and fewest <= columns <= MOST):

@@ -19,7 +19,9 @@ export type Coat = Pick<Fur, 'shells' | 'skin' | 'textures'>;
 
 /** A way to light the shells of a fur. */
 export interface FurMethod {
+	/** As `furMethod` takes it. */
 	readonly name: MethodName;
+	/** What it draws the shells with. */
 	readonly material: FurMaterial | RivalMaterial;
 	/** Puts it on the shells. Fins keep their own light. */
 	wear(): void;

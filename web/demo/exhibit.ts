@@ -1,0 +1,295 @@
+/** What is on show: a model of the menu or of the address, in a pelt, in a place; and whether that is all that was asked for. */
+
+import { VERSION } from '../fur/index.ts';
+import { setState } from '../page/element.ts';
+import type { Triple, View } from './address.ts';
+import type { OwnModel } from './drop.ts';
+import { type EnvironmentName, loadEnvironment } from './environments.ts';
+import { Looks, type Outfit } from './looks.ts';
+import { textureBytes } from './memory.ts';
+import { firstView, folderOf, loadMenu, loadModel, type MenuEntry, type Model, offered, sourceAt } from './models.ts';
+import { notice } from './notice.ts';
+import { adjust, outfitsOf } from './outfits.ts';
+import type { Picture } from './picture.ts';
+import type { Progress } from './progress.ts';
+import { en } from './words/drop.en.ts';
+import { zh } from './words/drop.zh.ts';
+import { language, words } from './words/index.ts';
+
+const ownWords = { en, zh }[language];
+
+/** From the side: light from the front is flat. */
+const defaultLight: Triple = [-0.82, 0.57, -0.02];
+const defaultCamera: Triple = [0, 8, 1];
+const crowdCamera: Triple = [10, 13, 0.5];
+
+/** Of the first shells over what looks best. */
+const coarse = 4;
+
+export class Exhibit {
+	menu: MenuEntry[] = [];
+	/** Name or address of the model on show, with a slash at its front if it is a visitor's own; '' for none. */
+	shown = '';
+	place: EnvironmentName | 'none' = 'none';
+	readonly looks = new Looks();
+	/** Called when something else is on show, or what was asked for has failed. */
+	changed: () => void = () => {};
+	readonly #picture: Picture;
+	readonly #view: View;
+	readonly #progress: Progress;
+	#pending = 0;
+	#latestModel = 0;
+	#latestPlace = 0;
+	#latestOutfit = 0;
+	/** Where the lamp of the place stands. */
+	#sun: Triple | undefined;
+
+	/** @param view what is asked for; what cannot be had is taken out of it */
+	constructor(picture: Picture, view: View, progress: Progress) {
+		this.#picture = picture;
+		this.#view = view;
+		this.#progress = progress;
+		picture.before = () => this.looks.before(picture.stage.renderer, picture.stage.key);
+	}
+
+	get entry(): MenuEntry | undefined {
+		return this.menu.find(({ name }) => name === this.shown);
+	}
+
+	/** What the model on show is called; undefined for none. */
+	get title(): string | undefined {
+		const { entry, shown } = this;
+		return entry ? (words.titles[entry.name] ?? entry.title) : shown.replace(/^\//, '') || undefined;
+	}
+
+	/** Opens with what the view asks for. */
+	async open(): Promise<void> {
+		const view = this.#view;
+		try {
+			this.menu = await loadMenu();
+		} catch (error) {
+			notice((error as Error).message, 'error');
+		}
+		const first = this.menu[0]?.name ?? '';
+		let name = view.model ?? first;
+		if (!folderOf(name, this.menu, document.baseURI) && first) {
+			const names = offered(this.menu).map((item) => item.name);
+			notice(words.wrongModel(name, names.join(', '), first));
+			name = first;
+		}
+		this.changed();
+		const { camera } = this.#picture;
+		if (view.camera) camera.chosen = true;
+		camera.orbit = view.camera ?? defaultCamera;
+		await this.change(async () => {
+			await Promise.all([this.#enter(view.env ?? 'none'), this.#show(name)]);
+		});
+	}
+
+	/** Shows another model. @returns whether it is on show now */
+	async show(name: string): Promise<boolean> {
+		await this.change(() => this.#show(name));
+		return this.shown === name;
+	}
+
+	/** Shows a visitor's own model, which has no address. */
+	receive(own: OwnModel): Promise<void> {
+		return this.change(() => this.#show(own.name, own));
+	}
+
+	/** Has another place's light fall on the model. @returns whether it is there now */
+	async move(place: EnvironmentName | 'none'): Promise<boolean> {
+		await this.change(() => this.#enter(place));
+		return this.place === place;
+	}
+
+	/** Has the model wear what the view says. */
+	dress(): Promise<void> {
+		return this.change(() => this.#dress());
+	}
+
+	/** Has the hairs of what it wears be as the view says. */
+	style(): void {
+		const { stage } = this.#picture;
+		this.looks.style(this.#view);
+		stage.gather(this.#view.crowd ?? 1, this.looks.fur);
+		this.#picture.request();
+	}
+
+	/** Light and camera as they are before anybody has touched them. */
+	aim(): void {
+		const picture = this.#picture;
+		const view = this.#view;
+		if (!picture.camera.chosen) picture.camera.orbit = view.camera ?? this.#firstCamera();
+		picture.shine(view.light ?? this.#firstLight(), !view.light);
+		picture.fit();
+	}
+
+	/** Does something that may take long; the page says so meanwhile, and when the whole picture is on show. */
+	async change(what: () => Promise<void>): Promise<void> {
+		this.#pending++;
+		setState('loading');
+		await what().finally(() => {
+			this.#pending--;
+		});
+		await this.settle();
+	}
+
+	/** Says so when all is on show. */
+	async settle(): Promise<void> {
+		const { stage } = this.#picture;
+		if (this.#pending > 0) return;
+		if (!stage.model) return setState('failed');
+		// Two frames: the first one may still be on its way to the screen.
+		await this.#picture.drawn();
+		await this.#picture.drawn();
+		if (this.#pending === 0 && !stage.gl.isContextLost()) setState('ready');
+	}
+
+	#firstLight(): Triple {
+		return this.#sun ?? firstView(this.entry).light ?? defaultLight;
+	}
+
+	#firstCamera(): Triple {
+		const { crowd = 1 } = this.#view;
+		return (crowd > 1 ? crowdCamera : firstView(this.entry).camera) ?? defaultCamera;
+	}
+
+	/** Where that fails, says why and stays. */
+	async #enter(name: EnvironmentName | 'none'): Promise<void> {
+		const turn = ++this.#latestPlace;
+		const picture = this.#picture;
+		try {
+			const [x, , z] = defaultLight;
+			const environment = name === 'none' ? undefined : await loadEnvironment(name, Math.atan2(z, x));
+			if (turn !== this.#latestPlace) return environment?.background.dispose();
+			picture.stage.surround(environment);
+			this.#sun = environment?.key.direction?.toArray();
+			this.place = name;
+			if (picture.stage.model && !this.#view.light) picture.light.put(this.#firstLight(), true);
+			picture.aim();
+			this.#weigh();
+		} catch (error) {
+			if (turn !== this.#latestPlace) return;
+			notice(words.placeNotShown(name, (error as Error).message), 'error');
+		}
+		this.changed();
+	}
+
+	/** Where that fails, says why and keeps the model before. */
+	async #show(name: string, own?: OwnModel): Promise<void> {
+		const turn = ++this.#latestModel;
+		const { stage } = this.#picture;
+		const first = stage.model === undefined;
+		// No name of the menu has a slash at its front.
+		const shown = own ? `/${name}` : name;
+		// The skin alone is better than nothing, and worse than the model before.
+		let early: Model | undefined;
+		const skin = (model: Model) => {
+			if (turn !== this.#latestModel) return;
+			early = model;
+			this.#present(model, shown);
+			void this.#picture.drawn().then(() => performance.mark('furbake:skin'));
+		};
+		const manager = this.#progress.begin();
+		try {
+			const folder = folderOf(name, this.menu, document.baseURI);
+			if (!folder && !own) throw new Error(words.notAFolder);
+			const source = own?.source ?? sourceAt(folder as URL, manager);
+			const model = await loadModel(source, stage.limits, first ? { skin } : {});
+			if (turn !== this.#latestModel) return model.dispose();
+			if (own) this.#view.model = undefined;
+			if (model !== early) this.#present(model, shown);
+			const title = this.title ?? name;
+			if (model.newer) notice(ownWords.newer(title, model.newer, VERSION));
+			else if (own?.command) notice(ownWords.bakeIt(title, own.command), 'advice');
+			else if (!model.fur) notice(words.noFur(title));
+			await this.#dress(first);
+		} catch (error) {
+			if (turn !== this.#latestModel) return;
+			if (early) {
+				stage.show(undefined);
+				this.shown = '';
+			}
+			notice(words.notShown(name, (error as Error).message), 'error');
+		} finally {
+			own?.source.release();
+		}
+		this.changed();
+	}
+
+	/** Puts a model on show, as it is. */
+	#present(model: Model, name: string): void {
+		const picture = this.#picture;
+		const { stage, camera, light, lamp } = picture;
+		const first = stage.model === undefined;
+		this.looks.strip();
+		stage.show(model);
+		stage.gather(1, undefined);
+		this.shown = name;
+		lamp.visible = this.#view.ui;
+		if (!camera.chosen) camera.orbit = this.#view.camera ?? this.#firstCamera();
+		if (first || light.drifting) light.put(this.#view.light ?? this.#firstLight(), !this.#view.light);
+		picture.aim();
+		picture.fit();
+	}
+
+	/** @param early whether this is the first fur of all: then it shows at once, and whole a frame later */
+	async #dress(early = false): Promise<void> {
+		const turn = ++this.#latestOutfit;
+		const picture = this.#picture;
+		const { stage } = picture;
+		const { model } = stage;
+		const view = this.#view;
+		if (!model?.fur) return this.changed();
+		for (const reason of adjust(view, this.entry, this.menu)) notice(reason);
+		const outfits = await this.#outfits();
+		if (turn !== this.#latestOutfit || model !== stage.model) return;
+		this.looks.wear(model.fur, outfits, view);
+		this.looks.cut(view.split?.share ?? 1);
+		stage.gather(view.crowd ?? 1, this.looks.fur);
+		stage.lamps = view.lights ?? 1;
+		picture.aim();
+		picture.fit();
+		this.#weigh();
+		if (early) await this.#grow();
+		this.changed();
+	}
+
+	/** Where a pelt cannot be had, says why and does without. */
+	async #outfits(): Promise<Outfit[]> {
+		const { stage } = this.#picture;
+		const view = this.#view;
+		try {
+			return await outfitsOf(view, this.entry, this.menu, stage.limits);
+		} catch (error) {
+			const name = view.preset ?? words.methods.eigen;
+			notice(words.presetNotShown(words.titles[name] ?? name, (error as Error).message), 'error');
+			Object.assign(view, { preset: undefined, method: undefined, split: undefined });
+			return outfitsOf(view, this.entry, this.menu, stage.limits);
+		}
+	}
+
+	/** A first frame with few shells and no fins: programs that a frame does without need not be there for it. */
+	async #grow(): Promise<void> {
+		const { shells, fins } = this.looks.fur ?? {};
+		if (!shells || this.#view.shells) return this.#mark();
+		const { visible } = fins ?? {};
+		shells.coarseness = coarse;
+		if (fins) fins.visible = false;
+		await this.#mark();
+		shells.coarseness = 1;
+		if (fins) fins.visible = visible ?? true;
+	}
+
+	async #mark(): Promise<void> {
+		await this.#picture.drawn();
+		performance.mark('furbake:fur');
+	}
+
+	/** Tells the figures what the textures weigh. */
+	#weigh(): void {
+		const { overlay, stage } = this.#picture;
+		if (overlay) overlay.textures = textureBytes(stage.scene);
+	}
+}

@@ -1,0 +1,44 @@
+/** When the picture is drawn: one frame after the other while anything moves, none at rest. */
+
+export interface FrameHandlers {
+	/**
+	 * Draws a frame.
+	 *
+	 * @param interval milliseconds since the frame before; NaN after a rest
+	 * @param now milliseconds
+	 * @returns whether anything still moves
+	 */
+	draw(interval: number, now: number): boolean;
+	/** Called when no further frame comes by itself. */
+	rest(): void;
+}
+
+export class Frames {
+	readonly #handlers: FrameHandlers;
+	/** Time of the frame before; NaN at rest. */
+	#before = Number.NaN;
+	#requested = false;
+	readonly #frame = (now: number) => {
+		this.#requested = false;
+		const interval = now - this.#before;
+		this.#before = now;
+		if (this.#handlers.draw(interval, now)) this.request();
+		else if (!this.#requested) {
+			this.#before = Number.NaN;
+			this.#handlers.rest();
+		}
+	};
+
+	constructor(handlers: FrameHandlers) {
+		this.#handlers = handlers;
+		// What a hidden tab showed may be gone.
+		document.addEventListener('visibilitychange', () => this.request());
+	}
+
+	/** Asks for a frame; more of them come as long as anything moves. */
+	request(): void {
+		if (this.#requested) return;
+		this.#requested = true;
+		requestAnimationFrame(this.#frame);
+	}
+}

@@ -1,0 +1,123 @@
+/** What a glTF file says of itself, read before any loader touches it: whether all it needs is there. */
+
+import { EXTENSION } from '../fur/index.ts';
+import { bakeCommand } from './command.ts';
+import { type Container, type Files, fileOf } from './files.ts';
+import { Refused } from './refusal.ts';
+
+/** Of the many fields those that are looked at; a file may hold anything in their place. */
+interface Gltf {
+	asset?: { version?: unknown };
+	extensions?: Record<string, unknown>;
+	extensionsUsed?: unknown;
+	extensionsRequired?: unknown;
+	buffers?: unknown;
+	images?: unknown;
+	textures?: unknown;
+	nodes?: unknown;
+}
+
+const GLB = 0x46546c67;
+const JSON_CHUNK = 0x4e4f534a;
+const DRACO = 'KHR_draco_mesh_compression';
+
+/** What three's loader reads without a decoder besides. */
+const KNOWN =
+	/^(FUR_ptm_shells|KHR_mesh_quantization|KHR_texture_transform|KHR_lights_punctual|KHR_materials_(?!variants)\w+|EXT_materials_bump|EXT_texture_(webp|avif)|EXT_mesh_gpu_instancing)$/;
+
+/**
+ * Reads the file and checks all that its loader would fail on late, or complain of on the console.
+ *
+ * @returns whether it has fur, of whatever version
+ * @throws Refused that names the file and says what is wrong with it
+ */
+export async function inspect(files: Files, path: string, container: Container): Promise<{ furry: boolean }> {
+	const blob = files.get(path) as Blob;
+	const gltf = await readGltf(blob, path);
+	checkExtensions(gltf, path);
+	checkNodes(gltf, path);
+	for (const { uri } of [...items(gltf.buffers), ...items(gltf.images)])
+		if (typeof uri === 'string' && !/^data:/i.test(uri)) fileOf(files, uri, path, container);
+	await checkPictures(gltf, files, path, container);
+	return { furry: Object.hasOwn(gltf.extensions ?? {}, EXTENSION) };
+}
+
+/** The JSON, alone or in a .glb's first chunk. */
+export async function readGltf(blob: Blob, path: string): Promise<Gltf> {
+	const noGltf = new Refused((words) => words.noGltf(path));
+	let text = blob;
+	const head = new DataView(await blob.slice(0, 20).arrayBuffer());
+	if (head.byteLength === 20 && head.getUint32(0, true) === GLB) {
+		const version = head.getUint32(4, true);
+		if (version !== 2) throw new Refused((words) => words.oldGltf(path, String(version)));
+		if (head.getUint32(8, true) > blob.size) throw new Refused((words) => words.shortGlb(path));
+		if (head.getUint32(16, true) !== JSON_CHUNK) throw noGltf;
+		text = blob.slice(20, 20 + head.getUint32(12, true));
+	}
+	let gltf: Gltf;
+	try {
+		gltf = JSON.parse(await text.text());
+	} catch {
+		throw noGltf;
+	}
+	const version = gltf?.asset?.version;
+	if (typeof version !== 'string') throw noGltf;
+	if (!version.startsWith('2')) throw new Refused((words) => words.oldGltf(path, version));
+	return gltf;
+}
+
+function checkExtensions({ extensionsUsed, extensionsRequired }: Gltf, path: string): void {
+	const required = new Set(names(extensionsRequired).filter((name) => !KNOWN.test(name)));
+	// The loader doesn't even try without a decoder, required or not.
+	if (names(extensionsUsed).includes(DRACO)) required.add(DRACO);
+	if (required.size === 0) return;
+	if (required.size === 1 && required.has(DRACO)) throw new Refused((words) => words.draco(bakeCommand(path)));
+	throw new Refused((words) => words.requires([...required].join(', ')));
+}
+
+/** A loader waits for ever for a node that is its own ancestor: every node must be reached from one without a parent. */
+function checkNodes({ nodes }: Gltf, path: string): void {
+	const children = items(nodes).map((node) => indices(node.children));
+	const parents = new Map<number, number>();
+	for (const child of children.flat()) parents.set(child, (parents.get(child) ?? 0) + 1);
+	const reached = [...children.keys()].filter((node) => !parents.has(node));
+	for (const node of reached) {
+		for (const child of children[node] ?? []) {
+			const left = (parents.get(child) ?? 0) - 1;
+			parents.set(child, left);
+			if (left === 0) reached.push(child);
+		}
+	}
+	if (children.some((_, node) => (parents.get(node) ?? 0) > 0)) throw new Refused((words) => words.loop(path));
+}
+
+/** Of the skin's materials: three's loader leaves out one that it cannot read, with an error on the console. */
+async function checkPictures(
+	{ textures, images }: Gltf,
+	files: Files,
+	path: string,
+	container: Container,
+): Promise<void> {
+	const pictures = items(images);
+	for (const { source } of items(textures)) {
+		const uri = pictures[source as number]?.uri;
+		if (typeof uri !== 'string' || /^data:/i.test(uri)) continue;
+		try {
+			(await createImageBitmap(fileOf(files, uri, path, container))).close();
+		} catch {
+			throw new Refused((words) => words.badPicture(uri));
+		}
+	}
+}
+
+function items(value: unknown): Record<string, unknown>[] {
+	return Array.isArray(value) ? value.filter((item) => item !== null && typeof item === 'object') : [];
+}
+
+function names(value: unknown): string[] {
+	return Array.isArray(value) ? value.filter((item) => typeof item === 'string') : [];
+}
+
+function indices(value: unknown): number[] {
+	return Array.isArray(value) ? value.filter((item) => Number.isInteger(item)) : [];
+}

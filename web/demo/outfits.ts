@@ -1,0 +1,80 @@
+/** What a model can wear: the pelt of each preset, and each of them with light curves found for it (eigen). */
+
+import type { Fur, TextureLimits } from '../fur/index.ts';
+import type { Method, View } from './address.ts';
+import type { Outfit } from './looks.ts';
+import { loadPelt, type MenuEntry, pelts, sourceAt } from './models.ts';
+import { words } from './words/index.ts';
+
+/** Those on their way or there: pelts are small, and come back often. */
+const loaded = new Map<string, Promise<Fur>>();
+
+/** The pelt in the menu that this method needs; undefined: there is none. */
+function peltOf(
+	{ preset }: View,
+	entry: MenuEntry | undefined,
+	menu: readonly MenuEntry[],
+	method: Method,
+): MenuEntry | undefined {
+	const basis = method === 'eigen' ? 'eigen' : 'ptm';
+	const name = preset ?? entry?.preset;
+	return pelts(menu, basis).find(({ pelt }) => pelt === name);
+}
+
+/** Whether there are eigen curves for what the model wears. */
+export function hasEigen(view: View, entry: MenuEntry | undefined, menu: readonly MenuEntry[]): boolean {
+	return peltOf(view, entry, menu, 'eigen') !== undefined;
+}
+
+const isRival = (method: Method) => method !== 'ptm' && method !== 'eigen';
+
+/** Takes out of the view what this model cannot wear. @returns why */
+export function adjust(view: View, entry: MenuEntry | undefined, menu: readonly MenuEntry[]): string[] {
+	const reasons = new Set<string>();
+	if (view.preset && !pelts(menu).some(({ pelt }) => pelt === view.preset)) {
+		const names = pelts(menu).map(({ pelt }) => pelt);
+		reasons.add(words.wrongPreset(view.preset, names.join(', ')));
+		view.preset = undefined;
+	}
+	if (!hasEigen(view, entry, menu)) {
+		if (view.method === 'eigen' || view.split?.method === 'eigen') reasons.add(words.noEigenHere);
+		if (view.method === 'eigen') view.method = undefined;
+		if (view.split?.method === 'eigen') view.split = undefined;
+	}
+	if ((view.crowd ?? 1) > 1 && (view.split || isRival(view.method ?? 'ptm'))) {
+		reasons.add(words.crowdWears);
+		view.split = undefined;
+		if (isRival(view.method ?? 'ptm')) view.method = undefined;
+	}
+	return [...reasons];
+}
+
+/**
+ * @param view what can be worn, as `adjust` leaves it
+ * @returns one outfit, or two to be shown side by side
+ */
+export function outfitsOf(
+	view: View,
+	entry: MenuEntry | undefined,
+	menu: readonly MenuEntry[],
+	limits: TextureLimits,
+): Promise<Outfit[]> {
+	const wanted: Method[] = [view.method ?? 'ptm', ...(view.split ? [view.split.method] : [])];
+	return Promise.all(
+		wanted.map(async (method): Promise<Outfit> => {
+			const name = method === 'eigen' ? 'ptm' : method;
+			// A model's own fur is what it was baked with, and better than its pelt.
+			const own = method !== 'eigen' && view.preset === undefined;
+			const pelt = own ? undefined : peltOf(view, entry, menu, method);
+			return { pelt: pelt && (await load(pelt.name, limits)), tips: pelt?.tips ?? 1, method: name };
+		}),
+	);
+}
+
+function load(name: string, limits: TextureLimits): Promise<Fur> {
+	const pelt = loaded.get(name) ?? loadPelt(sourceAt(new URL(`models/${name}/`, document.baseURI)), limits);
+	loaded.set(name, pelt);
+	// What has failed may come another time.
+	pelt.catch(() => loaded.delete(name));
+	return pelt;
+}

@@ -1,0 +1,28 @@
+/** How much of a model has come: a bar for the files of one loading. */
+
+import { LoadingManager } from 'three';
+
+export class Progress {
+	readonly #bar: HTMLProgressElement;
+	#latest: LoadingManager | undefined;
+
+	constructor(bar: HTMLProgressElement) {
+		this.#bar = bar;
+	}
+
+	/** Begins anew. @returns what the files are to be loaded with */
+	begin(): LoadingManager {
+		const manager = new LoadingManager();
+		this.#latest = manager;
+		this.#bar.removeAttribute('value');
+		this.#bar.max = 1;
+		let most = 0;
+		manager.onProgress = (_url, loaded, total) => {
+			if (manager !== this.#latest) return;
+			// The first file names the others: the bar must not go back when they are counted in.
+			most = Math.max(most, total > 1 ? loaded / total : 0);
+			this.#bar.value = most;
+		};
+		return manager;
+	}
+}

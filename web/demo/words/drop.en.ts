@@ -1,0 +1,16 @@
+/** Words of what is opened from the visitor's own machine. */
+
+export const en = {
+	drop: 'Drop a baked folder, its zip, or a .glb',
+	open: 'Open …',
+	openTip: 'A zip of a baked folder, or a .glb, from this device; or drop it on the picture. Nothing is uploaded.',
+	openFolder: 'Open folder …',
+	openFolderTip: 'A baked folder from this device; or drop it on the picture. Nothing is uploaded.',
+	/** In the place of the name, where several files come without a folder. */
+	files: (count: number) => `${count} files`,
+	bakeIt: (name: string, command: string) => `${name} has no fur yet, so its skin is shown. To grow some:\n${command}`,
+	newer: (name: string, version: string, known: string) =>
+		`${name}: its fur is of version ${version}, newer than the ${known} that this page knows; the skin is shown alone`,
+};
+
+export type DropWords = typeof en;

@@ -1,0 +1,33 @@
+/** `npm run library`: the library for other apps in lib/, one module with its types; `npm pack` runs it first. */
+import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { ensureNode } from './environment.mjs';
+import { command, Failure, root, runAside, say } from './process.mjs';
+
+const folder = join(root, 'lib');
+
+/**
+ * Declarations as compilers write them name sources, `./shells.ts`: they are rewritten to the modules that those become.
+ *
+ * @param {string} text
+ */
+function withModules(text) {
+	return text.replace(/(\bfrom |\bimport\()(['"])(\.{1,2}\/[^'"]+)\.ts\2/g, '$1$2$3.js$2');
+}
+
+await command(async () => {
+	await ensureNode();
+	/** Standard output is npm's own, for `npm pack --json`. @param {string} name @param {...string} args */
+	const step = async (name, ...args) => {
+		const code = await runAside(process.execPath, [join(root, 'node_modules', name), ...args]);
+		if (code !== 0) throw new Failure(`${name} failed with exit code ${code}`);
+	};
+	await step('vite/bin/vite.js', 'build', '--config', join('web', 'vite.library.config.ts'), '--logLevel', 'warn');
+	await step('@typescript/native/bin/tsc', '-p', join('web', 'tsconfig.library.json'));
+	for (const file of readdirSync(folder, { recursive: true, encoding: 'utf8' })) {
+		if (!file.endsWith('.d.ts')) continue;
+		const path = join(folder, file);
+		writeFileSync(path, withModules(readFileSync(path, 'utf8')));
+	}
+	say('the library is in lib/');
+});

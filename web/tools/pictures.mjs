@@ -1,0 +1,98 @@
+/**
+ * `npm run pictures`: the demo's own pictures, made anew by the demo itself: `public/og.jpg`, which goes with shared links, and
+ * `public/still.jpg`, the bunny under three lights.
+ */
+import { join } from 'node:path';
+import { browserArgs, ensureBrowser } from './browser.mjs';
+import { ensureNode } from './environment.mjs';
+import { command, root, say } from './process.mjs';
+import { serve } from './vite.mjs';
+
+/** @import { Browser } from '@playwright/test' */
+
+const CAMERA = '-20,10,0.9';
+/** Light from the left, from above, from behind. */
+const LIGHTS = ['-0.9,0.45,0.2', '0.05,0.98,0.2', '0.75,0.45,-0.5'];
+const WORDS = ['furbake', 'Fur that you relight by dragging,', 'baked from any mesh'];
+/** Drawn this many times finer, and averaged. */
+const FINER = 2;
+/** Milliseconds that a picture may take, on a processor alone. */
+const PATIENCE = 300_000;
+
+/**
+ * @param {Browser} browser
+ * @param {string} site
+ * @param {string} light
+ * @param {{ width: number, height: number }} viewport
+ * @returns {Promise<string>} the picture as an address
+ */
+async function view(browser, site, light, viewport) {
+	const page = await browser.newPage({ viewport, deviceScaleFactor: FINER });
+	await page.goto(`${site}?model=bunny&still=1&ui=0&camera=${CAMERA}&light=${light}`);
+	await page.waitForFunction("document.documentElement.dataset.state !== 'loading'", null, { timeout: PATIENCE });
+	const bytes = await page.screenshot({ timeout: PATIENCE });
+	await page.close();
+	return `data:image/png;base64,${bytes.toString('base64')}`;
+}
+
+/**
+ * @param {Browser} browser
+ * @param {string} body of a page
+ * @param {{ width: number, height: number }} viewport
+ * @param {string} name of the file in public/
+ * @param {number} quality of the JPEG, 0 to 100
+ */
+async function keep(browser, body, viewport, name, quality) {
+	const page = await browser.newPage({ viewport });
+	await page.setContent(`<!doctype html><style>* { margin: 0; box-sizing: border-box }</style>${body}`);
+	await page.evaluate('Promise.all([...document.images].map((image) => image.decode()))');
+	await page.screenshot({ path: join(root, 'public', name), type: 'jpeg', quality });
+	await page.close();
+	say(`public/${name}`);
+}
+
+/** @param {Browser} browser; @param {string} site */
+async function shared(browser, site) {
+	const [width, height, wide, middle] = [1200, 630, 1720, 838]; // the bunny's middle beside the words
+	const picture = await view(browser, site, LIGHTS[0], { width: wide, height });
+	const [name, ...lines] = WORDS;
+	const body = `
+		<style>
+			body { overflow: hidden; color: #e9e4dc; font-family: "Liberation Sans", Helvetica, Arial, sans-serif }
+			img { position: absolute; height: ${height}px; left: ${middle - wide / 2}px }
+			div { position: absolute; left: 72px; top: 216px }
+			h1 { font-size: 104px; line-height: 1; letter-spacing: -0.035em; color: #f3ead9 }
+			p { margin-top: 26px; font-size: 31px; line-height: 1.36; color: #c3cbd2 }
+		</style>
+		<img src="${picture}" /><div><h1>${name}</h1><p>${lines.join('<br />')}</p></div>`;
+	await keep(browser, body, { width, height }, 'og.jpg', 84);
+}
+
+/** @param {Browser} browser; @param {string} site */
+async function still(browser, site) {
+	const side = 560;
+	const pictures = [];
+	for (const light of LIGHTS) pictures.push(await view(browser, site, light, { width: side, height: side }));
+	const images = pictures.map((picture) => `<img src="${picture}" width="${side}" height="${side}" />`);
+	await keep(
+		browser,
+		`<div style="display: flex">${images.join('')}</div>`,
+		{ width: side * LIGHTS.length, height: side },
+		'still.jpg',
+		84,
+	);
+}
+
+await command(async () => {
+	await ensureNode();
+	const { chromium } = await import('@playwright/test');
+	const server = await serve();
+	const browser = await chromium.launch({ executablePath: await ensureBrowser(), args: browserArgs });
+	try {
+		await shared(browser, server.url);
+		await still(browser, server.url);
+	} finally {
+		await browser.close();
+		await server.close();
+	}
+});
