@@ -1,4 +1,4 @@
-/** Parts that figures are made of: a canvas, sliders, switches, choices, numbers in words. All of plain HTML. */
+/** Parts that figures are made of: a canvas, sliders, choices, buttons, numbers in words. All of plain HTML. */
 
 let made = 0;
 
@@ -73,20 +73,6 @@ export function slider(place: Element, { label, min, max, step, value, text, inp
 			show();
 		},
 	};
-}
-
-/** A button that is on or off. @returns the button */
-export function toggle(place: Element, label: string, on: boolean, change: (on: boolean) => void): HTMLButtonElement {
-	const button = add(place, 'button', 'toggle');
-	button.type = 'button';
-	button.textContent = label;
-	const set = (pressed: boolean) => {
-		button.setAttribute('aria-pressed', String(pressed));
-		change(pressed);
-	};
-	button.addEventListener('click', () => set(button.getAttribute('aria-pressed') !== 'true'));
-	set(on);
-	return button;
 }
 
 /** One of several, as radio buttons in a row. @param options value → label */

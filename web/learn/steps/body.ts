@@ -11,7 +11,7 @@ import {
 } from 'three';
 import type { FurShells } from '../../fur/index.ts';
 import { loadFurry, loadReport, reach } from '../assets.ts';
-import { controlRow, note, toggle } from '../controls.ts';
+import { choice, controlRow, note } from '../controls.ts';
 import type { Mount } from '../lesson.ts';
 import { patchesOf } from '../patches.ts';
 import { View } from '../view.ts';
@@ -53,23 +53,13 @@ export const mount: Mount = async (place, lesson) => {
 	const hull = hullOf(shells);
 	shells.parent?.add(hull);
 
-	const row = controlRow(place);
-	toggle(row, words.shells, true, (on) => {
-		shells.visible = on;
-		view.redraw();
-	});
-	if (fins)
-		toggle(row, words.fins, true, (on) => {
-			fins.visible = on;
-			view.redraw();
-		});
-	toggle(row, words.patches, false, (on) => {
-		shells.geometry.setAttribute('color', on ? painted : white);
-		for (const [i, colour] of [root, tip, tip2].entries()) colour.copy((on ? plain : own)[i] as Color);
-		view.redraw();
-	});
-	toggle(row, words.hull, false, (on) => {
-		hull.visible = on;
+	choice<keyof typeof words.parts>(controlRow(place), words.show, words.parts, 'fur', (part) => {
+		shells.visible = part !== 'fins' && part !== 'hull';
+		if (fins) fins.visible = part !== 'shells' && part !== 'hull';
+		hull.visible = part === 'hull';
+		const coloured = part === 'patches';
+		shells.geometry.setAttribute('color', coloured ? painted : white);
+		for (const [i, colour] of [root, tip, tip2].entries()) colour.copy((coloured ? plain : own)[i] as Color);
 		view.redraw();
 	});
 	const faces = (shells.geometry.index?.count ?? 0) / 3;

@@ -3,7 +3,6 @@
 import type { Fur, MethodName } from '../../fur/index.ts';
 import { furMethod } from '../../fur/index.ts';
 import { ARTICLE, type Table1Row } from '../../measure/results.ts';
-import { measureTable1 } from '../../measure/table1.ts';
 import { loadFurry, reach } from '../assets.ts';
 import { action, controlRow, note, pane, panes } from '../controls.ts';
 import type { Lesson, Mount } from '../lesson.ts';
@@ -59,6 +58,10 @@ function pictures(place: HTMLElement, lesson: Lesson, fur: Fur, around: Pick<Vie
 function table(place: HTMLElement, { words: { rivals: words }, painter }: Lesson): void {
 	const scroll = document.createElement('div');
 	scroll.className = 'scroll';
+	// Where it is wider than the window, arrow keys scroll it.
+	scroll.tabIndex = 0;
+	scroll.setAttribute('role', 'region');
+	scroll.setAttribute('aria-label', words.table);
 	const made = scroll.appendChild(document.createElement('table'));
 	const caption = made.createCaption();
 	caption.textContent = words.table;
@@ -67,7 +70,7 @@ function table(place: HTMLElement, { words: { rivals: words }, painter }: Lesson
 		const cell = row.appendChild(document.createElement('th'));
 		Object.assign(cell, { textContent: text, colSpan: span, scope: span > 1 ? 'colgroup' : 'col' });
 	};
-	head(first, '');
+	first.insertCell();
 	head(first, words.article, 3);
 	head(first, words.here, 3);
 	for (const text of [words.triangles, ...words.columns, ...words.columns]) head(second, text);
@@ -96,6 +99,8 @@ function table(place: HTMLElement, { words: { rivals: words }, painter }: Lesson
 		// The figures would share the machine with what is measured.
 		painter.paused = true;
 		try {
+			// Fetched by those who ask for it.
+			const { measureTable1 } = await import('../../measure/table1.ts');
 			const rows = await measureTable1({ quick: true }, running.signal, (share) => {
 				line.textContent = words.measuring(share);
 			});

@@ -34,10 +34,14 @@ export const en = {
 	},
 	body: {
 		picture: 'A furry bunny. Drag or use the arrow keys to move the light.',
-		shells: 'shells',
-		fins: 'fins',
-		patches: 'a colour per patch',
-		hull: 'hull',
+		show: 'Show',
+		parts: {
+			fur: 'shells and fins',
+			shells: 'shells alone',
+			fins: 'fins alone',
+			patches: 'a colour per patch',
+			hull: 'hull',
+		},
 		numbers: ({ skin, patches, faces, overlap, fins }: BodyNumbers) =>
 			`${skin} triangles of skin · ${patches} patches of ${faces} triangles, ${overlap.toFixed(2)} per triangle of skin · ` +
 			`${fins} triangles of fins`,

@@ -27,10 +27,14 @@ export const zh: Words = {
 	},
 	body: {
 		picture: '毛茸茸的兔子。拖动或用方向键移动光源。',
-		shells: '壳层',
-		fins: '鳍片',
-		patches: '按贴片着色',
-		hull: '外壳',
+		show: '显示',
+		parts: {
+			fur: '壳层与鳍片',
+			shells: '仅壳层',
+			fins: '仅鳍片',
+			patches: '按贴片着色',
+			hull: '外壳',
+		},
 		numbers: ({ skin, patches, faces, overlap, fins }) =>
 			`皮肤 ${skin} 个三角形 · ${patches} 个贴片共 ${faces} 个三角形，平均每个皮肤三角形 ${overlap.toFixed(2)} 个 · ` +
 			`鳍片 ${fins} 个三角形`,
