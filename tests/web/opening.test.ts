@@ -85,7 +85,7 @@ describe('what does not', () => {
 		[
 			'cat.obj',
 			'v 0 0 0',
-			'it is a mesh without fur (.obj). The baker reads it: npm run bake -- cat.obj -o public/models/cat',
+			'it is a mesh without fur (.obj). The baker reads it:\nnpm run bake -- cat.obj -o public/models/cat',
 		],
 		['cat.png', 'x', `it is a picture (.png); ${expected}`],
 		['cat.TXT', 'x', `it is text (.txt); ${expected}`],
@@ -120,7 +120,7 @@ describe('what does not', () => {
 		[
 			'cat.gltf',
 			gltf({ extensionsUsed: ['KHR_draco_mesh_compression'], extensionsRequired: ['KHR_draco_mesh_compression'] }),
-			'its mesh is packed by Draco, which this page does not unpack. The baker does: npm run bake -- cat.gltf -o public/models/cat',
+			'its mesh is packed by Draco, which this page does not unpack. The baker does:\nnpm run bake -- cat.gltf -o public/models/cat',
 		],
 		[
 			'cat.gltf',

@@ -8,7 +8,7 @@ import { type EnvironmentName, loadEnvironment } from './environments.ts';
 import { Looks, type Outfit } from './looks.ts';
 import { textureBytes } from './memory.ts';
 import { firstView, folderOf, loadMenu, loadModel, type MenuEntry, type Model, offered, sourceAt } from './models.ts';
-import { notice } from './notice.ts';
+import { notice, withdraw } from './notice.ts';
 import { adjust, outfitsOf } from './outfits.ts';
 import type { Picture } from './picture.ts';
 import type { Progress } from './progress.ts';
@@ -200,10 +200,11 @@ export class Exhibit {
 			if (turn !== this.#latestModel) return model.dispose();
 			if (own) this.#view.model = undefined;
 			if (model !== early) this.#present(model, shown);
+			withdraw('model');
 			const title = this.title ?? name;
-			if (model.newer) notice(ownWords.newer(title, model.newer, VERSION));
-			else if (own?.command) notice(ownWords.bakeIt(title, own.command), 'advice');
-			else if (!model.fur) notice(words.noFur(title));
+			if (model.newer) notice(ownWords.newer(title, model.newer, VERSION), 'note', 'model');
+			else if (own?.command) notice(ownWords.bakeIt(title, own.command), 'advice', 'model');
+			else if (!model.fur) notice(words.noFur(title), 'note', 'model');
 			await this.#dress(first);
 		} catch (error) {
 			if (turn !== this.#latestModel) return;
@@ -211,7 +212,7 @@ export class Exhibit {
 				stage.show(undefined);
 				this.shown = '';
 			}
-			notice(words.notShown(name, (error as Error).message), 'error');
+			notice(words.notShown(name, (error as Error).message), 'error', 'model');
 		} finally {
 			own?.source.release();
 		}

@@ -48,7 +48,7 @@ function start(): void {
 			await exhibit.receive(own);
 			controls.write();
 		},
-		failed: (name, reason) => notice(words.notShown(name, reason), 'error'),
+		failed: (name, reason) => notice(words.notShown(name, reason), 'error', 'model'),
 	});
 	controls.panel.button(dropped.open, opener.files, dropped.openTip);
 	if (opener.folder) controls.panel.button(dropped.openFolder, opener.folder, dropped.openFolderTip);

@@ -7,11 +7,14 @@ const letterTime = 60; // of a letter
 
 /**
  * @param kind `note` goes by itself; `advice`, to be followed, and `error` stay until they are closed
+ * @param about what it is on: the next one on the same takes its place
  * @returns what takes it away
  */
-export function notice(text: string, kind: 'note' | 'advice' | 'error' = 'note'): () => void {
+export function notice(text: string, kind: 'note' | 'advice' | 'error' = 'note', about = ''): () => void {
+	withdraw(about);
 	const box = document.createElement('div');
 	box.className = `notice ${kind}`;
+	box.dataset.about = about;
 	const sentence = document.createElement('p');
 	sentence.textContent = text;
 	const close = document.createElement('button');
@@ -24,4 +27,10 @@ export function notice(text: string, kind: 'note' | 'advice' | 'error' = 'note')
 	document.getElementById('notices')?.append(box);
 	if (kind === 'note') setTimeout(remove, Math.max(readingTime, letterTime * text.length));
 	return remove;
+}
+
+/** Takes away what was said about something. */
+export function withdraw(about: string): void {
+	if (about === '') return;
+	for (const box of document.querySelectorAll<HTMLElement>('.notice')) if (box.dataset.about === about) box.remove();
 }

@@ -113,7 +113,7 @@ export class Panel {
 		this.#actions.className = 'actions';
 		for (const name of ['copy', 'save', 'reset'] as const) this.button(words[name], () => handlers[name]());
 		gui.$children.append(this.#actions);
-		if (matchMedia('(max-width: 880px), (max-height: 560px)').matches) gui.close();
+		if (matchMedia('(max-width: 880px), (max-height: 440px)').matches) gui.close();
 	}
 
 	#colour(folder: GUI, name: 'root' | 'tip', handlers: PanelHandlers): Controller {

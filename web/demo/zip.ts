@@ -118,7 +118,11 @@ function decodeName(bytes: Uint8Array): string {
 
 /** Those that are files and no system's litter, where none of all gives reason to leave the zip alone. */
 function judge(entries: Entry[], limits: Limits): Entry[] {
-	for (const { path } of entries) if (isBadPath(path)) throw new Refused((words) => words.badPath(path));
+	for (const { path } of entries) {
+		if (isBadPath(path)) throw new Refused((words) => words.badPath(path));
+		// Some packers on Windows have written such, which names another file on every other system.
+		if (path.includes('\\')) throw new Refused((words) => words.backslash(path));
+	}
 	const wanted = entries.filter(({ path }) => !path.endsWith('/') && !isIgnored(path));
 	const seen = new Set<string>();
 	for (const { path, encrypted, method } of wanted) {
@@ -132,9 +136,9 @@ function judge(entries: Entry[], limits: Limits): Entry[] {
 	return wanted;
 }
 
-/** Absolute, up, of a drive, or with the separators of another system: no packer writes such a path by itself. */
-export function isBadPath(path: string): boolean {
-	return /^\/|^[a-z]:|\\|\0/i.test(path) || path.split('/').includes('..');
+/** Absolute, up or of a drive, by either separator: no packer writes such a path by itself. */
+function isBadPath(path: string): boolean {
+	return /^[/\\]|^[a-z]:|\0/i.test(path) || path.split(/[/\\]/).includes('..');
 }
 
 async function unpack(zip: Blob, { path, method, crc, packed, size, offset }: Entry): Promise<Blob> {

@@ -10,7 +10,7 @@ export const en = {
 	emptyFile: `it is an empty file; expected ${EXPECTED}`,
 	emptyFolder: 'there is no file in it; expected a baked folder with model.gltf',
 	mesh: (extension: string, command: string) =>
-		`it is a mesh without fur (.${extension}). The baker reads it: ${command}`,
+		`it is a mesh without fur (.${extension}). The baker reads it:\n${command}`,
 	picture: (extension: string) => `it is a picture (.${extension}); expected ${EXPECTED}`,
 	text: (extension: string) => `it is text (.${extension}); expected ${EXPECTED}`,
 	archive: (extension: string) => `it is an archive of another kind (.${extension}); expected ${EXPECTED}`,
@@ -29,6 +29,8 @@ export const en = {
 		`its files have ${megabytes(bytes)}; at most ${megabytes(most)} are opened`,
 	tooMany: (most: number) => `there are more than ${most} files in it; a baked folder has about ten`,
 	badPath: (path: string) => `“${path}” leads out of the zip; such a zip is not opened`,
+	backslash: (path: string) =>
+		`“${path}” is written with a backslash; expected a zip with slashes, as today's systems pack`,
 	twice: (path: string) => `${path}: it is in the zip twice`,
 	encrypted: (path: string) => `${path}: it is encrypted; expected a zip without a password`,
 	method: (path: string, method: number) =>
@@ -53,7 +55,7 @@ export const en = {
 	oldGltf: (path: string, version: string) => `${path}: it is glTF ${version}; expected 2.0`,
 	loop: (path: string) => `${path}: its nodes are no tree`,
 	draco: (command: string) =>
-		`its mesh is packed by Draco, which this page does not unpack. The baker does: ${command}`,
+		`its mesh is packed by Draco, which this page does not unpack. The baker does:\n${command}`,
 	requires: (extensions: string) => `it requires ${extensions}, which this page does not know; export it without`,
 	badPicture: (path: string) => `${path}: it is no picture that this browser can read`,
 };

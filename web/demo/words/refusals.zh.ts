@@ -9,7 +9,7 @@ const megabytes = (bytes: number) => `${Number((bytes / 1e6).toFixed(1))} MB`;
 export const zh: Refusals = {
 	emptyFile: `文件是空的；应为${EXPECTED}`,
 	emptyFolder: '文件夹里没有文件；应为含 model.gltf 的烘焙文件夹',
-	mesh: (extension, command) => `这是没有毛发的网格（.${extension}）。可先用烘焙器处理：${command}`,
+	mesh: (extension, command) => `这是没有毛发的网格（.${extension}）。可先用烘焙器处理：\n${command}`,
 	picture: (extension) => `这是图片（.${extension}）；应为${EXPECTED}`,
 	text: (extension) => `这是文本（.${extension}）；应为${EXPECTED}`,
 	archive: (extension) => `这是其他格式的压缩包（.${extension}）；应为${EXPECTED}`,
@@ -24,6 +24,7 @@ export const zh: Refusals = {
 	tooLarge: (bytes, most) => `其中的文件共 ${megabytes(bytes)}，最多只打开 ${megabytes(most)}`,
 	tooMany: (most) => `其中的文件超过 ${most} 个；烘焙文件夹一般约有十个文件`,
 	badPath: (path) => `“${path}”指向压缩包之外；不打开这样的压缩包`,
+	backslash: (path) => `“${path}”使用了反斜杠；应为使用正斜杠的压缩包，请重新打包`,
 	twice: (path) => `${path}：在压缩包中出现了两次`,
 	encrypted: (path) => `${path}：已加密；应为没有密码的压缩包`,
 	method: (path, method) => `${path}：压缩方法为 ${method}；应为 deflate（8）或不压缩（0）`,
@@ -44,7 +45,7 @@ export const zh: Refusals = {
 	shortGlb: (path) => `${path}：结尾缺失，复制或下载不完整`,
 	oldGltf: (path, version) => `${path}：是 glTF ${version}；应为 2.0`,
 	loop: (path) => `${path}：其节点不构成树`,
-	draco: (command) => `网格用 Draco 压缩，本页无法解压，烘焙器可以：${command}`,
+	draco: (command) => `网格用 Draco 压缩，本页无法解压，烘焙器可以：\n${command}`,
 	requires: (extensions) => `它需要 ${extensions}，本页不支持；请在导出时去掉`,
 	badPicture: (path) => `${path}：不是本浏览器能读取的图片`,
 };
