@@ -10,17 +10,20 @@ export interface Outfit {
 	pelt: Fur | undefined;
 	/** How far the body's second tip colour shows on a pelt, 0..1. */
 	tips: number;
+	/** Strength of its highlights; undefined: as of most. */
+	gloss: number | undefined;
 	method: MethodName;
 }
 
 interface Look {
 	fur: Fur;
+	gloss: number | undefined;
 	/** Lit by another method than its own. */
 	rival: FurMethod | undefined;
 }
 
-/** Strength of highlights and of light from behind. */
-const gloss = 0.5;
+/** Strength of most furs' highlights, and of light from behind. */
+const usualGloss = 0.5;
 const backlight = 6;
 
 export class Looks {
@@ -45,13 +48,13 @@ export class Looks {
 		const before = this.#looks;
 		const counts = new Map<Fur, number>();
 		this.#looks = [];
-		for (const { pelt = body, tips, method } of outfits) {
+		for (const { pelt = body, tips, gloss, method } of outfits) {
 			const nth = counts.get(pelt) ?? 0;
 			counts.set(pelt, nth + 1);
 			const fur = this.#on(body, pelt, tips, nth);
 			// Rivals take the switches of the fur's own material as they stand, so these come first.
-			style(fur, view);
-			this.#looks.push({ fur, rival: method === 'ptm' ? undefined : furMethod(method, fur) });
+			style(fur, gloss, view);
+			this.#looks.push({ fur, gloss, rival: method === 'ptm' ? undefined : furMethod(method, fur) });
 		}
 		// After the new ones, so that programs which both have in use are not compiled again.
 		for (const { rival } of before) rival?.dispose();
@@ -81,8 +84,8 @@ export class Looks {
 
 	/** Gives all furs what the view says of hairs and shells. */
 	style(view: View): void {
-		for (const { fur, rival } of this.#looks) {
-			style(fur, view);
+		for (const { fur, gloss, rival } of this.#looks) {
+			style(fur, gloss, view);
 			// Fins know their own light alone, and would be a seam around fur that is lit in another way.
 			if (fur.fins) fur.fins.visible = (view.fins ?? true) && !rival;
 		}
@@ -110,7 +113,7 @@ export class Looks {
 	}
 }
 
-function style(fur: Fur, { shells, length = 1, density = 1, colour }: View): void {
+function style(fur: Fur, gloss = usualGloss, { shells, length = 1, density = 1, colour }: View): void {
 	const { material } = fur.shells;
 	material.gloss = gloss;
 	material.backlight = backlight;

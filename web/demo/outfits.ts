@@ -66,7 +66,8 @@ export function outfitsOf(
 			// A model's own fur is what it was baked with, and better than its pelt.
 			const own = method !== 'eigen' && view.preset === undefined;
 			const pelt = own ? undefined : peltOf(view, entry, menu, method);
-			return { pelt: pelt && (await load(pelt.name, limits)), tips: pelt?.tips ?? 1, method: name };
+			const { tips = 1, gloss } = pelt ?? {};
+			return { pelt: pelt && (await load(pelt.name, limits)), tips, gloss, method: name };
 		}),
 	);
 }
