@@ -170,13 +170,21 @@ function finCounts(name: string, fin: Fin): Count[] {
 	return [...lightCounts(`${name}.`, fin, 6), ...texelCounts(name, fin, 6)];
 }
 
-/** Where coefficient `i` is stored: plane and channel. */
-export function channelOf(i: number): { plane: number; channel: number } {
+/** Where a number of a texel is stored. */
+export interface Slot {
+	/** 0 or 1: which of the planes. */
+	plane: number;
+	/** 0 to 3: R, G, B, A. */
+	channel: number;
+}
+
+/** Where coefficient `i` is stored. */
+export function channelOf(i: number): Slot {
 	if (i < 3) return { plane: 0, channel: i };
 	return i === 5 ? { plane: 0, channel: 3 } : { plane: 1, channel: i - 3 };
 }
 
 /** Where the coverage α is stored. */
-export function alphaChannel(coefficients: number): { plane: number; channel: number } {
+export function alphaChannel(coefficients: number): Slot {
 	return coefficients > 3 ? { plane: 1, channel: 2 } : { plane: 0, channel: 3 };
 }

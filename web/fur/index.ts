@@ -16,7 +16,18 @@ export { type DressOptions, dress, Fur } from './Fur.ts';
 export { type FurLoaderOptions, FurLoaderPlugin } from './FurLoaderPlugin.ts';
 export { FurMaterial, type FurMaterialParameters } from './FurMaterial.ts';
 export { FurFins } from './fins.ts';
-export { type Basis, EXTENSION, type Fin, type FurAsset, type Pelt, type RGB, VERSION } from './format.ts';
+export {
+	alphaChannel,
+	type Basis,
+	channelOf,
+	EXTENSION,
+	type Fin,
+	type FurAsset,
+	type Pelt,
+	type RGB,
+	type Slot,
+	VERSION,
+} from './format.ts';
 export { FurGovernor, type GovernorOptions } from './governor.ts';
 export { FurInstances } from './instances.ts';
 export { checkLimits, limitsOf, type TextureLimits } from './limits.ts';

@@ -1,18 +1,11 @@
 /** A whole square of fur as six numbers: what it looks like from straight above is as linear in the light as each texel. */
 
 import type { CompressedArrayTexture, Texture } from 'three';
-import { evaluateBasis, type Fur } from '../fur/index.ts';
+import { alphaChannel, channelOf, evaluateBasis, type Fur } from '../fur/index.ts';
 
-/** Plane and channel of each coefficient of six, and of α. */
-const WHERE = [
-	[0, 0],
-	[0, 1],
-	[0, 2],
-	[1, 0],
-	[1, 1],
-	[0, 3],
-] as const;
-const ALPHA = [1, 2] as const;
+/** Where the six coefficients are, and α. */
+const SLOTS = [0, 1, 2, 3, 4, 5].map(channelOf);
+const ALPHA = alphaChannel(6);
 
 /**
  * Mean over the tile of Σ_k α_k·Π_{j>k}(1 − α_j)·a_k: coefficients of the fur seen from above, in colours of its own hairs.
@@ -30,8 +23,8 @@ export function seenFromAbove({ asset, textures }: Pick<Fur, 'asset' | 'textures
 		let left = 1;
 		for (let k = layers - 1; k >= 0 && left > 0; k--) {
 			const at = 4 * (k * texels + t);
-			const alpha = (planes[ALPHA[0]]?.[at + ALPHA[1]] ?? 0) / 255;
-			for (const [i, [plane, channel]] of WHERE.entries())
+			const alpha = (planes[ALPHA.plane]?.[at + ALPHA.channel] ?? 0) / 255;
+			for (const [i, { plane, channel }] of SLOTS.entries())
 				sums[i] = (sums[i] ?? 0) + left * alpha * (planes[plane]?.[at + channel] ?? 0);
 			left *= 1 - alpha;
 		}
@@ -47,7 +40,7 @@ function coverage({ size, layers }: Fur['asset'], plane1: Uint8Array): number {
 	let open = 0;
 	for (let t = 0; t < texels; t++) {
 		let left = 1;
-		for (let k = 0; k < layers; k++) left *= 1 - (plane1[4 * (k * texels + t) + ALPHA[1]] ?? 0) / 255;
+		for (let k = 0; k < layers; k++) left *= 1 - (plane1[4 * (k * texels + t) + ALPHA.channel] ?? 0) / 255;
 		open += left;
 	}
 	return 1 - open / texels;

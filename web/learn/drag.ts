@@ -13,14 +13,19 @@ const ARROWS: Record<string, [right: number, up: number]> = {
 	ArrowDown: [0, -1],
 };
 
-/** Has arrow keys move the light while `target` is focused. */
-export function lightByKeys(target: HTMLElement, light: SharedLight): void {
+/** Calls back for arrow keys while `target` is focused. */
+export function arrows(target: HTMLElement, step: (right: number, up: number) => void): void {
 	target.addEventListener('keydown', (event) => {
 		const arrow = ARROWS[event.key];
 		if (!arrow || event.ctrlKey || event.metaKey || event.altKey) return;
 		event.preventDefault();
-		light.turn(arrow[0] * STEP, arrow[1] * STEP);
+		step(...arrow);
 	});
+}
+
+/** Has arrow keys move the light while `target` is focused. */
+export function lightByKeys(target: HTMLElement, light: SharedLight): void {
+	arrows(target, (right, up) => light.turn(right * STEP, up * STEP));
 }
 
 /**

@@ -1,7 +1,7 @@
 /** What the baker measured for the lesson, as `furbake lesson` writes it: `lesson/lesson.json` and the pictures beside it. */
 
 import { decode } from 'fast-png';
-import type { Direction } from '../../fur/index.ts';
+import { alphaChannel, channelOf, type Direction, type Slot } from '../../fur/index.ts';
 
 /** Decibels over lights that no fit has seen, of all layers and of what is seen from above. */
 export interface Figures {
@@ -74,16 +74,9 @@ export interface Layer {
 	readonly codes: Uint8Array;
 }
 
-/** Plane and channel of a0 to a5, as in any asset. */
-const SLOTS = [
-	[0, 0],
-	[0, 1],
-	[0, 2],
-	[1, 0],
-	[1, 1],
-	[0, 3],
-] as const;
-const ALPHA = [1, 2] as const;
+/** Where a0 to a5 are, and α: as in any asset. */
+const SLOTS = [0, 1, 2, 3, 4, 5].map(channelOf);
+const ALPHA = alphaChannel(6);
 
 /**
  * @param index of the layer among those that were kept
@@ -102,8 +95,7 @@ export function decodeLayer(
 	const { size } = record.options;
 	const stored = planes.map((plane) => decode(plane));
 	const first = index * size * size;
-	const byte = (texel: number, [plane, channel]: readonly [number, number]) =>
-		stored[plane]?.data[(first + texel) * 4 + channel] ?? 0;
+	const byte = (texel: number, { plane, channel }: Slot) => stored[plane]?.data[(first + texel) * 4 + channel] ?? 0;
 
 	const alpha = Uint8Array.from({ length: size * size }, (_, texel) => byte(texel, ALPHA));
 	const texels = Int32Array.from([...alpha.keys()].filter((texel) => alpha[texel]));

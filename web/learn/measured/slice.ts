@@ -2,7 +2,7 @@
 
 import './style.css';
 import { figureCanvas } from '../controls.ts';
-import { lightByKeys, listenToDrags } from '../drag.ts';
+import { arrows, lightByKeys, listenToDrags } from '../drag.ts';
 import type { SharedLight } from '../light.ts';
 import type { Chosen } from './chosen.ts';
 import type { RGB } from './colours.ts';
@@ -102,13 +102,6 @@ export function lightFromAbove(canvas: HTMLCanvasElement, light: SharedLight, re
 	lightByKeys(canvas, light);
 }
 
-const ARROWS: Record<string, [right: number, up: number]> = {
-	ArrowLeft: [-1, 0],
-	ArrowRight: [1, 0],
-	ArrowUp: [0, 1],
-	ArrowDown: [0, -1],
-};
-
 /** Pointers and arrow keys choose a texel on a slice. */
 export function texelByHand(canvas: HTMLCanvasElement, chosen: Chosen): void {
 	canvas.classList.add('picked');
@@ -117,14 +110,4 @@ export function texelByHand(canvas: HTMLCanvasElement, chosen: Chosen): void {
 		chosen.pick(((y + 1) / 2) * size - 0.5, ((x + 1) / 2) * size - 0.5);
 	});
 	arrows(canvas, (right, up) => chosen.step(right, up));
-}
-
-/** Calls back for arrow keys while `target` is focused. */
-export function arrows(target: HTMLElement, step: (right: number, up: number) => void): void {
-	target.addEventListener('keydown', (event) => {
-		const arrow = ARROWS[event.key];
-		if (!arrow || event.ctrlKey || event.metaKey || event.altKey) return;
-		event.preventDefault();
-		step(...arrow);
-	});
 }

@@ -1,7 +1,7 @@
 /** The lamps under which every layer was sampled, and the layer as measured under the one that is lit. */
 
 import { controlRow, figureCanvas } from '../controls.ts';
-import { listenToDrags } from '../drag.ts';
+import { arrows, listenToDrags } from '../drag.ts';
 import type { Mount } from '../lesson.ts';
 import { Chosen } from '../measured/chosen.ts';
 import { lightColour } from '../measured/colours.ts';
@@ -9,7 +9,7 @@ import { Dome } from '../measured/dome.ts';
 import { elevationOf, nearest, neighbour, toTile, toWorld } from '../measured/lights.ts';
 import { layerChoice, line, live, ramp } from '../measured/parts.ts';
 import { decimal, legend } from '../measured/plot.ts';
-import { arrows, drawSlice, panel, panels } from '../measured/slice.ts';
+import { drawSlice, panel, panels } from '../measured/slice.ts';
 import { wordsIn } from '../measured/words.ts';
 
 export const mount: Mount = async (place, lesson) => {
