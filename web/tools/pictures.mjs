@@ -1,6 +1,6 @@
 /**
- * `npm run pictures`: the demo's own pictures, made anew by the demo itself: `public/og.jpg`, which goes with shared links, and
- * `public/still.jpg`, the bunny under three lights.
+ * `npm run pictures`: the project's own pictures, made anew by its pages: `public/og.jpg`, which goes with shared links,
+ * `still.jpg`, the bunny under three lights, and `demo.jpg` and `learn.jpg`, the pages themselves.
  */
 import { join } from 'node:path';
 import { browserArgs, ensureBrowser } from './browser.mjs';
@@ -8,7 +8,7 @@ import { ensureNode } from './environment.mjs';
 import { command, root, say } from './process.mjs';
 import { serve } from './vite.mjs';
 
-/** @import { Browser } from '@playwright/test' */
+/** @import { Browser, Page } from '@playwright/test' */
 
 const CAMERA = '-20,10,0.9';
 /** Light from the left, from above, from behind. */
@@ -46,9 +46,7 @@ async function keep(browser, body, viewport, name, quality) {
 	const page = await browser.newPage({ viewport });
 	await page.setContent(`<!doctype html><style>* { margin: 0; box-sizing: border-box }</style>${body}`);
 	await page.evaluate('Promise.all([...document.images].map((image) => image.decode()))');
-	await page.screenshot({ path: join(root, 'public', name), type: 'jpeg', quality });
-	await page.close();
-	say(`public/${name}`);
+	await photograph(page, name, quality);
 }
 
 /** @param {Browser} browser; @param {string} site */
@@ -83,6 +81,40 @@ async function still(browser, site) {
 	);
 }
 
+/** Two methods side by side. @param {Browser} browser; @param {string} site */
+async function demo(browser, site) {
+	const page = await browser.newPage({ viewport: { width: 1280, height: 760 }, colorScheme: 'dark', locale: 'en' });
+	await page.goto(`${site}?model=bunny&split=unlit,0.42&still=1&camera=-20,10,1&light=-0.72,0.6,0.3`);
+	await page.waitForFunction("document.documentElement.dataset.state !== 'loading'", null, { timeout: PATIENCE });
+	await photograph(page, 'demo.jpg');
+}
+
+/** One texel's step, its light from the left. @param {Browser} browser; @param {string} site */
+async function learn(browser, site) {
+	const page = await browser.newPage({ viewport: { width: 1280, height: 980 }, colorScheme: 'light', locale: 'en' });
+	await page.goto(`${site}learn.html?still=1`);
+	const figure = page.locator('[data-figure=texel]');
+	const ready = "document.querySelector('[data-figure=texel]').dataset.state === 'ready'";
+	await figure.scrollIntoViewIfNeeded();
+	await page.waitForFunction(ready, null, { timeout: PATIENCE });
+	await figure.evaluate((element) => element.scrollIntoView({ block: 'center' }));
+	// What lies above it may grow when it comes on screen.
+	await page.waitForTimeout(3000);
+	await figure.evaluate((element) => element.scrollIntoView({ block: 'center' }));
+	await photograph(page, 'learn.jpg');
+}
+
+/**
+ * @param {Page} page
+ * @param {string} name of the file in public/
+ * @param {number} quality of the JPEG, 0 to 100
+ */
+async function photograph(page, name, quality = 84) {
+	await page.screenshot({ path: join(root, 'public', name), type: 'jpeg', quality, timeout: PATIENCE });
+	await page.close();
+	say(`public/${name}`);
+}
+
 await command(async () => {
 	await ensureNode();
 	const { chromium } = await import('@playwright/test');
@@ -91,6 +123,8 @@ await command(async () => {
 	try {
 		await shared(browser, server.url);
 		await still(browser, server.url);
+		await demo(browser, server.url);
+		await learn(browser, server.url);
 	} finally {
 		await browser.close();
 		await server.close();
