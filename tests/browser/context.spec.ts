@@ -5,7 +5,7 @@ import { expect, open, state, test } from './harness.ts';
 import { calm, canvasWidth, frames, loseContext, middle, psnr, restyle, shot } from './robust.ts';
 
 /** Of two models each. Counts must be equal to the object: what a round leaves, every round leaves. */
-const ROUNDS = 12;
+const ROUNDS = 50;
 
 test.use({ viewport: { width: 200, height: 160 } });
 
@@ -59,7 +59,7 @@ test('a lost context comes back while frames run, and the page goes on', async (
 	await expect(page.locator('#overlay')).toContainText(/\d+ draw calls/);
 });
 
-test('rounds of loading and disposing leave the GPU as many objects as before', async ({ page }) => {
+test('50 rounds of loading and disposing leave the GPU as many objects as before', async ({ page }) => {
 	test.setTimeout(200_000);
 	await page.setViewportSize({ width: 900, height: 500 });
 	await shrinkPicture(page, 48, 36);
