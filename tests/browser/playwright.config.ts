@@ -12,8 +12,8 @@ export default defineConfig({
 	testDir: at('.'),
 	outputDir: at('../../node_modules/.cache/furbake/browser-tests'),
 	globalSetup: at('serve.ts'),
-	// A software rasteriser uses every core by itself.
-	workers: 1,
+	// A software rasteriser uses every core by itself, pages that load and compile do not.
+	workers: 2,
 	fullyParallel: false,
 	forbidOnly: Boolean(process.env.CI),
 	timeout: 90_000,

@@ -89,18 +89,17 @@ async function demo(browser, site) {
 	await photograph(page, 'demo.jpg');
 }
 
-/** One texel's step, its light from the left. @param {Browser} browser; @param {string} site */
+/** The step of the slices. @param {Browser} browser; @param {string} site */
 async function learn(browser, site) {
-	const page = await browser.newPage({ viewport: { width: 1280, height: 980 }, colorScheme: 'light', locale: 'en' });
-	await page.goto(`${site}learn.html?still=1`);
-	const figure = page.locator('[data-figure=texel]');
-	const ready = "document.querySelector('[data-figure=texel]').dataset.state === 'ready'";
-	await figure.scrollIntoViewIfNeeded();
+	const viewport = { width: 1280, height: 1060 };
+	const page = await browser.newPage({ viewport, colorScheme: 'light', locale: 'en', reducedMotion: 'reduce' });
+	await page.goto(`${site}learn.html#slices`);
+	const ready = "document.querySelector('[data-figure=slices]').dataset.state === 'ready'";
 	await page.waitForFunction(ready, null, { timeout: PATIENCE });
-	await figure.evaluate((element) => element.scrollIntoView({ block: 'center' }));
-	// What lies above it may grow when it comes on screen.
+	// Figures above grow when they come on screen.
 	await page.waitForTimeout(3000);
-	await figure.evaluate((element) => element.scrollIntoView({ block: 'center' }));
+	const top = "document.getElementById('slices').scrollIntoView({ behavior: 'instant' })";
+	await page.evaluate(top);
 	await photograph(page, 'learn.jpg');
 }
 
