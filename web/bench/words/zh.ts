@@ -15,7 +15,7 @@ const doing: Record<Part | 'loading', string> = {
 const methods: Record<Method, string> = {
 	unlit: '无光照',
 	lengyel: 'Lengyel 光照',
-	'shadow-layers': '层次阴影图',
+	'shadow-layers': '层状阴影图',
 	ptm: 'PTM',
 	ptm3: 'PTM，3 个系数',
 	'ptm-colour': '带颜色的 PTM，取 3 次纹理',
@@ -26,7 +26,7 @@ export const zh: Words = {
 	description: '在您眼前的这台机器上重测论文的表 1：用多项式纹理映射绘制毛发，与其他方法比较。',
 	heading: '到底有多快？',
 	intro:
-		'同一个圆环、同样的毛发，用六种方法计算光照，由您眼前的这台机器轮流绘制：16 个壳层，一盏每帧都在移动的灯，此外别无他物。无光照的毛发是速度的上限；层次阴影图是论文表 1 中的对比方法，这里采用深度不透明度图（deep opacity maps）的形式，光源一动就要重新绘制。',
+		'同一个圆环、同样的毛发，用六种方法计算光照，由您眼前的这台机器轮流绘制：16 个壳层，一盏每帧都在移动的灯，此外别无他物。无光照的毛发是速度的上限；层状阴影图是论文表 1 中的对比方法，这里采用深度不透明度图（deep opacity maps）的形式，光源一动就要重新绘制。',
 	measure: '开始测量',
 	again: '重新测量',
 	stop: '停止',
@@ -76,7 +76,7 @@ export const zh: Words = {
 		milliseconds: (triangles) => `${triangles}：ms`,
 		ofUnlit: '与无光照之比',
 		article: '不同三角面片数下的绘制效率（帧/秒）',
-		shadowLayers: '层次阴影图',
+		shadowLayers: '层状阴影图',
 		ptm: 'PTM',
 		faster: 'PTM 加速比',
 		theArticle: (triangles) => `${triangles}，论文`,
@@ -100,7 +100,7 @@ export const zh: Words = {
 		`PTM 的帧时间：三角面片数${steps.map(({ from, to, ratio }) => `从 ${from} 增至 ${to} 时为 ${ratio}`).join('，')}。`,
 	articleTitle: '论文的表 1',
 	articleText:
-		'每秒绘制的帧数。论文没有说明其三角面片数是模型本身的，还是 16 层的总和，因此两种情形都作了测量。论文所用的显卡是 64 MB 显存的 Quadro NVS 110；作为对比的层次阴影图方法未见公开的文献。',
+		'每秒绘制的帧数。论文没有说明其三角面片数是模型本身的，还是 16 层的总和，因此两种情形都作了测量。论文所用的显卡是 64 MB 显存的 Quadro NVS 110；作为对比的层状阴影图方法未见公开的文献。',
 	overdrawTitle: '过度绘制',
 	overdrawText:
 		'毛发覆盖的画面比例，以及所覆盖的每个像素的片元数：至多需要着色的（位于皮肤之前），和真正参与混合的（高于 alpha 阈值且未被其他毛发遮住）。',

@@ -44,7 +44,7 @@ export const zh: Words = {
 		methods: {
 			unlit: { name: '无光照', costs: '只有颜色：任何光照方法的开销下限。' },
 			lengyel: { name: 'Lengyel 局部光照', costs: '每根毛单独受光，每个片元取一次方向；阴影只按深浅估计。' },
-			'shadow-layers': { name: '分层阴影图', costs: '有真实阴影；光源一动，就要从光源处把全部毛发重画一遍。' },
+			'shadow-layers': { name: '层状阴影图', costs: '有真实阴影；光源一动，就要从光源处把全部毛发重画一遍。' },
 			ptm: { name: 'PTM', costs: '有真实阴影；无论光在何处，只需两次取样和一次点积。' },
 		},
 		table: '表 1：不同三角形数下的帧率（帧/秒），16 层壳层，光源移动',
