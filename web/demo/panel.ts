@@ -67,6 +67,8 @@ export class Panel {
 	/** Below the controls of each folder: why some of them can't be used. */
 	readonly #reasons: Record<'body' | 'light' | 'hair', HTMLElement>;
 	readonly #actions = document.createElement('div');
+	/** The button that stays at the end. */
+	readonly #last: Element | null = null;
 
 	constructor(container: HTMLElement, handlers: PanelHandlers) {
 		const gui = new GUI({ container, title: words.panel, injectStyles: false });
@@ -112,6 +114,7 @@ export class Panel {
 		this.#reasons = { body: reason(body), light: reason(light), hair: reason(hair) };
 		this.#actions.className = 'actions';
 		for (const name of ['copy', 'save', 'reset'] as const) this.button(words[name], () => handlers[name]());
+		this.#last = this.#actions.lastElementChild;
 		gui.$children.append(this.#actions);
 		if (matchMedia('(max-width: 880px), (max-height: 440px)').matches) gui.close();
 	}
@@ -123,14 +126,14 @@ export class Panel {
 		return controller.onChange((value: string) => handlers.changed(name, value));
 	}
 
-	/** One more button in the row at the end. */
+	/** One more button below the folders. */
 	button(text: string, pressed: () => void, tip = ''): void {
 		const made = document.createElement('button');
 		made.type = 'button';
 		made.textContent = text;
 		made.title = tip;
 		made.addEventListener('click', pressed);
-		this.#actions.append(made);
+		this.#actions.insertBefore(made, this.#last);
 	}
 
 	/** What a menu offers. */
@@ -152,6 +155,8 @@ export class Panel {
 		controls.split.enable(fur && alone);
 		controls.automatic.enable(fur && alone);
 		controls.shells.enable(fur && alone && !settings.automatic);
+		// How many it are by itself changes with every zoom: the overlay tells.
+		controls.shells.show(!settings.automatic);
 		controls.fins.enable(fins);
 		controls.root.enable(fur && root);
 		for (const name of ['root', 'tip'] as const)
