@@ -33,7 +33,7 @@ export interface FurLoaderOptions {
 	anisotropy?: number;
 	/** Called where the fur is of a newer version than `VERSION`, so that the skin stays alone; without it, a warning on the console. */
 	newer?: (version: string) => void;
-	/** Called with the loaded scene once its skin has the colour that it has under fur, before any plane has come. */
+	/** Called with the loaded scene once its skin can be shown, in its own colours, before any plane has come. */
 	skin?: (scene: Object3D) => void;
 }
 
@@ -97,7 +97,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		});
 	}
 
-	/** What the fur stands on, as dark as it is below it before there is any. */
+	/** What the fur stands on, as bright as without it until there is any. */
 	async #body(asset: FurAsset, scene: Object3D): Promise<{ skin: Skin; surface: Mesh; colour: Color }> {
 		const [surface, object] = await Promise.all([this.#mesh(asset.shells, 'shells'), this.#skin(asset.skin)]);
 		const pieces = isMesh(object) ? [object] : (object.children as Mesh[]);
@@ -106,7 +106,6 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		const colour = (!surface.geometry.hasAttribute('color') && own?.color) || new Color(1, 1, 1);
 		const together = object.matrix.equals(surface.matrix);
 		const skin = new Skin(object, pieces, together ? surface.geometry : undefined);
-		skin.cover(asset);
 		this.#options.skin?.(scene);
 		return { skin, surface, colour };
 	}
