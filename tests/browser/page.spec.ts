@@ -213,3 +213,25 @@ test('a broken plane of a furry model gets clear words', async ({ page }) => {
 	expect(await state(page)).toBe('failed');
 	await expect(page.getByRole('status')).toContainText('torus cannot be shown');
 });
+
+test('a first model still grows its fur where the next one fails', async ({ page }) => {
+	await page.setViewportSize({ width: 900, height: 600 });
+	let release = () => {};
+	const released = new Promise<void>((resolve) => {
+		release = resolve;
+	});
+	await page.route('**/models/sphere/*.png', async (route) => {
+		await released;
+		await route.continue();
+	});
+	await page.route('**/models/torus/model.gltf', (route) => route.fulfill({ body: 'solid cat' }));
+	await page.goto(`${site}?model=sphere&shells=4&still=1`);
+	await page.waitForFunction(() => performance.getEntriesByName('furbake:skin').length > 0);
+	await page.getByRole('combobox', { name: 'Model' }).selectOption('Torus');
+	await expect(page.getByRole('status')).toContainText('torus cannot be shown');
+	release();
+	await expect.poll(() => state(page)).toBe('ready');
+	await expect(page.getByRole('combobox', { name: 'Model' })).toHaveValue('Sphere');
+	await expect(page.getByRole('combobox', { name: 'Preset' })).toBeEnabled({ timeout: 2000 });
+	await expect(page.getByRole('status')).toContainText('torus cannot be shown');
+});

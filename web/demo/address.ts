@@ -180,7 +180,8 @@ const parameters: { [Name in keyof View]-?: Parameter<NonNullable<View[Name]>> }
 			if (Math.abs(elevation) > 90 || distance < 1e-3 || distance > 10) return undefined;
 			return [wrapped(azimuth), elevation, distance];
 		},
-		write: ([azimuth, elevation, distance]) => `${short(azimuth, 2)},${short(elevation, 2)},${Number(distance.toPrecision(4))}`,
+		write: ([azimuth, elevation, distance]) =>
+			`${short(azimuth, 2)},${short(elevation, 2)},${Number(distance.toPrecision(4))}`,
 	},
 	shells: whole('shells', 256),
 	fins: flag,

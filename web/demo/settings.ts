@@ -170,7 +170,7 @@ export class Controls {
 
 	async #copy(): Promise<void> {
 		const { link } = this;
-		const own = this.#exhibit.shown.startsWith('/');
+		const { own } = this.#exhibit;
 		notice([(await copy(link)) ? words.copied : words.copyThis(link), ...(own ? [words.noLink] : [])].join('\n'));
 	}
 
