@@ -158,6 +158,9 @@ test('a place that cannot be fetched is told, and the page stays usable', async 
 	await open(page, '?model=sphere&shells=4&still=1&env=city');
 	expect(await state(page)).toBe('ready');
 	await expect(page.getByRole('status')).toContainText('The environment city cannot be shown');
+	await page.keyboard.press('ArrowUp');
+	expect(await settled(page, 'env')).toBe(null);
+	expect(await settled(page, 'light')).not.toBe(null);
 	expect(watch.complaints.splice(0).join()).toMatch(/^Failed to load resource[^,]*$/);
 });
 
@@ -169,6 +172,9 @@ test('unknown and broken parameters are ignored with a notice', async ({ page })
 		await expect(notices).toContainText(name);
 	}
 	await page.getByRole('button', { name: 'Close this message' }).first().click();
+	await page.keyboard.press('ArrowUp');
+	expect(await settled(page, 'model')).toBe(null);
+	expect(await settled(page, 'light')).toMatch(/\d/);
 });
 
 test('a missing model gets clear words, and the page stays usable', async ({ page, watch }) => {

@@ -77,6 +77,7 @@ export class Exhibit {
 		if (!folderOf(name, this.menu, document.baseURI) && first) {
 			const names = offered(this.menu).map((item) => item.name);
 			notice(words.wrongModel(name, names.join(', '), first));
+			view.model = undefined;
 			name = first;
 		}
 		this.changed();
@@ -173,6 +174,7 @@ export class Exhibit {
 			this.#weigh();
 		} catch (error) {
 			if (turn !== this.#latestPlace) return;
+			this.#view.env = this.place === 'none' ? undefined : this.place;
 			notice(words.placeNotShown(name, (error as Error).message), 'error');
 		}
 		this.changed();
