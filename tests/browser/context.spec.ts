@@ -12,6 +12,7 @@ test.use({ viewport: { width: 200, height: 160 } });
 for (const [what, query] of [
 	['one body', calm],
 	['a crowd', `${calm}&crowd=3`],
+	['two methods', `${calm}&method=shadow-layers&split=eigen,0.5`],
 ] as const) {
 	test(`a lost context comes back to the same picture of ${what}`, async ({ page }) => {
 		await open(page, query);

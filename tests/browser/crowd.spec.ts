@@ -26,6 +26,15 @@ test('the light goes round a crowd, too', async ({ page }) => {
 	expect(difference(left, await picture(page))).toBeGreaterThan(3);
 });
 
+test('a link leads close to one body of a crowd', async ({ page }) => {
+	await open(page, '?model=sphere&shells=4&camera=0,10,0.09&crowd=20&still=1');
+	await page.keyboard.press('+');
+	// Nearer from there, and not from where it would stand beside a body alone.
+	await expect
+		.poll(() => Number(new URL(page.url()).searchParams.get('camera')?.split(',')[2]), { timeout: 5000 })
+		.toBeLessThan(0.1);
+});
+
 test('the panel makes a crowd, and makes it go', async ({ page }) => {
 	await page.setViewportSize({ width: 900, height: 600 });
 	await open(page, '?model=sphere&shells=6&still=1&light=1,.3,.5&camera=0,10,1');

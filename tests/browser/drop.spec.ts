@@ -20,6 +20,13 @@ const asset = new TextDecoder().decode(baked['model.gltf']);
 const newer = { ...baked, 'model.gltf': text(asset.replace(/("FUR_ptm_shells": \{\s*"version": )"1\.\d"/, '$1"9.0"')) };
 const small = encode({ width: 8, height: 8, channels: 4, depth: 8, data: new Uint8Array(256) });
 
+/** Of a model whose skin has one picture. */
+const pictured = {
+	meshes: [{ primitives: [{ attributes: { POSITION: 0 }, material: 0 }] }],
+	materials: [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }],
+	textures: [{ source: 0 }],
+};
+
 async function drop(page: Page, files: Files): Promise<void> {
 	const parts = Object.entries(files).map(([name, bytes]) => [name, Buffer.from(bytes).toString('base64')] as const);
 	await page.evaluate((parts) => {
@@ -155,6 +162,14 @@ test('what is dropped or chosen is shown, or a sentence says why not and the mod
 		[
 			{ 'packed.glb': triangle({ extensionsUsed: ['KHR_draco_mesh_compression'] }) },
 			'its mesh is packed by Draco, which this page does not unpack. The baker does:\nnpm run bake -- packed.glb -o public/models/packed',
+		],
+		[
+			{ 'torn.glb': triangle({ ...pictured, images: [{ bufferView: 0, mimeType: 'image/png', name: 'coat' }] }) },
+			'coat: it is no picture that this browser can read',
+		],
+		[
+			{ 'torn.gltf': triangle({ ...pictured, images: [{ uri: 'data:image/png;base64,AAAA' }] }) },
+			'image 0: it is no picture that this browser can read',
 		],
 	];
 	for (const [what, sentence] of broken) {

@@ -158,6 +158,9 @@ test('a place that cannot be fetched is told, and the page stays usable', async 
 	await open(page, '?model=sphere&shells=4&still=1&env=city');
 	expect(await state(page)).toBe('ready');
 	await expect(page.getByRole('status')).toContainText('The environment city cannot be shown');
+	await page.keyboard.press('ArrowUp');
+	expect(await settled(page, 'env')).toBe(null);
+	expect(await settled(page, 'light')).not.toBe(null);
 	expect(watch.complaints.splice(0).join()).toMatch(/^Failed to load resource[^,]*$/);
 });
 
@@ -169,6 +172,9 @@ test('unknown and broken parameters are ignored with a notice', async ({ page })
 		await expect(notices).toContainText(name);
 	}
 	await page.getByRole('button', { name: 'Close this message' }).first().click();
+	await page.keyboard.press('ArrowUp');
+	expect(await settled(page, 'model')).toBe(null);
+	expect(await settled(page, 'light')).toMatch(/\d/);
 });
 
 test('a missing model gets clear words, and the page stays usable', async ({ page, watch }) => {
@@ -211,5 +217,27 @@ test('a broken plane of a furry model gets clear words', async ({ page }) => {
 	);
 	await open(page, '?model=torus&still=1');
 	expect(await state(page)).toBe('failed');
+	await expect(page.getByRole('status')).toContainText('torus cannot be shown');
+});
+
+test('a first model still grows its fur where the next one fails', async ({ page }) => {
+	await page.setViewportSize({ width: 900, height: 600 });
+	let release = () => {};
+	const released = new Promise<void>((resolve) => {
+		release = resolve;
+	});
+	await page.route('**/models/sphere/*.png', async (route) => {
+		await released;
+		await route.continue();
+	});
+	await page.route('**/models/torus/model.gltf', (route) => route.fulfill({ body: 'solid cat' }));
+	await page.goto(`${site}?model=sphere&shells=4&still=1`);
+	await page.waitForFunction(() => performance.getEntriesByName('furbake:skin').length > 0);
+	await page.getByRole('combobox', { name: 'Model' }).selectOption('Torus');
+	await expect(page.getByRole('status')).toContainText('torus cannot be shown');
+	release();
+	await expect.poll(() => state(page)).toBe('ready');
+	await expect(page.getByRole('combobox', { name: 'Model' })).toHaveValue('Sphere');
+	await expect(page.getByRole('combobox', { name: 'Preset' })).toBeEnabled({ timeout: 2000 });
 	await expect(page.getByRole('status')).toContainText('torus cannot be shown');
 });

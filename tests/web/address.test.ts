@@ -13,7 +13,7 @@ describe('a view and its address', () => {
 		{ preset: 'fox', method: 'eigen', split: { method: 'shadow-layers', share: 0.275 }, still: true, ui: true },
 		{ lights: 8, length: 0.35, density: 1.75, colour: ['0a0b0c', 'ffeedd'], lang: 'zh', still: false, ui: true },
 		{ split: { method: 'unlit', share: 0 }, fins: true, shells: 256, still: false, ui: true },
-		{ model: '../out/fox/', camera: [-179.9, 90, 0.1], still: false, ui: false },
+		{ model: '../out/fox/', camera: [-179.9, 90, 0.01234], still: false, ui: false },
 	];
 
 	it.each(views)('survive the round trip: %j', (view) => {

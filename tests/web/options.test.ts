@@ -40,6 +40,8 @@ describe('the address of the bench', () => {
 		'triangles=513',
 		'post=//elsewhere.example/',
 		'post=https://elsewhere.example/',
+		'post=/\\elsewhere.example/',
+		'post=/\t/elsewhere.example/',
 	])('is told off for %s, and the default stands', (query) => {
 		const { options, post, problems } = parseOptions(`?${query}`);
 		expect(problems).toHaveLength(1);

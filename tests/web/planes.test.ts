@@ -9,6 +9,13 @@ const png = (width: number, height: number, channels: number, depth: 8 | 16 = 8)
 	return encode({ width, height, channels, depth, data });
 };
 
+/** A small file that says it is a large picture. */
+function enormous(): Uint8Array {
+	const bytes = png(8, 16, 4);
+	new DataView(bytes.buffer, bytes.byteOffset).setUint32(16, 1e9);
+	return bytes;
+}
+
 describe('decodePlane', () => {
 	it('keeps every byte, those of empty texels too', () => {
 		const texels = noise(8 * 16 * 4);
@@ -27,6 +34,7 @@ describe('decodePlane', () => {
 		['16 bits', png(8, 16, 4, 16), 'plane0.png: got 4 channels of 16 bits, expected RGB or RGBA of 8'],
 		['no PNG', new TextEncoder().encode('hello'), /^plane0\.png: not a readable PNG/],
 		['cut off', png(8, 16, 4).subarray(0, 60), /^plane0\.png: not a readable PNG/],
+		['a size beyond all memory', enormous(), 'plane0.png: got 1000000000 × 16 pixels, expected 8 × 16'],
 	])('refuses %s', (_, bytes, message) => {
 		expect(() => decodePlane('plane0.png', bytes, 8, 16)).toThrow(message);
 	});

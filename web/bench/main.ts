@@ -6,6 +6,7 @@ import type { BenchFigures } from '../measure/results.ts';
 import { element, setState } from '../page/element.ts';
 import { fillHeader } from '../page/header.ts';
 import { fillIn, languageOf } from '../page/language.ts';
+import { copy, download } from '../page/share.ts';
 import { type Problem, parseOptions } from './options.ts';
 import { gallery, sectionElement } from './page.ts';
 import { sections } from './report.ts';
@@ -100,21 +101,13 @@ element('controls').addEventListener('submit', (event) => {
 	else void start();
 });
 element('download').addEventListener('click', () => {
-	const link = document.createElement('a');
-	link.href = URL.createObjectURL(new Blob([json()], { type: 'application/json' }));
-	link.download = 'furbake-bench.json';
-	link.click();
-	URL.revokeObjectURL(link.href);
+	download(new Blob([json()], { type: 'application/json' }), 'furbake-bench.json');
 });
-const copy = element('copy');
-copy.addEventListener('click', async () => {
-	const copied = await navigator.clipboard.writeText(json()).then(
-		() => true,
-		() => false,
-	);
-	copy.textContent = copied ? words.copied : words.notCopied;
+const copying = element('copy');
+copying.addEventListener('click', async () => {
+	copying.textContent = (await copy(json())) ? words.copied : words.notCopied;
 	setTimeout(() => {
-		copy.textContent = words.copy;
+		copying.textContent = words.copy;
 	}, 2000);
 });
 

@@ -43,12 +43,13 @@ export function parseOptions(search: string): BenchAddress {
 	options.methods = some('methods', METHODS, options.methods);
 	options.triangles = some('triangles', DEFAULTS.triangles.map(String), options.triangles.map(String)).map(Number);
 	const post = query.get('post');
-	if (post !== null && !/^\/(?!\/)/.test(post)) problems.push({ given: `post=${post}`, expected: 'post' });
+	const posts = post !== null && isHere(post);
+	if (post !== null && !posts) problems.push({ given: `post=${post}`, expected: 'post' });
 	return {
 		options,
 		quick,
 		run: query.get('run') === '1',
-		post: post !== null && /^\/(?!\/)/.test(post) ? post : undefined,
+		post: posts ? post : undefined,
 		problems,
 	};
 
@@ -64,4 +65,10 @@ export function parseOptions(search: string): BenchAddress {
 		}
 		return found;
 	}
+}
+
+/** Whether a path is one of this very host, however browsers read it: of some they leave out tabs, and turn backslashes. */
+function isHere(path: string): boolean {
+	const host = 'http://here.invalid';
+	return path.startsWith('/') && URL.canParse(path, host) && new URL(path, host).origin === host;
 }

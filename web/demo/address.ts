@@ -38,7 +38,7 @@ export interface View {
 	light?: Triple | undefined;
 	/** 1..8 */
 	lights?: number | undefined;
-	/** azimuth -180..180 degrees, elevation -90..90 degrees, distance 0.1..10 */
+	/** azimuth -180..180 degrees, elevation -90..90 degrees, distance 0.001..10: near a body of a large crowd it is small */
 	camera?: Triple | undefined;
 	/** 1..256 */
 	shells?: number | undefined;
@@ -177,10 +177,11 @@ const parameters: { [Name in keyof View]-?: Parameter<NonNullable<View[Name]>> }
 		expected: 'camera',
 		read: (text) => {
 			const [azimuth = 0, elevation = 0, distance = 0] = numbers(text, 3) ?? [];
-			if (Math.abs(elevation) > 90 || distance < 0.1 || distance > 10) return undefined;
+			if (Math.abs(elevation) > 90 || distance < 1e-3 || distance > 10) return undefined;
 			return [wrapped(azimuth), elevation, distance];
 		},
-		write: ([azimuth, elevation, distance]) => `${short(azimuth, 2)},${short(elevation, 2)},${short(distance, 3)}`,
+		write: ([azimuth, elevation, distance]) =>
+			`${short(azimuth, 2)},${short(elevation, 2)},${Number(distance.toPrecision(4))}`,
 	},
 	shells: whole('shells', 256),
 	fins: flag,

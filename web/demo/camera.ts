@@ -19,6 +19,8 @@ export class OrbitCamera extends PerspectiveCamera {
 	/** Radii of what is framed, and of one body in it. */
 	#radius = 1;
 	#closest = 1;
+	/** What was asked for where that is nearer or farther than what is framed allows: a crowd may come that does. */
+	#asked: Triple | undefined;
 	/** True once a visitor or a link has chosen the view. */
 	chosen = false;
 
@@ -32,6 +34,7 @@ export class OrbitCamera extends PerspectiveCamera {
 		this.#controls.dampingFactor = 0.12;
 		this.#controls.addEventListener('start', () => {
 			this.chosen = true;
+			this.#asked = undefined;
 		});
 		this.#controls.addEventListener('change', () => {
 			this.#reach();
@@ -56,11 +59,21 @@ export class OrbitCamera extends PerspectiveCamera {
 
 	/** Azimuth and elevation in degrees, distance in units of the one at which the model fits. */
 	get orbit(): Triple {
+		if (this.#asked) return this.#asked;
 		const { theta, phi, radius } = spherical.setFromVector3(offset.subVectors(this.position, this.#controls.target));
 		return [MathUtils.radToDeg(theta), 90 - MathUtils.radToDeg(phi), radius / this.#fit];
 	}
 
-	set orbit([azimuth, elevation, distance]: Triple) {
+	set orbit(orbit: Triple) {
+		// Before it moves, since whoever hears of that looks at it.
+		this.#asked = orbit;
+		this.#put(orbit);
+		const { minDistance, maxDistance } = this.#controls;
+		const distance = orbit[2] * this.#fit;
+		if (distance >= minDistance && distance <= maxDistance) this.#asked = undefined;
+	}
+
+	#put([azimuth, elevation, distance]: Triple): void {
 		const phi = MathUtils.degToRad(90 - elevation);
 		spherical.set(distance * this.#fit, phi, MathUtils.degToRad(azimuth)).makeSafe();
 		this.position.setFromSpherical(spherical).add(this.#controls.target);
@@ -97,9 +110,10 @@ export class OrbitCamera extends PerspectiveCamera {
 
 	/** Turns and comes nearer, for the keyboard: degrees, degrees, factor. */
 	turn(azimuth: number, elevation: number, factor: number): void {
+		this.#asked = undefined;
 		const [a, e, d] = this.orbit;
 		this.chosen = true;
-		this.orbit = [a + azimuth, MathUtils.clamp(e + elevation, -89.9, 89.9), d * factor];
+		this.#put([a + azimuth, MathUtils.clamp(e + elevation, -89.9, 89.9), d * factor]);
 	}
 
 	/** Once per frame: lets a turn run out. @returns whether the camera has moved */

@@ -30,6 +30,8 @@ export class Exhibit {
 	menu: MenuEntry[] = [];
 	/** Name or address of the model on show, with a slash at its front if it is a visitor's own; '' for none. */
 	shown = '';
+	/** Whether it is a visitor's own, which no link can name. */
+	own = false;
 	place: EnvironmentName | 'none' = 'none';
 	readonly looks = new Looks();
 	/** Called when something else is on show, or what was asked for has failed. */
@@ -75,6 +77,7 @@ export class Exhibit {
 		if (!folderOf(name, this.menu, document.baseURI) && first) {
 			const names = offered(this.menu).map((item) => item.name);
 			notice(words.wrongModel(name, names.join(', '), first));
+			view.model = undefined;
 			name = first;
 		}
 		this.changed();
@@ -171,6 +174,7 @@ export class Exhibit {
 			this.#weigh();
 		} catch (error) {
 			if (turn !== this.#latestPlace) return;
+			this.#view.env = this.place === 'none' ? undefined : this.place;
 			notice(words.placeNotShown(name, (error as Error).message), 'error');
 		}
 		this.changed();
@@ -185,6 +189,8 @@ export class Exhibit {
 		const shown = own ? `/${name}` : name;
 		// The skin alone is better than nothing, and worse than the model before.
 		let early: Model | undefined;
+		// A skin that is on show stays until the next model is there, and it may never come: so its fur grows.
+		const late = () => turn !== this.#latestModel && (!early || early !== stage.model);
 		const skin = (model: Model) => {
 			if (turn !== this.#latestModel) return;
 			early = model;
@@ -197,20 +203,23 @@ export class Exhibit {
 			if (!folder && !own) throw new Error(words.notAFolder);
 			const source = own?.source ?? sourceAt(folder as URL, manager);
 			const model = await loadModel(source, stage.limits, first ? { skin } : {});
-			if (turn !== this.#latestModel) return model.dispose();
+			if (late()) return model.dispose();
 			if (own) this.#view.model = undefined;
 			if (model !== early) this.#present(model, shown);
-			withdraw('model');
+			this.own = own !== undefined;
+			if (turn === this.#latestModel) withdraw('model');
 			const title = this.title ?? name;
 			if (model.newer) notice(ownWords.newer(title, model.newer, VERSION), 'note', 'model');
 			else if (own?.command) notice(ownWords.bakeIt(title, own.command), 'advice', 'model');
 			else if (!model.fur) notice(words.noFur(title), 'note', 'model');
 			await this.#dress(first);
 		} catch (error) {
-			if (turn !== this.#latestModel) return;
+			if (late()) return;
 			if (early) {
+				this.looks.strip();
 				stage.show(undefined);
 				this.shown = '';
+				this.own = false;
 			}
 			notice(words.notShown(name, (error as Error).message), 'error', 'model');
 		} finally {
@@ -275,12 +284,12 @@ export class Exhibit {
 	async #grow(): Promise<void> {
 		const { shells, fins } = this.looks.fur ?? {};
 		if (!shells || this.#view.shells) return this.#mark();
-		const { visible } = fins ?? {};
 		shells.coarseness = coarse;
 		if (fins) fins.visible = false;
 		await this.#mark();
 		shells.coarseness = 1;
-		if (fins) fins.visible = visible ?? true;
+		// As the view says by now.
+		this.looks.style(this.#view);
 	}
 
 	async #mark(): Promise<void> {

@@ -12,6 +12,7 @@ interface Gltf {
 	extensionsUsed?: unknown;
 	extensionsRequired?: unknown;
 	buffers?: unknown;
+	bufferViews?: unknown;
 	images?: unknown;
 	textures?: unknown;
 	nodes?: unknown;
@@ -43,7 +44,7 @@ export async function inspect(files: Files, path: string, container: Container):
 }
 
 /** The JSON, alone or in a .glb's first chunk. */
-export async function readGltf(blob: Blob, path: string): Promise<Gltf> {
+async function readGltf(blob: Blob, path: string): Promise<Gltf> {
 	const noGltf = new Refused((words) => words.noGltf(path));
 	let text = blob;
 	const head = new DataView(await blob.slice(0, 20).arrayBuffer());
@@ -92,22 +93,34 @@ function checkNodes({ nodes }: Gltf, path: string): void {
 }
 
 /** Of the skin's materials: three's loader leaves out one that it cannot read, with an error on the console. */
-async function checkPictures(
-	{ textures, images }: Gltf,
-	files: Files,
-	path: string,
-	container: Container,
-): Promise<void> {
-	const pictures = items(images);
-	for (const { source } of items(textures)) {
-		const uri = pictures[source as number]?.uri;
-		if (typeof uri !== 'string' || /^data:/i.test(uri)) continue;
+async function checkPictures(gltf: Gltf, files: Files, path: string, container: Container): Promise<void> {
+	const blob = files.get(path) as Blob;
+	const [images, views, buffers] = [gltf.images, gltf.bufferViews, gltf.buffers].map(items);
+	const bytesOf = async (uri: unknown): Promise<Blob> => {
+		if (typeof uri !== 'string') return binaryOf(blob);
+		return /^data:/i.test(uri) ? (await fetch(uri)).blob() : fileOf(files, uri, path, container);
+	};
+	for (const { source } of items(gltf.textures)) {
+		const image = images?.[source as number];
+		if (!image) continue;
+		const { uri, name, mimeType } = image;
 		try {
-			(await createImageBitmap(fileOf(files, uri, path, container))).close();
+			const view = views?.[image.bufferView as number];
+			let picture = await bytesOf(view ? buffers?.[view.buffer as number]?.uri : uri);
+			const start = Number(view?.byteOffset ?? 0);
+			if (view) picture = picture.slice(start, start + Number(view.byteLength), String(mimeType));
+			(await createImageBitmap(picture)).close();
 		} catch {
-			throw new Refused((words) => words.badPicture(uri));
+			const file = typeof uri === 'string' && !/^data:/i.test(uri) ? uri : undefined;
+			throw new Refused((words) => words.badPicture(file ?? String(name ?? `image ${source}`)));
 		}
 	}
+}
+
+/** What lies behind the JSON of a .glb. */
+async function binaryOf(glb: Blob): Promise<Blob> {
+	const start = 20 + new DataView(await glb.slice(12, 16).arrayBuffer()).getUint32(0, true) + 8;
+	return glb.slice(start);
 }
 
 function items(value: unknown): Record<string, unknown>[] {

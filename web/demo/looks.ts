@@ -103,6 +103,16 @@ export class Looks {
 		if (right) right.fur.clip = { from: share, to: 1 };
 	}
 
+	/** To be called while the context is lost: frees what no scene holds, the maps of methods and materials that are not worn. */
+	forget(): void {
+		for (const { fur, rival } of this.#looks) {
+			if (!rival) continue;
+			rival.dispose();
+			fur.material.dispose();
+			rival.wear();
+		}
+	}
+
 	/** Takes all off the body; to be called before it is disposed of. */
 	strip(): void {
 		for (const { rival } of this.#looks) rival?.dispose();

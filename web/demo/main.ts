@@ -53,6 +53,7 @@ function start(): void {
 	controls.panel.button(dropped.open, opener.files, dropped.openTip);
 	if (opener.folder) controls.panel.button(dropped.openFolder, opener.folder, dropped.openFolderTip);
 	canvas.addEventListener('webglcontextlost', () => {
+		exhibit.looks.forget();
 		picture.stage.forget();
 		if (picture.stage.model) setState('loading');
 	});

@@ -123,7 +123,7 @@ export class Picture {
 		const time = timer.read();
 		if (!still) stage.scale = this.#governor.frame(timer.works ? time : interval, now, this.#moving);
 		this.#moving = false;
-		if (this.#visible) {
+		if (this.#visible && !stage.gl.isContextLost()) {
 			this.before();
 			if (this.overlay) this.overlay.frame(this.#render, interval);
 			else this.#render();

@@ -1,5 +1,6 @@
 /** What the controls do: each changes the view, and the picture by it. */
 
+import { copy, download } from '../page/share.ts';
 import { addressWriter, formatAddress, type Method, type View } from './address.ts';
 import { bakedColours, hasOwnColours } from './colours.ts';
 import type { Exhibit } from './exhibit.ts';
@@ -8,7 +9,6 @@ import { notice } from './notice.ts';
 import { hasEigen } from './outfits.ts';
 import { type Menu, Panel, type Settings } from './panel.ts';
 import type { Picture } from './picture.ts';
-import { copy, download } from './share.ts';
 import { SplitLine } from './split.ts';
 import { words } from './words/index.ts';
 
@@ -170,7 +170,7 @@ export class Controls {
 
 	async #copy(): Promise<void> {
 		const { link } = this;
-		const own = this.#exhibit.shown.startsWith('/');
+		const { own } = this.#exhibit;
 		notice([(await copy(link)) ? words.copied : words.copyThis(link), ...(own ? [words.noLink] : [])].join('\n'));
 	}
 

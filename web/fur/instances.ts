@@ -15,7 +15,7 @@ import type { Fur } from './Fur.ts';
 import { FurFins } from './fins.ts';
 import { BodyHull, BodyLevel, BodyMaterial } from './level.ts';
 import { cutFor, pixelsPerUnit, shellsFor } from './lod.ts';
-import { gatherPieces, type Piece } from './pieces.ts';
+import { gatherPieces, type Piece, placement } from './pieces.ts';
 import { Places } from './places.ts';
 import { FurShells } from './shells.ts';
 
@@ -295,14 +295,4 @@ export class FurInstances extends Object3D {
 		this.#hull.dispose();
 		this.#finMaterial?.dispose();
 	}
-}
-
-/** The part's axes → those of `root`, in which it stands. */
-function placement(part: Object3D, root: Object3D): Matrix4 {
-	const total = new Matrix4();
-	for (let at: Object3D | null = part; at && at !== root; at = at.parent) {
-		at.updateMatrix();
-		total.premultiply(at.matrix);
-	}
-	return total;
 }

@@ -10,6 +10,7 @@ import {
 	Matrix4,
 	type Mesh,
 	type MeshStandardMaterial,
+	type Object3D,
 	Texture,
 	Vector3,
 } from 'three';
@@ -124,4 +125,14 @@ function merge(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Pie
 			palette.dispose();
 		},
 	};
+}
+
+/** The part's axes → those of `root`, in which it stands. */
+export function placement(part: Object3D, root: Object3D): Matrix4 {
+	const total = new Matrix4();
+	for (let at: Object3D | null = part; at && at !== root; at = at.parent) {
+		at.updateMatrix();
+		total.premultiply(at.matrix);
+	}
+	return total;
 }

@@ -24,16 +24,21 @@ export type Texels = Uint8Array<ArrayBuffer>;
  * @throws Error where the picture is not `width` × `height`, 8 bits, RGB or RGBA
  */
 export function decodePlane(name: string, png: Uint8Array, width: number, height: number): Texels {
+	const expectSize = (got: { width: number; height: number }) => {
+		if (got.width === width && got.height === height) return;
+		throw new Error(`${name}: got ${got.width} × ${got.height} pixels, expected ${width} × ${height}`);
+	};
 	let image: ReturnType<typeof decode>;
+	// A few bytes may unpack to more than there is memory.
+	const told = sizeInHeader(png);
+	if (told) expectSize(told);
 	try {
 		image = decode(png);
 	} catch (error) {
 		throw new Error(`${name}: not a readable PNG (${(error as Error).message})`);
 	}
 	const { channels, depth, data } = image;
-	if (image.width !== width || image.height !== height) {
-		throw new Error(`${name}: got ${image.width} × ${image.height} pixels, expected ${width} × ${height}`);
-	}
+	expectSize(image);
 	if (depth !== 8 || channels < 3) {
 		throw new Error(`${name}: got ${channels} channels of ${depth} bits, expected RGB or RGBA of 8`);
 	}
@@ -42,6 +47,13 @@ export function decodePlane(name: string, png: Uint8Array, width: number, height
 		for (let c = 0; c < channels; c++) texels[i * 4 + c] = data[i * channels + c] as number;
 	}
 	return texels;
+}
+
+/** The size that a PNG tells first of all; undefined where it is none. */
+function sizeInHeader(png: Uint8Array): { width: number; height: number } | undefined {
+	const header = new DataView(png.buffer, png.byteOffset, png.byteLength);
+	if (png.length < 24 || header.getUint32(0) !== 0x89504e47) return undefined;
+	return { width: header.getUint32(16), height: header.getUint32(20) };
 }
 
 /** Texels of one layer, and layers. */

@@ -107,8 +107,7 @@ async function start(): Promise<void> {
 	element('lesson').innerHTML = (await texts[language]()).default;
 	fillContents(element('steps'), WORDS[language].steps);
 	// The text moves the place that the address asks for.
-	if (location.hash)
-		document.getElementById(decodeURIComponent(location.hash.slice(1)))?.scrollIntoView({ behavior: 'instant' });
+	document.getElementById(location.hash.slice(1))?.scrollIntoView({ behavior: 'instant' });
 
 	const lesson = newLesson(language);
 	const waiting = new Set<HTMLElement>();

@@ -162,9 +162,11 @@ export class DeepOpacityMaps {
 	/** @returns whether something had changed and the maps were drawn */
 	update(renderer: WebGLRenderer, light: DirectionalLight): boolean {
 		this.#aim(light);
-		if (!this.#changed()) return false;
-		this.#fit();
 		const [depths, opacity] = this.#targets(renderer);
+		// They are gone with a lost context.
+		const kept = renderer.properties.has(opacity.texture);
+		if (!this.#changed() && kept) return false;
+		this.#fit();
 		const target = renderer.getRenderTarget();
 		const { autoClear } = renderer;
 		const alpha = renderer.getClearAlpha();

@@ -1,4 +1,4 @@
-/** Taking the picture along: as a link, and as a file. */
+/** Taking along what a page shows: as text, and as a file. */
 
 /** @returns whether the text is in the clipboard */
 export async function copy(text: string): Promise<boolean> {
@@ -16,7 +16,7 @@ function copyBySelection(text: string): boolean {
 	const before = document.activeElement;
 	const field = document.createElement('textarea');
 	field.value = text;
-	field.className = 'hidden';
+	field.style.position = 'fixed';
 	document.body.append(field);
 	field.select();
 	const copied = document.execCommand('copy');
