@@ -44,6 +44,9 @@ export default defineConfig({
 	build: {
 		outDir: at('../dist'),
 		emptyOutDir: true,
+		// Browsers that know light-dark(): what it is rewritten to for older ones takes the root's scheme everywhere, and words
+		// over the dark picture would be dark in a light scheme.
+		cssTarget: ['chrome123', 'edge123', 'firefox120', 'safari17.5'],
 		rolldownOptions: { input: pages.map(at) },
 		// The policy allows no fonts nor scripts in data: addresses, and files of their own are kept by browsers.
 		assetsInlineLimit: 0,

@@ -70,6 +70,13 @@ test('the built demo, and what it weighs', async ({ page, watch }, { annotations
 	expect(weights.whole, 'the whole page').toBeLessThan(WHOLE);
 	expect(weights.whole).toBeGreaterThan(0.5e6);
 
+	// The picture is dark in either scheme: words over it are light in the light one, too.
+	await page.emulateMedia({ colorScheme: 'light' });
+	const [red = 0, green = 0, blue = 0] = await page
+		.locator('#hint')
+		.evaluate((hint) => (getComputedStyle(hint).color.match(/\d+/g) ?? []).map(Number));
+	expect(Math.min(red, green, blue)).toBeGreaterThan(160);
+
 	// Timers of five microseconds, and places of light only where they are asked for.
 	expect(await page.evaluate(() => crossOriginIsolated)).toBe(true);
 	const exr = () => watch.requests.filter((url) => /\.exr/.test(url)).map((url) => url.replace(/.*\/|-[^-]*$/g, ''));
