@@ -247,7 +247,8 @@ def test_bad_file_is_one_sentence(
 def test_missing_file_and_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("folder.obj").mkdir()
-    with pytest.raises(MeshError, match=r"^nope\.obj: no such file, expected a mesh file or sphere, plane, plane:RxC, torus"):
+    expected = r"^nope\.obj: no such file, expected a mesh file or sphere, plane, plane:RxC, torus"
+    with pytest.raises(MeshError, match=expected):
         load_mesh(Path("nope.obj"))
     with pytest.raises(MeshError, match=r"^folder\.obj: is a folder, expected a mesh file$"):
         load_mesh(Path("folder.obj"))
