@@ -14,7 +14,8 @@ interface Allocations {
 
 /** Bytes that the page's and the library's own files have asked for. */
 const own = ({ callFrame, selfSize, children }: Allocations): number =>
-	(/\/(demo|fur)\/\w+\.ts/.test(callFrame.url) ? selfSize : 0) + children.reduce((sum, child) => sum + own(child), 0);
+	(/\/(demo|fur|page)\/\w+\.ts/.test(callFrame.url) ? selfSize : 0) +
+	children.reduce((sum, child) => sum + own(child), 0);
 
 test('a moving light uploads neither texture nor buffer', async ({ page }) => {
 	await watchGpu(page);
