@@ -96,4 +96,10 @@ test('lamps, texels, bits and numbers, by mouse and keyboard', async ({ page }) 
 	const six = await ptm();
 	await figure('numbers').getByRole('radio', { name: '3', exact: true }).check();
 	await expect.poll(ptm).toBeLessThan(six - 1);
+
+	// On paper each stands whole on a page, be it A4 or Letter, with margins of an inch.
+	await page.emulateMedia({ media: 'print' });
+	await page.setViewportSize({ width: 602, height: 864 });
+	for (const name of ['dome', 'texel', 'bits', 'numbers'])
+		expect((await figure(name).boundingBox())?.height ?? Infinity, name).toBeLessThan(864);
 });
