@@ -53,7 +53,7 @@ test('steady frames under a moving light allocate nothing', async ({ page }) => 
 	await frames(page, 400);
 	let [kept, thrown] = [Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY];
 	// Its code and notes take room, too, now and then; what the page keeps it keeps every time.
-	for (let stretch = 0; stretch < 4 && (kept > 40 || thrown > 1000); stretch++) {
+	for (let stretch = 0; stretch < 8 && (kept > 40 || thrown > 1000); stretch++) {
 		const before = await heap();
 		await devtools.send('HeapProfiler.startSampling', sampling);
 		await frames(page, 600);

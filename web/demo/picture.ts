@@ -134,6 +134,7 @@ export class Picture {
 
 	/** The picture as a file: at full resolution, and without the lamp. */
 	async file(): Promise<Blob> {
+		if (this.stage.gl.isContextLost()) throw new Error('the picture is being drawn anew, please try again');
 		const { visible } = this.lamp;
 		this.stage.scale = 1;
 		this.lamp.visible = false;

@@ -32,6 +32,7 @@ export class Chosen {
 		if (!chosen) {
 			chosen = Measurements.open().then(async (all) => new Chosen(all, await all.layer(FIRST_LAYER)));
 			known.set(lesson, chosen);
+			chosen.catch(() => known.delete(lesson));
 		}
 		return chosen;
 	}
@@ -87,15 +88,16 @@ export class Chosen {
 		return light.subarray(lamp * texels.length, (lamp + 1) * texels.length);
 	}
 
-	/** Shows another layer, and its texel nearest to the one that was shown. */
+	/** Shows another layer, and its texel nearest to the one that was shown; stays where it cannot be had. */
 	async show(index: number): Promise<void> {
 		if (index === this.#index) return;
 		this.#index = index;
 		const [row, column] = [this.row, this.column];
-		const layer = await this.measurements.layer(index);
+		const layer = await this.measurements.layer(index).catch(() => undefined);
 		// Another may have been asked for meanwhile.
 		if (index !== this.#index) return;
-		this.shown = layer;
+		if (layer) this.shown = layer;
+		else this.#index = this.record.samples.findIndex(({ layer: number }) => number === this.shown.number);
 		this.#near(row, column);
 		this.#tell();
 	}

@@ -130,10 +130,10 @@ async function fetched(name: string): Promise<Response> {
 
 const bytes = async (name: string) => new Uint8Array(await (await fetched(name)).arrayBuffer());
 
-/** The lesson's measurements: each file is fetched once, when it is wanted first. */
+/** The lesson's measurements: each file is fetched once, when it is wanted first; again where that has failed. */
 export class Measurements {
-	#planes: Promise<Uint8Array[]> | undefined;
-	readonly #layers: (Promise<Layer> | undefined)[] = [];
+	readonly #files = new Map<string, Promise<Uint8Array>>();
+	readonly #layers = new Map<number, Layer>();
 
 	private constructor(readonly record: LessonRecord) {}
 
@@ -142,12 +142,19 @@ export class Measurements {
 	}
 
 	/** @param index of the layer among those that were kept */
-	layer(index: number): Promise<Layer> {
+	async layer(index: number): Promise<Layer> {
 		const { samples, planes } = this.record;
-		this.#planes ??= Promise.all(planes.map(bytes));
-		this.#layers[index] ??= Promise.all([bytes(samples[index]?.file ?? ''), this.#planes]).then(([picture, stored]) =>
-			decodeLayer(this.record, index, picture, stored),
-		);
-		return this.#layers[index];
+		const files = [samples[index]?.file ?? '', ...planes].map((name) => this.#file(name));
+		const [picture, ...stored] = await Promise.all(files);
+		const layer = this.#layers.get(index) ?? decodeLayer(this.record, index, picture ?? new Uint8Array(), stored);
+		this.#layers.set(index, layer);
+		return layer;
+	}
+
+	#file(name: string): Promise<Uint8Array> {
+		const file = this.#files.get(name) ?? bytes(name);
+		this.#files.set(name, file);
+		file.catch(() => this.#files.delete(name));
+		return file;
 	}
 }
