@@ -40,7 +40,7 @@ describe('the file that a glTF file means', () => {
 		'fox/model.gltf',
 		'fox/plane0.png',
 		'fox/own maps/caf\u00e9 1.png',
-		'shared/skin.png',
+		'common/skin.png',
 		'fox/100%.png',
 	);
 	const meant = async (uri: string, container: Container = 'zip') => {
@@ -57,7 +57,7 @@ describe('the file that a glTF file means', () => {
 		['Plane0.PNG', 'fox/plane0.png'],
 		['own%20maps/caf%C3%A9%201.png', 'fox/own maps/caf\u00e9 1.png'],
 		['own maps/cafe\u0301 1.png', 'fox/own maps/caf\u00e9 1.png'],
-		['../shared/skin.png', 'shared/skin.png'],
+		['../common/skin.png', 'common/skin.png'],
 		['100%.png', 'fox/100%.png'],
 		['plane1.png', 'fox/plane1.png: it is not in the zip'],
 		['../../x', 'fox/../../x: it is not in the zip'],

@@ -5,11 +5,11 @@ import { setState } from '../page/element.ts';
 import type { Triple, View } from './address.ts';
 import type { OwnModel } from './drop.ts';
 import { type EnvironmentName, loadEnvironment } from './environments.ts';
-import { Looks, type Outfit } from './looks.ts';
+import { Looks } from './looks.ts';
 import { textureBytes } from './memory.ts';
 import { firstView, folderOf, loadMenu, loadModel, type MenuEntry, type Model, offered, sourceAt } from './models.ts';
 import { notice, withdraw } from './notice.ts';
-import { adjust, outfitsOf } from './outfits.ts';
+import { adjust, availableOutfits } from './outfits.ts';
 import type { Picture } from './picture.ts';
 import type { Progress } from './progress.ts';
 import { en } from './words/drop.en.ts';
@@ -253,7 +253,7 @@ export class Exhibit {
 		const view = this.#view;
 		if (!model?.fur) return this.changed();
 		for (const reason of adjust(view, this.entry, this.menu)) notice(reason);
-		const outfits = await this.#outfits();
+		const outfits = await availableOutfits(view, this.entry, this.menu, stage.limits);
 		if (turn !== this.#latestOutfit || model !== stage.model) return;
 		this.looks.wear(model.fur, outfits, view);
 		this.looks.cut(view.split?.share ?? 1);
@@ -264,20 +264,6 @@ export class Exhibit {
 		this.#weigh();
 		if (early) await this.#grow();
 		this.changed();
-	}
-
-	/** Where a pelt cannot be had, says why and does without. */
-	async #outfits(): Promise<Outfit[]> {
-		const { stage } = this.#picture;
-		const view = this.#view;
-		try {
-			return await outfitsOf(view, this.entry, this.menu, stage.limits);
-		} catch (error) {
-			const name = view.preset ?? words.methods.eigen;
-			notice(words.presetNotShown(words.titles[name] ?? name, (error as Error).message), 'error');
-			Object.assign(view, { preset: undefined, method: undefined, split: undefined });
-			return outfitsOf(view, this.entry, this.menu, stage.limits);
-		}
 	}
 
 	/** A first frame with few shells and no fins: programs that a frame does without need not be there for it. */

@@ -4,6 +4,7 @@ import type { Fur, TextureLimits } from '../fur/index.ts';
 import type { Method, View } from './address.ts';
 import type { Outfit } from './looks.ts';
 import { loadPelt, type MenuEntry, pelts, sourceAt } from './models.ts';
+import { notice } from './notice.ts';
 import { words } from './words/index.ts';
 
 /** Those on their way or there: pelts are small, and come back often. */
@@ -26,7 +27,8 @@ export function hasEigen(view: View, entry: MenuEntry | undefined, menu: readonl
 	return peltOf(view, entry, menu, 'eigen') !== undefined;
 }
 
-const isRival = (method: Method) => method !== 'ptm' && method !== 'eigen';
+/** Whether it is one to compare with, not the fur's own light. */
+export const isRival = (method: Method) => method !== 'ptm' && method !== 'eigen';
 
 /** Takes out of the view what this model cannot wear. @returns why */
 export function adjust(view: View, entry: MenuEntry | undefined, menu: readonly MenuEntry[]): string[] {
@@ -53,7 +55,7 @@ export function adjust(view: View, entry: MenuEntry | undefined, menu: readonly 
  * @param view what can be worn, as `adjust` leaves it
  * @returns one outfit, or two to be shown side by side
  */
-export function outfitsOf(
+function outfitsOf(
 	view: View,
 	entry: MenuEntry | undefined,
 	menu: readonly MenuEntry[],
@@ -70,6 +72,23 @@ export function outfitsOf(
 			return { pelt: pelt && (await load(pelt.name, limits)), tips, gloss, method: name };
 		}),
 	);
+}
+
+/** The same; where a pelt cannot be had, says why and takes out of the view what needs it. */
+export async function availableOutfits(
+	view: View,
+	entry: MenuEntry | undefined,
+	menu: readonly MenuEntry[],
+	limits: TextureLimits,
+): Promise<Outfit[]> {
+	try {
+		return await outfitsOf(view, entry, menu, limits);
+	} catch (error) {
+		const name = view.preset ?? words.methods.eigen;
+		notice(words.presetNotShown(words.titles[name] ?? name, (error as Error).message), 'error');
+		Object.assign(view, { preset: undefined, method: undefined, split: undefined });
+		return outfitsOf(view, entry, menu, limits);
+	}
 }
 
 function load(name: string, limits: TextureLimits): Promise<Fur> {

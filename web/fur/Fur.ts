@@ -150,10 +150,10 @@ export interface DressOptions {
  *     const fox = dress(bunny, pelt); // both loaded: `gltf.userData.fur`
  *     bunny.visible = false;
  *
- * It stands beside the body's own fur, looks as that does at the moment (gloss and the like), and is seen. It has the body's geometry and the pelt's textures, and leaves them alone
- * when it is disposed of: body and pelt have to outlive it, the pelt's model needs no scene. How fur is combed and how its
- * length changes from place to place is the body's. Texture coordinates that the body was baked with (`--uv own`) may show a
- * seam where they close; lapped ones don't.
+ * It stands beside the body's own fur, looks as that does at the moment (gloss and the like), and is seen. It has the body's
+ * geometry and the pelt's textures, and leaves them alone when it is disposed of: body and pelt have to outlive it, the
+ * pelt's model needs no scene. How fur is combed and how its length changes from place to place is the body's. Texture
+ * coordinates that the body was baked with (`--uv own`) may show a seam where they close; lapped ones don't.
  */
 export function dress(body: Fur, pelt: Fur, { tips = 1 }: DressOptions = {}): Fur {
 	const { ground } = body;

@@ -1,12 +1,12 @@
 /** What the controls do: each changes the view, and the picture by it. */
 
 import { copy, download } from '../page/share.ts';
-import { addressWriter, formatAddress, type Method, type View } from './address.ts';
+import { addressWriter, formatAddress, type View } from './address.ts';
 import { bakedColours, hasOwnColours } from './colours.ts';
 import type { Exhibit } from './exhibit.ts';
 import { type MenuEntry, offered, pelts } from './models.ts';
 import { notice } from './notice.ts';
-import { hasEigen } from './outfits.ts';
+import { hasEigen, isRival } from './outfits.ts';
 import { type Menu, Panel, type Settings } from './panel.ts';
 import type { Picture } from './picture.ts';
 import { SplitLine } from './split.ts';
@@ -140,10 +140,9 @@ export class Controls {
 			...{ fins: view.fins ?? true, length: view.length ?? 1, density: view.density ?? 1 },
 			...{ root: `#${root}`, tip: `#${tip}` },
 		};
-		const rival = (method: Method) => method !== 'ptm' && method !== 'eigen';
 		this.panel.update(settings, {
 			fur: fur !== undefined,
-			fins: fur?.fins !== undefined && !(rival(settings.method) && (!view.split || rival(view.split.method))),
+			fins: fur?.fins !== undefined && !(isRival(settings.method) && (!view.split || isRival(view.split.method))),
 			eigen: hasEigen(view, entry, menu),
 			root: fur !== undefined && !hasOwnColours(fur),
 		});
