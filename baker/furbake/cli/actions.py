@@ -6,7 +6,7 @@ import argparse
 import json
 import sys
 import time
-from dataclasses import replace
+from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -19,6 +19,9 @@ from furbake.bake import STAGES, bake
 from furbake.body import patch_figures
 from furbake.cli.progress import shown
 from furbake.compare import Row, compare, markdown
+from furbake.halfway import Row as HalfwayRow
+from furbake.halfway import halfway
+from furbake.halfway import markdown as halfway_table
 from furbake.identity import bake_key
 from furbake.lesson import STAGES as LESSON_STAGES
 from furbake.lesson import fresh as fresh_lesson
@@ -158,20 +161,30 @@ def run_report(args: argparse.Namespace) -> int:
 
 def run_swatch(args: argparse.Namespace) -> int:
     """Write a picture of a baked pelt, or of a preset's."""
-    out, look = Path(args.out), {"tiles": args.tiles, "size": args.pixels}
+    out, look = Path(args.out), {"tiles": args.tiles, "size": args.pixels, "state": args.state}
     if args.folder:
         if args.preset or args.set:
             raise OptionError(f"swatch: got {args.folder!r} and --preset or --set, expected DIR alone or no DIR")
         save(Path(args.folder), out, args.light, **look)
     else:
         args.preset = args.preset or "paper"
-        options = chosen(args)
+        options = in_state(chosen(args), args.state)
         with TemporaryDirectory(prefix="furbake-") as scratch, shown(STAGES, args.quiet) as progress:
             bake("plane", Path(scratch) / "plane", options, progress=progress)
             save(Path(scratch) / "plane", out, args.light, **look)
     if not args.quiet:
         print(out)
     return 0
+
+
+def in_state(options: BakeOptions, state: str | None) -> BakeOptions:
+    """Options of a bake that has a state: the dry one, and that one."""
+    if state is None or state == "dry":
+        return options
+    dirty = state == "dirty"
+    options = replace(options, dirt=dirty, states=("dry",) if dirty else ("dry", state))
+    options.check()
+    return options
 
 
 def run_lesson(args: argparse.Namespace) -> int:
@@ -215,6 +228,21 @@ def run_compare(args: argparse.Namespace) -> int:
             rows += compare(options, args.lights, partial(progress, name))
             progress(name, 1.0)
     print(markdown(rows), end="")
+    return 0
+
+
+def run_states(args: argparse.Namespace) -> int:
+    """Print a table of presets and how good what lies between two states of their fur is, all baked anew."""
+    names = args.names or preset_names()
+    furs = [replace(preset(name), layers=16, size=args.size, lights=args.lights) for name in names]
+    for options in furs:
+        options.check()
+    rows: list[HalfwayRow] = []
+    with shown(names, args.quiet) as progress:
+        for name, options in zip(names, furs, strict=True):
+            rows += halfway(options, partial(progress, name))
+            progress(name, 1.0)
+    print(json.dumps([asdict(row) for row in rows]) if args.json else halfway_table(rows), end="")
     return 0
 
 

@@ -20,7 +20,7 @@ class UsageError(ValueError):
 class _Parser(argparse.ArgumentParser):
     """Says what is wrong in the words of all other errors, instead of printing usage."""
 
-    shape = "furbake bake, inspect, validate, presets, report, swatch, lesson, verify, compare or patches"
+    shape = "furbake bake, inspect, validate, presets, report, swatch, lesson, verify, compare, states or patches"
 
     def error(self, message: str) -> NoReturn:
         if match := re.fullmatch(r"the following arguments are required: (.*)", message, re.DOTALL):
@@ -125,6 +125,12 @@ def parser() -> argparse.ArgumentParser:
     compare.add_argument("--lights", type=_lights, default=192, metavar="N", help="lights of the fit (default: 192)")
     compare.add_argument("--size", type=_whole, metavar="N", help="texels per side of a slab (default: the preset's)")
     compare.add_argument("--quiet", action="store_true", help="no progress")
+    states = add("states", actions.run_states, "[NAME ...]", "table of how states of fur mix, baked anew, as Markdown")
+    states.add_argument("names", metavar="NAME", nargs="*", type=_path, help="presets or .toml files (default: all)")
+    states.add_argument("--lights", type=_lights, default=64, metavar="N", help="lights of the fits (default: 64)")
+    states.add_argument("--size", type=_whole, default=64, metavar="N", help="texels per side of a slab (default: 64)")
+    states.add_argument("--json", action="store_true", help="every figure, as a JSON list")
+    states.add_argument("--quiet", action="store_true", help="no progress")
     patches = add("patches", actions.run_patches, "MODEL ...", "table of how lapped patches cover models, as Markdown")
     patches.add_argument("models", metavar="MODEL", nargs="+", type=_path)
     patches.add_argument(
@@ -192,6 +198,7 @@ def _swatch_arguments(parser: _Parser) -> None:
     _preset_arguments(parser, None)
     add("-o", "--out", metavar="FILE.png", required=True, type=_path, help="picture to write")
     add("--light", metavar="X,Y,Z", type=_direction, default=FROM_THE_SIDE, help="towards the lamp: right, up, at you")
+    add("--state", metavar="NAME", help="dry (default), damp, moist, wet, soaked or dirty")
     add("--tiles", metavar="T", type=_whole, default=3, help="repeats of the tile along a side (default: 3)")
     add("--pixels", metavar="P", type=_whole, default=512, help="side of the picture (default: 512)")
     add("--quiet", action="store_true", help="no progress, no summary")
