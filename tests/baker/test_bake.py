@@ -160,7 +160,7 @@ def test_states_share_their_numbers_and_differ_in_their_texels(living: Path) -> 
     assert [pelt.colour is None for pelt in pelts] == [False] * 5 + [True]
     seen = [1 - np.prod(1 - pelt.alpha / 255, axis=0) for pelt in pelts]
     cover = [float(image.mean()) for image in seen]
-    assert cover[4] < cover[0] - 0.02  # skin between the clumps
+    assert cover[4] < cover[0] - 0.01  # skin between the clumps
     assert cover[5] > cover[0]
 
 
