@@ -201,8 +201,9 @@ def test_eigen_states_share_their_curves(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("changes", "what"),
     [
-        ({"states": ("soaked",)}, "states: got soaked, expected dry..wet, or dry and some of damp"),
+        ({"states": ("soaked",)}, "states: got soaked, expected dry..wet, or dry and then some of damp"),
         ({"states": ("dry", "dry")}, "states: got dry,dry"),
+        ({"states": ("dry", "soaked", "damp")}, "states: got dry,soaked,damp"),
         ({"states": ("dry", "frozen")}, "states: got dry,frozen"),
         ({"states": ()}, "states: got , expected"),
         ({"dirt": True, "basis": "eigen", "coefficients": 3}, "dirt: got 3 coefficients"),

@@ -142,7 +142,7 @@ def test_states_that_there_are_not(run: Callable[..., Any]) -> None:
     done = run("bake", "plane", "-o", "out", *TINY, "--states", "dry..ice")
     assert (done.status, listed()) == (2, [])
     assert done.err == (
-        "furbake: error: states: got dry..ice, expected dry..wet, or dry and some of damp, moist, wet, soaked\n"
+        "furbake: error: states: got dry..ice, expected dry..wet, or dry and then some of damp, moist, wet, soaked\n"
     )
 
 
@@ -248,7 +248,7 @@ BAD_COMMANDS = {
     (
         "fry",
     ): "command: got 'fry', expected bake, inspect, validate, presets, report, swatch, lesson, verify, compare, states",
-    (): "COMMAND: missing, expected furbake bake, inspect, validate, presets, report, swatch, lesson, verify, compare, states ",
+    (): "COMMAND: missing, expected furbake bake, inspect, validate, presets, report, swatch, lesson, verify, ",
 }
 
 

@@ -268,6 +268,8 @@ def living(tmp_path_factory: pytest.TempPathFactory) -> Path:
         (lambda pelts, fur: pelts[0].update(wetness=0.5), "pelts[0] is not dry and clean"),
         (lambda pelts, fur: pelts[1].update(name="dry"), "names that differ"),
         (lambda pelts, fur: fur.pop("mud"), "there is no mud"),
+        (lambda pelts, fur: pelts[1].update(wetness=0), "wetness 0, 0, expected one that rises"),
+        (lambda pelts, fur: pelts[2].update(wetness=0.5), "pelt dirty is wet and dirty"),
         (lambda pelts, fur: pelts[1]["scale"].__setitem__(2, 9.0), "pelts[1].scale differs"),
         (lambda pelts, fur: pelts[2]["fin"]["bias"].__setitem__(0, 9.0), "pelts[2].fin.bias differs"),
         (lambda pelts, fur: pelts[1].update(wetness=1.5), "1.5 is greater than the maximum"),

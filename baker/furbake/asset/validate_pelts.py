@@ -59,6 +59,12 @@ def states(asset: Asset) -> Iterator[str]:
     if len(set(names)) < len(names):
         yield f"{EXTENSION}: pelts are called {', '.join(names)}, expected names that differ"
     dirty = [pelt for pelt in found if pelt.get("dirt", 0)]
+    wetness = [pelt.get("wetness", 0) for pelt in found if pelt not in dirty]
+    if sorted(set(wetness)) != wetness:
+        told = ", ".join(f"{value:g}" for value in wetness)
+        yield f"{EXTENSION}: clean pelts have the wetness {told}, expected one that rises"
+    if any(pelt.get("wetness", 0) for pelt in dirty):
+        yield f"{EXTENSION}: pelt {dirty[0]['name']} is wet and dirty, expected one of the two"
     if dirty and "mud" not in fur:
         yield f"{EXTENSION}: pelt {dirty[0]['name']} is dirty but there is no mud, expected its colour"
     if dirty and fur["coefficients"] == 3:
