@@ -69,13 +69,19 @@ def states(asset: Asset) -> Iterator[str]:
         yield f"{EXTENSION}: pelt {dirty[0]['name']} is dirty but there is no mud, expected its colour"
     if dirty and fur["coefficients"] == 3:
         yield f"{EXTENSION}: pelt {dirty[0]['name']} is dirty with 3 coefficients, expected 4 to 6"
+    yield from _mixable(found)
+
+
+def _mixable(found: list[dict[str, Any]]) -> Iterator[str]:
+    """The bytes of all states mean the same."""
+    first = found[0]
     for i, pelt in enumerate(found[1:], 1):
         for key in ("scale", "bias"):
-            if pelt[key] != found[0][key]:
+            if pelt[key] != first[key]:
                 yield f"{EXTENSION}: pelts[{i}].{key} differs, expected that of pelts[0]"
-        if "fin" in pelt and "fin" in found[0]:
+        if "fin" in pelt and "fin" in first:
             for key in ("width", "height", "scale", "bias"):
-                if pelt["fin"][key] != found[0]["fin"][key]:
+                if pelt["fin"][key] != first["fin"][key]:
                     yield f"{EXTENSION}: pelts[{i}].fin.{key} differs, expected that of pelts[0]"
 
 
