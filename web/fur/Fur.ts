@@ -3,6 +3,7 @@ import type { Columns } from './clip.ts';
 import { FinMaterial } from './FinMaterial.ts';
 import { FurMaterial } from './FurMaterial.ts';
 import { FurFins } from './fins.ts';
+import { Follicles } from './follicles.ts';
 import type { FurAsset, Pelt } from './format.ts';
 import type { FurTextures } from './PeltMaterial.ts';
 import { FurShells } from './shells.ts';
@@ -95,6 +96,16 @@ export class Fur {
 		this.#length = share;
 		this.shells.furLength = share * this.asset.length;
 		this.fins?.fit(this.shells);
+	}
+
+	/**
+	 * What its hairs stand in, and are moved, wetted and soiled by: the same ones for all furs of a body. Shells and fins
+	 * are told theirs when they are first asked for.
+	 */
+	get follicles(): Follicles {
+		const follicles = Follicles.of(this.shells.geometry);
+		for (const part of [this.fins, this.shells]) if (part) follicles.mark(part.geometry);
+		return follicles;
 	}
 
 	/**
