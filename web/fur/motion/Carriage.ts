@@ -69,7 +69,7 @@ export class Carriage {
 		this.#mesh.updateWorldMatrix(true, false);
 		this.#from.copy(this.#to);
 		// What is nowhere stays where it was.
-		if (!Number.isFinite(matrixWorld.determinant())) return false;
+		if (!(Math.abs(matrixWorld.determinant()) > 0)) return false;
 		const moved = this.#placed && !this.#to.equals(matrixWorld);
 		this.#to.copy(matrixWorld);
 		if (!this.#placed || (moved && !this.#measure(seconds))) this.place();
