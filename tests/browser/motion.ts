@@ -1,6 +1,6 @@
 /** Runs inside the page: the same fur moved by CPU and GPU. Its answers go to `motion.spec.ts`. */
 
-import { PerspectiveCamera, Scene, type Texture, Vector3, Vector4, WebGLRenderer, WebGLRenderTarget } from 'three';
+import { type DataTexture, type Texture, Vector3, Vector4, WebGLRenderer, WebGLRenderTarget } from 'three';
 import { type Fur, FurMotion, type MotionOptions } from '../../web/fur/index.ts';
 import { loadFur } from '../../web/measure/studio.ts';
 
@@ -19,7 +19,7 @@ function read({ follicles }: Fur, swing: Texture | undefined): Float32Array {
 		gl.readPixels(0, 0, 256, rows, gl.RGBA, gl.FLOAT, texels);
 		gl.deleteFramebuffer(framebuffer);
 		renderer.resetState();
-	} else if (swing) texels = swing.image.data as Float32Array<ArrayBuffer>;
+	} else if (swing) texels = (swing as DataTexture).image.data as Float32Array<ArrayBuffer>;
 	return Float32Array.from({ length: 3 * follicles.count }, (_, i) => texels[4 * Math.floor(i / 3) + (i % 3)] ?? 0);
 }
 
@@ -101,11 +101,11 @@ export async function leaves(url: string) {
 		act(fur, motion, frame);
 		motion.update(1 / 60);
 	}
-	const [box, view] = [gl.getParameter(gl.SCISSOR_BOX), gl.getParameter(gl.VIEWPORT)].map((four) => [...four]);
+	const four = (name: number): number[] => [...gl.getParameter(name)];
 	const kept = {
 		target: renderer.getRenderTarget() === target,
-		box,
-		view: [...view, ...renderer.getCurrentViewport(new Vector4()).toArray()],
+		box: four(gl.SCISSOR_BOX),
+		view: [...four(gl.VIEWPORT), ...renderer.getCurrentViewport(new Vector4()).toArray()],
 		scissor: gl.isEnabled(gl.SCISSOR_TEST),
 		autoClear: renderer.autoClear,
 		alpha: renderer.getClearAlpha(),
@@ -128,8 +128,6 @@ export async function leaves(url: string) {
 	let frames = 0;
 	while (motion.update(1 / 60) && frames < 2000) frames++;
 	const result = { kept, swung, during, after, frames, asleep: motion.asleep, error: gl.getError() };
-	// As if nothing had been: it draws, too.
-	renderer.render(new Scene(), new PerspectiveCamera());
 	motion.dispose();
 	fur.dispose();
 	return result;
