@@ -13,9 +13,9 @@ import {
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 import { Fur } from './Fur.ts';
 import { EXTENSION, type Fin, type FurAsset, type Pelt, parseFur, VERSION } from './format.ts';
+import { decodePlanes, type Layout, type PlaneFile, type Role } from './levels.ts';
 import { checkLimits, type TextureLimits } from './limits.ts';
 import { ALPHA_CUT } from './lod.ts';
-import { decodePlanes, type Layout, type PlaneFile, type Role } from './levels.ts';
 import type { FurTextures } from './PeltMaterial.ts';
 import { type Cut, PeltStates } from './PeltStates.ts';
 import { textureArray } from './planes.ts';

@@ -1,6 +1,6 @@
 /** Where the fur of a body is wet and where it is dirty, and how it dries. */
 
-import { DataTexture, type Matrix4, Matrix4 as Matrix, RGFormat, UnsignedByteType, Vector3 } from 'three';
+import { DataTexture, Matrix4 as Matrix, type Matrix4, RGFormat, UnsignedByteType, Vector3 } from 'three';
 import { FOLLICLES_PER_ROW, type Follicles } from './follicles.ts';
 
 /** What 1 is stored as: a number that 2, 3, 4, 5, 6 and 8 divide, so that the usual states are met exactly. */
@@ -215,7 +215,11 @@ export class FurWeather {
 			const distance = away(i);
 			if (distance < closest) [closest, nearest] = [distance, i];
 		}
-		const [nx, ny, nz] = [normal[3 * nearest], normal[3 * nearest + 1], normal[3 * nearest + 2]] as [number, number, number];
+		const [nx, ny, nz] = [normal[3 * nearest], normal[3 * nearest + 1], normal[3 * nearest + 2]] as [
+			number,
+			number,
+			number,
+		];
 		for (let i = 0; i < count; i++) {
 			const distance = away(i) / reach;
 			if (distance >= 1) continue;

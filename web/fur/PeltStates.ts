@@ -90,9 +90,7 @@ export class PeltStates {
 		const states = dirty ? [...wet, dirty] : [...wet];
 		if (states.length === 1) return;
 		const others = states.slice(1);
-		const fetched = await Promise.all(
-			others.map((state) => Promise.all(this.#all((cut) => cut.fetch(state)))),
-		);
+		const fetched = await Promise.all(others.map((state) => Promise.all(this.#all((cut) => cut.fetch(state)))));
 		const files = new Map(others.map((state, i) => [state, fetched[i] as PlaneFile[][]]));
 		const { layers } = this.cuts[0].layout.extent;
 		const two = most < states.length || layers * states.length > this.#layers;

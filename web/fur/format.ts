@@ -165,7 +165,11 @@ function checkStates({ pelts, coefficients }: FurAsset): void {
 		throw new Error(`${EXTENSION}/${where}: got ${got}, expected ${expected}`);
 	};
 	if (first.wetness || first.dirt)
-		refuse('pelts', `${first.name} first, wet ${first.wetness ?? 0}, dirty ${first.dirt ?? 0}`, 'the dry and clean one');
+		refuse(
+			'pelts',
+			`${first.name} first, wet ${first.wetness ?? 0}, dirty ${first.dirt ?? 0}`,
+			'the dry and clean one',
+		);
 	for (const pelt of others.filter(({ wetness, dirt }) => wetness || dirt)) {
 		const { name, wetness, dirt, fin } = pelt;
 		const before = pelts.slice(0, pelts.indexOf(pelt));

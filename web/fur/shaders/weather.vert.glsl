@@ -2,6 +2,7 @@
 
 #if defined(WET) || defined(DIRTY)
 uniform highp sampler2D stains; // of each follicle, R = wetness, G = dirt: 1 is STAIN_STEPS / 255
+#define STAIN_STEPS 240.0
 #endif
 #ifdef WET
 out float vPlace; // among the states
