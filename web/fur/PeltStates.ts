@@ -33,6 +33,7 @@ export class PeltStates {
 	readonly #most: number;
 	/** Which states the textures hold, in their order; a dirty one is the last. */
 	#resident: readonly Pelt[];
+	#wet: readonly Pelt[];
 	/** The files of the others, where the textures hold two at most. */
 	#files: Map<Pelt, PlaneFile[][]> | undefined;
 	/** Where the textures may hold others in its place. */
@@ -52,7 +53,7 @@ export class PeltStates {
 		this.cuts = cuts;
 		this.#most = most;
 		this.#layers = layers;
-		this.#resident = [this.all.wet[0]];
+		this.#resident = this.#wet = [this.all.wet[0]];
 		this.#dry = this.#all(({ textures }) =>
 			ROLES.flatMap((role) => {
 				const texture = textures[role] as CompressedArrayTexture | undefined;
@@ -63,7 +64,7 @@ export class PeltStates {
 
 	/** States of rising wetness that the textures hold, the first layers the driest one's. */
 	get wet(): readonly Pelt[] {
-		return this.#resident.filter(({ dirt }) => !dirt);
+		return this.#wet;
 	}
 
 	/** Whether the textures hold the dirty state, after the wet ones. */
@@ -204,6 +205,7 @@ export class PeltStates {
 			}
 		}
 		this.#resident = states;
+		this.#wet = states.filter(({ dirt }) => !dirt);
 		for (const wearer of this.#wearers.keys()) wearer();
 	}
 
