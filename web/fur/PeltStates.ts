@@ -40,7 +40,8 @@ export class PeltStates {
 	#dry: Plane[][];
 	readonly #wearers = new Map<Wearer, readonly [from: number, to: number]>();
 	#loading: Promise<void> | undefined;
-	#settling: Promise<void> | undefined;
+	#settling = Promise.resolve();
+	#changing = false;
 	#gone = false;
 
 	/**
@@ -138,28 +139,33 @@ export class PeltStates {
 		return pairFor(wetnesses, from, to).map((i) => wet[i] as Pelt);
 	}
 
-	/** Shows what is wanted, one change after the other. */
+	/** Shows what is wanted, one change after the other; at once where nothing has to be decoded for it. */
 	#settle(): Promise<void> {
-		this.#settling ??= this.#change().finally(() => {
-			this.#settling = undefined;
-		});
+		if (!this.#changing) {
+			this.#changing = true;
+			this.#settling = this.#change();
+		}
 		return this.#settling;
 	}
 
 	async #change(): Promise<void> {
-		for (;;) {
-			const wanted = this.#wanted();
-			const files = this.#files;
-			const there = wanted.length === this.#resident.length && wanted.every((state, i) => state === this.#resident[i]);
-			if (this.#gone || !files || there) return;
-			const planes = new Map<Pelt, Plane[][]>();
-			for (const state of wanted) {
-				const at = this.#resident.indexOf(state);
-				if (at > 0) planes.set(state, this.#shown(at));
-				else if (state !== this.all.wet[0]) planes.set(state, await this.#decode(state, files));
+		try {
+			for (let wanted = this.#wanted(); !this.#gone && !this.#holds(wanted); wanted = this.#wanted()) {
+				const planes = new Map<Pelt, Plane[][]>();
+				for (const state of wanted) {
+					const at = this.#resident.indexOf(state);
+					if (at > 0) planes.set(state, this.#shown(at));
+					else if (state !== this.all.wet[0] && this.#files) planes.set(state, await this.#decode(state, this.#files));
+				}
+				if (!this.#gone) this.#show(wanted, planes);
 			}
-			if (!this.#gone) this.#show(wanted, planes);
+		} finally {
+			this.#changing = false;
 		}
+	}
+
+	#holds(states: readonly Pelt[]): boolean {
+		return states.length === this.#resident.length && states.every((state, i) => state === this.#resident[i]);
 	}
 
 	async #decode(state: Pelt, files: Map<Pelt, PlaneFile[][]>): Promise<Plane[][]> {
