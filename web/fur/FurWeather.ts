@@ -221,7 +221,9 @@ export class FurWeather {
 		let closest = Number.POSITIVE_INFINITY;
 		for (let i = 0; i < count; i++) {
 			const distance = away(i);
-			if (distance < closest) [closest, nearest] = [distance, i];
+			if (distance >= closest) continue;
+			closest = distance;
+			nearest = i;
 		}
 		const [nx, ny, nz] = [normal[3 * nearest], normal[3 * nearest + 1], normal[3 * nearest + 2]] as [
 			number,
