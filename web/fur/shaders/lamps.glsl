@@ -27,7 +27,12 @@ vec2 highlights(vec3 strand, vec3 normalVS, vec3 light, vec3 viewer) {
 	vec3 halfway = normalize(light + viewer);
 	vec2 along = vec2(dot(normalize(strand - 0.1 * normalVS), halfway), dot(normalize(strand + 0.2 * normalVS), halfway));
 	vec2 across = sqrt(max(1.0 - along * along, 0.0));
-	return smoothstep(-1.0, 0.0, along) * vec2(pow(across.x, sharpness), pow(across.y, 0.25 * sharpness));
+#ifdef WET
+	float exponent = sharpness * furTraits.w;
+#else
+	float exponent = sharpness;
+#endif
+	return smoothstep(-1.0, 0.0, along) * vec2(pow(across.x, exponent), pow(across.y, 0.25 * exponent));
 #else
 	return vec2(0.0);
 #endif
@@ -83,5 +88,8 @@ Lamps lampsAt(FurPoint point) {
 	#pragma unroll_loop_end
 #endif
 	lamps.lobes /= max(power, 1e-6);
+#ifdef WET
+	lamps.lobes *= furTraits.z;
+#endif
 	return lamps;
 }

@@ -11,10 +11,6 @@ uniform vec2 offset1; // −λ·Ω of a3, a4
 uniform float gloss; // of both highlights
 uniform float backlight; // of the light that comes through from behind
 
-#ifndef LOD_BIAS
-#define LOD_BIAS 0.0
-#endif
-
 struct FurTexel {
 	float alpha; // coverage of a slab of the baked thickness, seen from straight above
 	float tint;
@@ -24,17 +20,28 @@ struct FurTexel {
 
 FurTexel furTexel(vec3 at) {
 	FurTexel texel;
-	vec4 byte0 = texture(plane0, at, LOD_BIAS);
+	vec4 byte0 = furBytes(plane0, at);
 	vec4 a = byte0 * scale0 + offset0;
 	texel.low = a.xyz;
 #ifdef TWO_PLANES
-	vec4 byte1 = texture(plane1, at, LOD_BIAS);
+	vec4 byte1 = furBytes(plane1, at);
 	texel.high = vec3(byte1.xy * scale1 + offset1, a.w);
 	texel.alpha = denser(byte1.z);
 	texel.tint = byte1.w;
 #else
 	texel.alpha = denser(byte0.w);
 	texel.tint = 1.0;
+#endif
+#ifdef MUD
+	// Wet mud runs off between the hairs: their light is theirs again where there is none.
+	vec4 dirty0 = dirtyBytes(plane0, at), dirty1 = dirtyBytes(plane1, at);
+	vec4 dirtyA = dirty0 * scale0 + offset0;
+	float lit = vDirt * mix(1.0, dirty1.w, furWetness);
+	texel.low = mix(texel.low, dirtyA.xyz, lit);
+	texel.high = mix(texel.high, vec3(dirty1.xy * scale1 + offset1, dirtyA.w), lit);
+	texel.alpha = muddy(texel.alpha, dirty1.w, denser(dirty1.z));
+#elif defined(DIRTY)
+	mudShare = MUD_SHARE * vDirt;
 #endif
 	return texel;
 }
@@ -61,7 +68,11 @@ vec3 furRadiance(FurTexel texel, vec3 colour, Lamps lamps, Moments sky) {
 #endif
 #ifdef GLOSS
 	// The lamps' light on the texel is the highlights' shadow.
-	return colour * (light + lamp * (gloss * lamps.lobes.y)) + lamp * (gloss * texel.tint * lamps.lobes.x);
+	float shine = gloss * texel.tint;
+#ifdef DIRTY
+	shine *= 1.0 - mudShare;
+#endif
+	return colour * (light + lamp * (gloss * lamps.lobes.y)) + lamp * (shine * lamps.lobes.x);
 #else
 	return colour * light;
 #endif
