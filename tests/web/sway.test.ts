@@ -67,7 +67,7 @@ describe('a body', () => {
 		run(sway, 23, 60);
 		expect(sway.yaw).toBeCloseTo((23 / 24) * 2 * Math.PI, 6);
 		sway.turning = false;
-		expect(sway.yaw).toBeCloseTo(-2 * Math.PI / 24, 6);
+		expect(sway.yaw).toBeCloseTo((-2 * Math.PI) / 24, 6);
 		run(sway, 6, 60);
 		expect(sway.yaw).toBe(0);
 		expect(sway.step(1)).toBe(false);

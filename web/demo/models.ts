@@ -6,7 +6,7 @@ import { type Fur, FurLoaderPlugin, type TextureLimits } from '../fur/index.ts';
 import { disposeAll } from '../page/dispose.ts';
 import { parseAddress, type Triple } from './address.ts';
 
-/** An entry of models/models.json; its other fields are for the command that bakes it. */
+/** An entry of models/models.json. */
 export interface MenuEntry {
 	name: string;
 	title: string;
@@ -23,6 +23,8 @@ export interface MenuEntry {
 	menu?: boolean;
 	/** first view and light, written as in the address */
 	view?: string;
+	/** of the command that bakes it: they tell which states a pelt has */
+	options?: string[];
 }
 
 /** Where a model's files come from. */

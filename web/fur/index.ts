@@ -45,3 +45,4 @@ export {
 export type { FurTextures } from './PeltMaterial.ts';
 export { fitShadow } from './shadow.ts';
 export { FurShells, MAX_SHELLS } from './shells.ts';
+export { FurMotion, type MotionOptions } from './motion/FurMotion.ts';
