@@ -42,7 +42,7 @@ export {
 	relight,
 	smoothFunctions,
 } from './moments.ts';
+export { FurMotion, type MotionOptions } from './motion/FurMotion.ts';
 export type { FurTextures } from './PeltMaterial.ts';
 export { fitShadow } from './shadow.ts';
 export { FurShells, MAX_SHELLS } from './shells.ts';
-export { FurMotion, type MotionOptions } from './motion/FurMotion.ts';
