@@ -15,7 +15,6 @@ export { FinMaterial, type FinMaterialParameters } from './FinMaterial.ts';
 export { type DressOptions, dress, Fur } from './Fur.ts';
 export { type FurLoaderOptions, FurLoaderPlugin } from './FurLoaderPlugin.ts';
 export { FurMaterial, type FurMaterialParameters } from './FurMaterial.ts';
-export { FurWeather, type WeatheredBody, type WeatherOptions } from './FurWeather.ts';
 export { FurFins } from './fins.ts';
 export { FOLLICLES_PER_ROW, Follicles } from './follicles.ts';
 export {
@@ -43,6 +42,7 @@ export {
 	smoothFunctions,
 } from './moments.ts';
 export { FurMotion, type MotionOptions } from './motion/FurMotion.ts';
+export type { WindSettings } from './motion/Wind.ts';
 export type { FurTextures } from './PeltMaterial.ts';
 export { fitShadow } from './shadow.ts';
 export { FurShells, MAX_SHELLS } from './shells.ts';

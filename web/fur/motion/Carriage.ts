@@ -64,12 +64,14 @@ export class Carriage {
 	 * @returns whether it has moved
 	 */
 	look(seconds: number): boolean {
+		this.#skin.fill(0);
 		const { matrixWorld } = this.#mesh;
 		this.#mesh.updateWorldMatrix(true, false);
-		const moved = this.#placed && !this.#to.equals(matrixWorld);
 		this.#from.copy(this.#to);
+		// What is nowhere stays where it was.
+		if (!(Math.abs(matrixWorld.determinant()) > 0)) return false;
+		const moved = this.#placed && !this.#to.equals(matrixWorld);
 		this.#to.copy(matrixWorld);
-		if (!moved) this.#skin.fill(0);
 		if (!this.#placed || (moved && !this.#measure(seconds))) this.place();
 		return moved;
 	}
