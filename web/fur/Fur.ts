@@ -9,7 +9,7 @@ import type { FurAsset, Pelt } from './format.ts';
 import type { FurTextures } from './PeltMaterial.ts';
 import type { PeltStates } from './PeltStates.ts';
 import { FurShells } from './shells.ts';
-import type { Skin } from './skin.ts';
+import type { Skin, Wetness } from './skin.ts';
 
 /** What a body brings to a fur: what it stands on, and what is seen between its hairs. */
 export interface Ground {
@@ -86,17 +86,18 @@ export class Fur {
 
 	set visible(on: boolean) {
 		this.#parts.visible = on;
-		if (on) this.ground.skin.cover(this.asset);
+		if (on) this.ground.skin.cover(this.asset, this.#wetness());
 		else this.ground.skin.bare(this.asset);
 	}
 
-	/** How long it is, share of what was baked, 0.1 to 2. */
+	/** How long it is, share of what was baked, 0.1 to 2: below 1 it is cut, above it is drawn out. */
 	get length(): number {
 		return this.#length;
 	}
 
 	set length(share: number) {
 		this.#length = share;
+		this.material.trim = Math.min(share, 1);
 		this.shells.furLength = share * this.asset.length;
 		this.fins?.fit(this.shells);
 	}
@@ -183,8 +184,17 @@ export class Fur {
 		const shown = stains && (mud || (wettest > 0 && wet.length > 1));
 		const states = wettest > 0 ? wet : wet.slice(0, 1);
 		this.material.setStains(shown ? { stains, wet: states, mud, clumps: dirty ? wet.length : undefined } : undefined);
+		this.ground.skin.soak(this.asset, this.#wetness());
 		this.pelt.want(this.#stain, driest, wettest);
 	};
+
+	/** Undefined where it is not seen. */
+	#wetness(): Wetness | undefined {
+		const weather = this.#weather;
+		return 'WET' in this.material.defines && weather
+			? { follicles: this.follicles, at: (follicle) => weather.wetnessAt(follicle) }
+			: undefined;
+	}
 
 	/** Frees geometry, materials and textures; of a dressed body the materials alone, the rest is the body's and the pelt's. */
 	readonly dispose = (): void => {

@@ -12,6 +12,9 @@ const PERIOD = 0.1;
 /** How much mud rain takes away, share of how much it wets. */
 const WASHED = 0.3;
 
+/** Mud draws hairs together as water does: how wet dirt looks, share of it. */
+const MATTED = 0.6;
+
 /** Cosines between the skin at a brush's point and elsewhere, from which and to which more and more of it is reached. */
 const ASIDE = -0.2;
 const FACING = 0.3;
@@ -180,6 +183,11 @@ export class FurWeather {
 		return this.#dirtiest;
 	}
 
+	/** Wetness of a follicle, 0..1, as last shown. */
+	wetnessAt(follicle: number): number {
+		return (this.#bytes[2 * follicle] as number) / STAIN_STEPS;
+	}
+
 	/** Has a fur of this body told when any of these has changed. */
 	join(wearer: () => void): void {
 		this.#wearers.add(wearer);
@@ -241,8 +249,9 @@ export class FurWeather {
 	#write(): boolean {
 		let [driest, wettest, dirtiest, changed] = [STAIN_STEPS, 0, 0, false];
 		for (let i = 0; i < this.#wet.length; i++) {
-			const wet = Math.round(STAIN_STEPS * Math.max(this.#wet[i] as number, this.#wetness));
-			const dirt = Math.round(STAIN_STEPS * Math.max(this.#dirt[i] as number, this.#soiling));
+			const soiled = Math.max(this.#dirt[i] as number, this.#soiling);
+			const dirt = Math.round(STAIN_STEPS * soiled);
+			const wet = Math.round(STAIN_STEPS * Math.max(this.#wet[i] as number, this.#wetness, MATTED * soiled));
 			if (wet < driest) driest = wet;
 			if (wet > wettest) wettest = wet;
 			if (dirt > dirtiest) dirtiest = dirt;

@@ -1,6 +1,7 @@
 import {
 	CustomBlending,
 	GLSL3,
+	type IUniform,
 	LessEqualDepth,
 	OneFactor,
 	OneMinusSrcAlphaFactor,
@@ -27,12 +28,15 @@ import output from './shaders/output.glsl?raw';
 import ptm from './shaders/ptm.glsl?raw';
 import shadow from './shaders/shadow.glsl?raw';
 import sky from './shaders/sky.glsl?raw';
+import trim from './shaders/trim.glsl?raw';
+import trimmed from './shaders/trimmed.glsl?raw';
 import view from './shaders/view.glsl?raw';
 import weatherIn from './shaders/weather.frag.glsl?raw';
 import weather from './shaders/weather.glsl?raw';
 import weatherOut from './shaders/weather.vert.glsl?raw';
 import { type Stained, stain, stainUniforms } from './stains.ts';
 import { switchPart } from './switches.ts';
+import { TrimLight } from './TrimLight.ts';
 import { decoder, momentUniforms, type Texels } from './texels.ts';
 
 /** An asset's planes as texture arrays, a slab per layer. */
@@ -48,16 +52,20 @@ export interface FurTextures {
 }
 
 /** Where hairs are: of all that draws some. */
-export const hairChunks = [body, follicle, comb, weather, weatherOut, displacement];
+export const hairChunks = [body, follicle, comb, weather, weatherOut, trim, displacement];
 
 /** How texels are read: in which state they are. */
-export const texelChunks = [density, weather, weatherIn];
+export const texelChunks = [trim, density, weather, weatherIn];
 
-const lampChunks = ['#include <common>', '#include <lights_pars_begin>', view, moments, shadow, lamps];
+const lampChunks = ['#include <common>', '#include <lights_pars_begin>', view, moments, trimmed, shadow, lamps];
 
 /** What the materials of shells and fins have in common: texels of coefficients that meet light moments. */
 export class PeltMaterial extends ShaderMaterial {
 	readonly #followers: PeltMaterial[] = [];
+	readonly #leader: PeltMaterial | undefined;
+	readonly #texels: Texels;
+	readonly #planes: readonly Texture[];
+	#trimLight: TrimLight | undefined;
 
 	/**
 	 * @param parameters own shaders (after the common chunks), uniforms and defines
@@ -93,6 +101,8 @@ export class PeltMaterial extends ShaderMaterial {
 				density: { value: 1 },
 				swing: { value: null },
 				...stainUniforms(),
+				furTrim: { value: 1 },
+				trimLight: { value: null },
 				...uniforms,
 			},
 			defines: {
@@ -134,6 +144,9 @@ export class PeltMaterial extends ShaderMaterial {
 				},
 			});
 		}
+		this.#texels = texels;
+		this.#planes = [textures.plane0, textures.plane1].filter((plane) => plane !== undefined);
+		this.#leader = leader;
 		this.setTextures(textures);
 		if (leader) leader.#followers.push(this);
 	}
@@ -193,6 +206,42 @@ export class PeltMaterial extends ShaderMaterial {
 	}
 
 	/**
+	 * Share of the hairs that is left when they are cut, above 0 to 1: the lowest slabs, as thick as they were, in the light
+	 * that they get when the hair above is gone. 1 costs nothing.
+	 */
+	get trim(): number {
+		return this.uniforms.furTrim?.value;
+	}
+
+	set trim(share: number) {
+		if (this.#leader) this.#leader.trim = share;
+		if (share === this.trim) return;
+		const { furTrim } = this.uniforms;
+		if (furTrim) furTrim.value = share;
+		if (share < 1) {
+			const places = this.#light().places(share);
+			for (const material of [this, ...this.#followers]) material.#light().set(places);
+		}
+		this.#switch('TRIMMED', share < 1);
+	}
+
+	/** Made from the texels that the material was made with: other states of the fur have their light changed alike. */
+	#light(): TrimLight {
+		if (!this.#trimLight) {
+			const { LAYERS, FIN } = this.defines as { LAYERS: number; FIN?: string };
+			this.#trimLight = new TrimLight(this.#planes, this.#texels, LAYERS, FIN === undefined ? LAYERS : 1);
+			(this.uniforms.trimLight as IUniform).value = this.#trimLight.texture;
+		}
+		return this.#trimLight;
+	}
+
+	/** Frees what it has on the GPU but for the pelt's textures. */
+	override dispose(): void {
+		super.dispose();
+		this.#trimLight?.texture.dispose();
+	}
+
+	/**
 	 * Whether lamps are summed per fragment, not per vertex: the lamps' light on coarse meshes, and the edges of shadows on
 	 * them, to the pixel, for much of the frame.
 	 */
@@ -230,11 +279,11 @@ export class PeltMaterial extends ShaderMaterial {
 		this.#switch(name.toUpperCase(), on);
 	}
 
-	/** Has a part of the shaders compiled in or left out, here and in what follows this material. */
 	#switch(define: string, on: boolean): void {
 		this.#compile(define, on ? '' : undefined);
 	}
 
+	/** Has a part of the shaders compiled in or left out, here and in what follows this material. */
 	#compile(define: string, value: string | number | undefined): void {
 		for (const material of [this, ...this.#followers]) switchPart(material, define, value);
 	}

@@ -33,13 +33,15 @@ export class PeltStates {
 	readonly #most: number;
 	/** Which states the textures hold, in their order; a dirty one is the last. */
 	#resident: readonly Pelt[];
+	#wet: readonly Pelt[];
 	/** The files of the others, where the textures hold two at most. */
 	#files: Map<Pelt, PlaneFile[][]> | undefined;
 	/** Where the textures may hold others in its place. */
 	#dry: Plane[][];
 	readonly #wearers = new Map<Wearer, readonly [from: number, to: number]>();
 	#loading: Promise<void> | undefined;
-	#settling: Promise<void> | undefined;
+	#settling = Promise.resolve();
+	#changing = false;
 	#gone = false;
 
 	/**
@@ -52,7 +54,7 @@ export class PeltStates {
 		this.cuts = cuts;
 		this.#most = most;
 		this.#layers = layers;
-		this.#resident = [this.all.wet[0]];
+		this.#resident = this.#wet = [this.all.wet[0]];
 		this.#dry = this.#all(({ textures }) =>
 			ROLES.flatMap((role) => {
 				const texture = textures[role] as CompressedArrayTexture | undefined;
@@ -63,7 +65,7 @@ export class PeltStates {
 
 	/** States of rising wetness that the textures hold, the first layers the driest one's. */
 	get wet(): readonly Pelt[] {
-		return this.#resident.filter(({ dirt }) => !dirt);
+		return this.#wet;
 	}
 
 	/** Whether the textures hold the dirty state, after the wet ones. */
@@ -137,28 +139,33 @@ export class PeltStates {
 		return pairFor(wetnesses, from, to).map((i) => wet[i] as Pelt);
 	}
 
-	/** Shows what is wanted, one change after the other. */
+	/** Shows what is wanted, one change after the other; at once where nothing has to be decoded for it. */
 	#settle(): Promise<void> {
-		this.#settling ??= this.#change().finally(() => {
-			this.#settling = undefined;
-		});
+		if (!this.#changing) {
+			this.#changing = true;
+			this.#settling = this.#change();
+		}
 		return this.#settling;
 	}
 
 	async #change(): Promise<void> {
-		for (;;) {
-			const wanted = this.#wanted();
-			const files = this.#files;
-			const there = wanted.length === this.#resident.length && wanted.every((state, i) => state === this.#resident[i]);
-			if (this.#gone || !files || there) return;
-			const planes = new Map<Pelt, Plane[][]>();
-			for (const state of wanted) {
-				const at = this.#resident.indexOf(state);
-				if (at > 0) planes.set(state, this.#shown(at));
-				else if (state !== this.all.wet[0]) planes.set(state, await this.#decode(state, files));
+		try {
+			for (let wanted = this.#wanted(); !this.#gone && !this.#holds(wanted); wanted = this.#wanted()) {
+				const planes = new Map<Pelt, Plane[][]>();
+				for (const state of wanted) {
+					const at = this.#resident.indexOf(state);
+					if (at > 0) planes.set(state, this.#shown(at));
+					else if (state !== this.all.wet[0] && this.#files) planes.set(state, await this.#decode(state, this.#files));
+				}
+				if (!this.#gone) this.#show(wanted, planes);
 			}
-			if (!this.#gone) this.#show(wanted, planes);
+		} finally {
+			this.#changing = false;
 		}
+	}
+
+	#holds(states: readonly Pelt[]): boolean {
+		return states.length === this.#resident.length && states.every((state, i) => state === this.#resident[i]);
 	}
 
 	async #decode(state: Pelt, files: Map<Pelt, PlaneFile[][]>): Promise<Plane[][]> {
@@ -204,6 +211,7 @@ export class PeltStates {
 			}
 		}
 		this.#resident = states;
+		this.#wet = states.filter(({ dirt }) => !dirt);
 		for (const wearer of this.#wearers.keys()) wearer();
 	}
 

@@ -68,6 +68,15 @@ export class RivalMaterial extends ShaderMaterial {
 		this.shells.density = ratio;
 	}
 
+	/** As of the shells. */
+	get trim(): number {
+		return this.shells.trim;
+	}
+
+	set trim(share: number) {
+		this.shells.trim = share;
+	}
+
 	/** Has hairs where the shells have them. */
 	override onBeforeRender(_renderer: WebGLRenderer, _scene: Scene, _camera: Camera): void {
 		followParts(this, this.shells, SHAPE);

@@ -9,7 +9,16 @@ struct Lamps {
 	Moments moments;
 	vec3 back; // light that comes through the hairs from behind
 	vec2 lobes; // highlights: white, of the hair's colour; times the lamps' light on the texel
+#ifdef WET
+	float power; // irradiance
+#endif
 };
+
+#ifdef WET
+#define DARKNESS Lamps(Moments(mat3(0.0), mat3(0.0)), vec3(0.0), vec2(0.0), 0.0)
+#else
+#define DARKNESS Lamps(Moments(mat3(0.0), mat3(0.0)), vec3(0.0), vec2(0.0))
+#endif
 
 // Unit vector along the hairs.
 vec3 strandVS(FurPoint point) {
@@ -56,7 +65,7 @@ void addLamp(inout Lamps lamps, inout float power, FurPoint point, vec3 lightVS,
 }
 
 Lamps lampsAt(FurPoint point) {
-	Lamps lamps = Lamps(Moments(mat3(0.0), mat3(0.0)), vec3(0.0), vec2(0.0));
+	Lamps lamps = DARKNESS;
 	IncidentLight light;
 	float power = 0.0;
 #if NUM_DIR_LIGHTS > 0
@@ -90,6 +99,11 @@ Lamps lampsAt(FurPoint point) {
 	lamps.lobes /= max(power, 1e-6);
 #ifdef WET
 	lamps.lobes *= furTraits.z;
+	lamps.power = power;
+#endif
+#ifdef TRIMMED
+	lamps.lobes *= furTrim; // stubble is seen from its ends more than from its sides
+	lamps.moments = trimmed(lamps.moments, point.s);
 #endif
 	return lamps;
 }

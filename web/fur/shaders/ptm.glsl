@@ -11,6 +11,8 @@ uniform vec2 offset1; // −λ·Ω of a3, a4
 uniform float gloss; // of both highlights
 uniform float backlight; // of the light that comes through from behind
 
+#define CREST 2.2 // L of what shines in full where fur is wet
+
 struct FurTexel {
 	float alpha; // coverage of a slab of the baked thickness, seen from straight above
 	float tint;
@@ -68,11 +70,16 @@ vec3 furRadiance(FurTexel texel, vec3 colour, Lamps lamps, Moments sky) {
 #endif
 #ifdef GLOSS
 	// The lamps' light on the texel is the highlights' shadow.
-	float shine = gloss * texel.tint;
-#ifdef DIRTY
-	shine *= 1.0 - mudShare;
+	vec2 shine = gloss * vec2(texel.tint, 1.0) * lamps.lobes;
+#ifdef WET
+	// A film of water is a mirror where it is round, on the clumps' crests: there the lamps' light is strongest.
+	float lit = min(dot(lamp, vec3(0.2126, 0.7152, 0.0722)) / max(CREST * lamps.power, 1e-6), 1.0);
+	shine *= mix(1.0, lit * lit * lit, furWetness);
 #endif
-	return colour * (light + lamp * (gloss * lamps.lobes.y)) + lamp * (shine * lamps.lobes.x);
+#ifdef DIRTY
+	shine.x *= 1.0 - mudShare;
+#endif
+	return colour * (light + lamp * shine.y) + lamp * shine.x;
 #else
 	return colour * light;
 #endif

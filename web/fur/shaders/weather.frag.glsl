@@ -17,6 +17,7 @@ in float vPlace;
 in float vDirt;
 uniform vec3 mud; // its colour
 float mudShare = 0.0; // of the texel's coverage
+#define MUD_FILM 0.6 // of what lies on the hairs between its crumbs
 #define MUD_SHARE 0.7 // of dirty hairs where the dirty state is in no texture
 #endif
 
@@ -47,7 +48,7 @@ vec4 dirtyBytes(sampler2DArray plane, vec3 at) {
 float muddy(float coverage, float share, float dirtyCoverage) {
 	float covered = vDirt * share * dirtyCoverage;
 	float together = 1.0 - (1.0 - coverage) * (1.0 - covered);
-	mudShare = covered / max(together, 1e-3);
+	mudShare = max(covered / max(together, 1e-3), MUD_FILM * vDirt);
 	return together;
 }
 #endif
