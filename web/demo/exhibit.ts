@@ -8,7 +8,17 @@ import { type EnvironmentName, loadEnvironment } from './environments.ts';
 import { Living } from './living.ts';
 import { Looks } from './looks.ts';
 import { textureBytes } from './memory.ts';
-import { firstView, folderOf, loadMenu, loadModel, type MenuEntry, type Model, offered, sourceAt } from './models.ts';
+import {
+	defaultLight,
+	firstView,
+	folderOf,
+	loadMenu,
+	loadModel,
+	type MenuEntry,
+	type Model,
+	offered,
+	sourceAt,
+} from './models.ts';
 import { notice, withdraw } from './notice.ts';
 import { adjust, availableOutfits } from './outfits.ts';
 import type { Picture } from './picture.ts';
@@ -19,11 +29,6 @@ import { zh } from './words/drop.zh.ts';
 import { language, words } from './words/index.ts';
 
 const ownWords = { en, zh }[language];
-
-/** From the side: light from the front is flat. */
-const defaultLight: Triple = [-0.82, 0.57, -0.02];
-const defaultCamera: Triple = [0, 8, 1];
-const crowdCamera: Triple = [10, 13, 0.5];
 
 export class Exhibit {
 	menu: MenuEntry[] = [];
@@ -56,11 +61,7 @@ export class Exhibit {
 		this.#progress = progress;
 		this.living = new Living(this.looks, picture.stage, picture.calm);
 		this.play = new Play(picture, this.looks, this.living);
-		picture.live = (elapsed) => {
-			const busy = this.play.step(elapsed);
-			const wait = this.living.step(elapsed);
-			return busy ? 0 : wait;
-		};
+		picture.live = (elapsed) => this.play.step(elapsed);
 		picture.before = () => this.looks.before(picture.stage.renderer, picture.stage.key);
 	}
 
@@ -93,7 +94,7 @@ export class Exhibit {
 		this.changed();
 		const { camera } = this.#picture;
 		if (view.camera) camera.chosen = true;
-		camera.orbit = view.camera ?? defaultCamera;
+		camera.orbit = view.camera ?? firstView(undefined).camera;
 		await this.change(async () => {
 			await Promise.all([this.#enter(view.env ?? 'none'), this.#show(name)]);
 		});
@@ -128,13 +129,7 @@ export class Exhibit {
 		this.living.style(this.#view);
 		stage.gather(this.#view.crowd ?? 1, this.looks.fur);
 		this.#picture.request();
-		if (this.#wantsStates && !this.#soiled) void this.dress();
-	}
-
-	/** Whether it is wet or dirty, or about to be. */
-	get #wantsStates(): boolean {
-		const { wet = 0, dirt = 0 } = this.#view;
-		return wet > 0 || dirt > 0 || this.living.marked || this.play.soils;
+		if (!this.#soiled && this.play.soils(this.#view)) void this.dress();
 	}
 
 	/** Light and camera as they are before anybody has touched them. */
@@ -168,12 +163,11 @@ export class Exhibit {
 	}
 
 	#firstLight(): Triple {
-		return this.#sun ?? firstView(this.entry).light ?? defaultLight;
+		return this.#sun ?? firstView(this.entry).light;
 	}
 
 	#firstCamera(): Triple {
-		const { crowd = 1 } = this.#view;
-		return (crowd > 1 ? crowdCamera : firstView(this.entry).camera) ?? defaultCamera;
+		return firstView(this.entry, this.#view.crowd).camera;
 	}
 
 	/** Where that fails, says why and stays. */
@@ -273,7 +267,7 @@ export class Exhibit {
 		const view = this.#view;
 		if (!model?.fur) return this.changed();
 		for (const reason of adjust(view, this.entry, this.menu)) notice(reason);
-		const soiled = this.#wantsStates;
+		const soiled = this.play.soils(view);
 		this.#soiled = soiled;
 		const wearer = { body: model.fur, soiled, entry: this.entry, limits: stage.limits };
 		const outfits = await availableOutfits(view, this.menu, wearer);
@@ -282,10 +276,7 @@ export class Exhibit {
 		this.looks.wear(model.fur, outfits, view);
 		this.looks.cut(view.split?.share ?? 1);
 		if (soiled) {
-			await this.looks.loadStates().catch((error) => {
-				Object.assign(view, { wet: undefined, dirt: undefined });
-				notice(words.statesNotShown((error as Error).message), 'error');
-			});
+			await this.living.load(view);
 			if (late()) return;
 		}
 		this.living.style(view);

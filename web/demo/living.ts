@@ -4,8 +4,10 @@ import { MathUtils, type Vector3 } from 'three';
 import { FurMotion, FurWeather } from '../fur/index.ts';
 import type { View } from './address.ts';
 import type { Looks } from './looks.ts';
+import { notice } from './notice.ts';
 import type { Stage } from './scene.ts';
 import { Sway } from './sway.ts';
+import { words } from './words/index.ts';
 
 /** How much the wind varies, share of its strength. */
 const gusts = 0.7;
@@ -42,6 +44,16 @@ export class Living {
 		return this.#motion;
 	}
 
+	/** Fetches what the fur is like when it is wet and dirty; where that fails, says why and takes it out of the view. */
+	async load(view: View): Promise<void> {
+		try {
+			await this.#looks.loadStates();
+		} catch (error) {
+			Object.assign(view, { wet: undefined, dirt: undefined });
+			notice(words.statesNotShown((error as Error).message), 'error');
+		}
+	}
+
 	/** Has wind, wetness, dirt and turntable be as the view says. Each is made when it is first needed. */
 	style({ wind: [strength, direction] = [0, 0], wet = 0, dirt = 0, turn, crowd = 1 }: View): void {
 		const alone = crowd <= 1;
@@ -55,8 +67,10 @@ export class Living {
 		const motion = this.#moving();
 		if (!motion) return;
 		const { wind } = motion;
+		const [x, z] = [Math.sin(direction), Math.cos(direction)];
+		if (strength === wind.strength && x === wind.direction.x && z === wind.direction.z) return;
 		wind.strength = strength;
-		wind.direction.set(Math.sin(direction), 0, Math.cos(direction));
+		wind.direction.set(x, 0, z);
 		wind.gusts = this.#calm ? 0 : gusts;
 		if (this.#calm) motion.settle();
 	}
@@ -121,9 +135,9 @@ export class Living {
 			this.#moving();
 		}
 		const moved = this.#motion?.update(seconds) ?? false;
-		const changed = this.#weather?.update(seconds) ?? false;
+		this.#weather?.update(seconds);
 		this.#looks.live(this.#motion?.swing, this.#weather);
-		if (swung || moved || changed) return 0;
+		if (swung || moved) return 0;
 		return this.#weather?.drying ? slow : Number.POSITIVE_INFINITY;
 	}
 

@@ -1,6 +1,7 @@
 /** What hands do to the fur: a brush that strokes, wets and soils it, and a grip that shakes the body. */
 
 import { Plane, Raycaster, Vector2, Vector3 } from 'three';
+import type { View } from './address.ts';
 import { Brush } from './brush.ts';
 import { Drops } from './drops.ts';
 import type { Living } from './living.ts';
@@ -59,14 +60,15 @@ export class Play {
 	/** What a drag does. */
 	set act(act: Act) {
 		this.#act = act;
+		this.#picture.canvas.dataset.act = act;
 		this.#keys = this.#on = this.#pressed = false;
 		this.#living.sway.release();
 		this.#picture.request();
 	}
 
-	/** Whether a drag wets or soils the fur. */
-	get soils(): boolean {
-		return this.#act === 'rain' || this.#act === 'mud';
+	/** Whether the fur is wet or dirty, or about to be. */
+	soils({ wet = 0, dirt = 0 }: View): boolean {
+		return wet > 0 || dirt > 0 || this.#living.marked || this.#act === 'rain' || this.#act === 'mud';
 	}
 
 	/** Whether a drag is for the fur, or the body. */
@@ -122,12 +124,19 @@ export class Play {
 		this.#keys = true;
 	}
 
-	/** Once a frame, before the fur moves: shows the ring, and has the brush do its work. @returns whether it goes on doing */
-	step(seconds: number): boolean {
+	/**
+	 * Once a frame: shows the ring, has the brush do its work, and what lives go on.
+	 *
+	 * @returns milliseconds until another frame is wanted: 0 at once, Infinity none
+	 */
+	step(seconds: number): number {
 		const working = this.#brush(seconds);
-		return this.#drops.step(seconds, this.#picture.camera) || working;
+		const falling = this.#drops.step(seconds, this.#picture.camera);
+		const wait = this.#living.step(seconds);
+		return working || falling ? 0 : wait;
 	}
 
+	/** @returns whether it goes on by itself */
 	#brush(seconds: number): boolean {
 		const { brush } = this;
 		const { fur } = this.#looks;
@@ -166,7 +175,7 @@ export class Play {
 		const { place } = this.brush;
 		const before = this.#on ? this.#before : place;
 		if (act === 'stroke') {
-			if (this.#on) this.#living.stroke(before, place, radius);
+			if (!before.equals(place)) this.#living.stroke(before, place, radius);
 			return;
 		}
 		// A quick hand leaves no gaps.
