@@ -3,7 +3,7 @@ import type { Drive } from './drive.ts';
 import { Turn } from './Turn.ts';
 
 /** Where gravity takes the tips of the longest fur on a wall, share of the length. */
-const SAG = 0.22;
+const SAG = 0.3;
 /** Seconds in which hairs feel the skin's velocity: the jerks of a pointer arrive rounded. */
 const YIELD = 1 / 40;
 /** Velocity of the skin that hairs feel however fast it is, ω times their length. */
