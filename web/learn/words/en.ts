@@ -89,4 +89,22 @@ export const en = {
 		swing: (height: number, swing: number) =>
 			`Height ${height} of a tile: once around, L swings by ± ${(100 * swing).toFixed(0)} %.`,
 	},
+	spring: {
+		tufts:
+			'Three tufts of hair on the same spring: as it truly swings, by the exact step, by Euler’s. ' +
+			'Drag, or use the arrow keys, to push them aside and let them go.',
+		ways: ['true swing', 'exact step', 'Euler’s step'],
+		plot: 'Where the tips are during two seconds: the true curve, points of the exact step, points of Euler’s.',
+		seconds: 'seconds',
+		lengths: 'tip, in lengths of the hair',
+		step: 'Time step',
+		rate: (rate: number) => `1/${rate} s`,
+		frequency: 'Frequency',
+		hertz: (hertz: string) => `${hertz} Hz`,
+		damping: 'Damping ζ',
+		letGo: 'Let go',
+		off: (exact: string, euler: string, limit: string) =>
+			`Off the curve at most: exact step ${exact}, Euler’s ${euler} lengths of the hair. ` +
+			`Euler’s is bounded up to steps of 2ζ/ω = ${limit} ms.`,
+	},
 };
