@@ -28,6 +28,7 @@ const steps: Record<string, () => Promise<{ mount: Mount }>> = {
 	turning: () => import('./steps/turning.ts'),
 	short: () => import('./steps/short.ts'),
 	spring: () => import('./steps/spring.ts'),
+	wind: () => import('./steps/wind.ts'),
 };
 
 function newLesson(language: Language): Lesson {

@@ -132,15 +132,15 @@ export const mount: Mount = async (place, lesson) => {
 		compute();
 		at(0);
 	};
-	listenToDrags(canvas, ({ x }) => {
-		// The middle of the tuft under the finger.
-		const middle = (Math.floor(((x + 1) / 2) * 3) + 0.5) / 1.5 - 1;
-		hold(3 * (x - middle));
-	});
-	for (const name of ['pointerup', 'lostpointercapture'] as const)
-		canvas.addEventListener(name, () => {
-			if (!playing && time === 0) letGo();
-		});
+	listenToDrags(
+		canvas,
+		({ x }) => {
+			// The middle of the tuft under the finger.
+			const middle = (Math.floor(((x + 1) / 2) * 3) + 0.5) / 1.5 - 1;
+			hold(3 * (x - middle));
+		},
+		letGo,
+	);
 	arrows(canvas, (across, up) => {
 		hold(spring.from + NUDGE * (across || up));
 		letGo();

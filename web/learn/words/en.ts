@@ -107,4 +107,12 @@ export const en = {
 			`Off the curve at most: exact step ${exact}, Euler’s ${euler} lengths of the hair. ` +
 			`Euler’s is bounded up to steps of 2ζ/ω = ${limit} ms.`,
 	},
+	wind: {
+		picture: 'A square of fur in the wind. Drag to stroke it; arrow keys move the light.',
+		wind: 'Wind',
+		strength: (strength: number) => strength.toFixed(2),
+		direction: 'Blows to',
+		degrees: (degrees: number) => `${degrees}°`,
+		stroke: 'Stroke it',
+	},
 };

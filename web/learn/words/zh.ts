@@ -87,4 +87,12 @@ export const zh: Words = {
 			`与曲线的最大偏差：精确步进 ${exact}，欧拉步进 ${euler}（以毛长为单位）。` +
 			`步长不超过 2ζ/ω = ${limit} 毫秒时，欧拉步进才有界。`,
 	},
+	wind: {
+		picture: '风中的一块毛发。拖动即抚摸，方向键移动光源。',
+		wind: '风力',
+		strength: (strength) => strength.toFixed(2),
+		direction: '风向',
+		degrees: (degrees) => `${degrees}°`,
+		stroke: '抚摸一下',
+	},
 };
