@@ -135,6 +135,34 @@ test('the article’s figures have the brightness of their coefficients', async 
 	expect(swings[1]).toBeLessThan((swings[0] ?? 0) * 0.7);
 });
 
+test('hair on a spring: the exact step is on the curve however long it is, Euler’s is not', async ({ page }) => {
+	await open(page, 'learn.html?still=1&lang=en#swing');
+	await show(page, 'spring');
+	const off = (way: string) =>
+		figure(page, 'spring')
+			.locator('.note')
+			.evaluate((note, name) => Number((note as HTMLElement).dataset[name]), way);
+	const tips = async () =>
+		((await figure(page, 'spring').locator('canvas').getAttribute('data-tips')) ?? '').split(',');
+	for (const step of ['1/60 s', '1/15 s', '1/2 s']) {
+		const slider = figure(page, 'spring').getByLabel('Time step');
+		while ((await slider.getAttribute('aria-valuetext')) !== step) await slider.press('ArrowRight');
+		expect(await off('exact'), step).toBeLessThan(1e-6);
+		expect(await off('euler'), step).toBeGreaterThan(0.3);
+	}
+	expect(await off('euler')).toBeGreaterThan(100);
+	// Nothing moves until it is asked for: pushed to the left, let go, and at rest in the breeze.
+	const frames = () => pixels(page, 'spring');
+	await frames();
+	const before = await tips();
+	await frames();
+	expect(await tips()).toEqual(before);
+	await figure(page, 'spring').locator('canvas').focus();
+	for (let i = 0; i < 10; i++) await page.keyboard.press('ArrowLeft');
+	const fromRest = async () => (await tips()).slice(0, 2).map((tip) => Math.abs(Number(tip) - 0.1));
+	await expect.poll(async () => Math.max(...(await fromRest()))).toBeLessThan(0.02);
+});
+
 test('Table 1 is measured beside the article’s, and figures go on after it', async ({ page }) => {
 	// Measuring itself has a test of its own; this one is about what becomes of it.
 	const body = `export async function measureTable1({ quick }, signal, progress) {
