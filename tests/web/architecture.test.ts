@@ -9,7 +9,7 @@ const web = fileURLToPath(new URL('../../web/', import.meta.url));
 
 /** The library from the ground up; modules of one floor do not import each other. A new module gets its floor here. */
 const floors = [
-	['format', 'names'],
+	['format', 'names', 'weld', 'switches'],
 	[
 		'planes',
 		'moments',
@@ -25,7 +25,7 @@ const floors = [
 		'governor',
 		'limits',
 	],
-	['PeltMaterial'],
+	['PeltMaterial', 'follicles'],
 	['FurMaterial'],
 	['FinMaterial', 'HullMaterial'],
 	['shells', 'fins'],

@@ -1,8 +1,9 @@
-import { BufferGeometry, type Color, Object3D } from 'three';
+import { BufferGeometry, type Color, Object3D, type Texture } from 'three';
 import type { Columns } from './clip.ts';
 import { FinMaterial } from './FinMaterial.ts';
 import { FurMaterial } from './FurMaterial.ts';
 import { FurFins } from './fins.ts';
+import { Follicles } from './follicles.ts';
 import type { FurAsset, Pelt } from './format.ts';
 import type { FurTextures } from './PeltMaterial.ts';
 import { FurShells } from './shells.ts';
@@ -98,6 +99,29 @@ export class Fur {
 	}
 
 	/**
+	 * What its hairs stand in, and are moved, wetted and soiled by: the same ones for all furs of a body. Shells and fins
+	 * are told theirs when they are first asked for.
+	 */
+	get follicles(): Follicles {
+		return this.#mark();
+	}
+
+	/**
+	 * How far hairs are from where they were combed: RGBA floats, a texel for each of `follicles`, XYZ = displacement of the
+	 * tip beyond the comb, in the tangent plane, share of the length, axes of the shells' mesh; with the comb no longer than
+	 * 0.8. What writes into the texture on the GPU adds 1 to its `version`. Undefined, as the fur was baked, costs nothing.
+	 */
+	get swing(): Texture | undefined {
+		return this.material.swing;
+	}
+
+	set swing(texture: Texture | undefined) {
+		if (texture === this.material.swing) return;
+		if (texture) this.#mark();
+		this.material.swing = texture;
+	}
+
+	/**
 	 * Columns of the picture within which shells and fins are drawn, undefined: all. So two furs of a body, in other light
 	 * each, share one render of the scene.
 	 */
@@ -108,6 +132,12 @@ export class Fur {
 	set clip(columns: Columns | undefined) {
 		this.#clip = columns;
 		for (const part of [this.fins, this.shells]) if (part) part.clip = columns;
+	}
+
+	#mark(): Follicles {
+		const follicles = Follicles.of(this.shells.geometry);
+		for (const part of [this.fins, this.shells]) if (part) follicles.mark(part.geometry);
+		return follicles;
 	}
 
 	/** Frees geometry, materials and textures; of a dressed body the materials alone, the rest is the body's and the pelt's. */
@@ -174,6 +204,7 @@ export function dress(body: Fur, pelt: Fur, { tips = 1 }: DressOptions = {}): Fu
 			if (quads) unshareGeometry(quads);
 		},
 	);
+	dressed.swing = body.swing;
 	const { gloss, sharpness, backlight, environment, lampsPerFragment, multisampled } = body.material;
 	const look = { gloss, sharpness, backlight, environment, lampsPerFragment, multisampled };
 	Object.assign(dressed.material, look, { tipShare: tips });

@@ -19,8 +19,10 @@ import { type Basis, channelOf } from './format.ts';
 import { BODY_RADIUS, horizonMoments, smoothSum } from './moments.ts';
 import body from './shaders/body.glsl?raw';
 import colour from './shaders/colour.glsl?raw';
+import comb from './shaders/comb.glsl?raw';
 import density from './shaders/density.glsl?raw';
 import displacement from './shaders/displacement.glsl?raw';
+import follicle from './shaders/follicle.glsl?raw';
 import lamps from './shaders/lamps.glsl?raw';
 import lightIn from './shaders/light.frag.glsl?raw';
 import lightOut from './shaders/light.vert.glsl?raw';
@@ -30,6 +32,7 @@ import ptm from './shaders/ptm.glsl?raw';
 import shadow from './shaders/shadow.glsl?raw';
 import sky from './shaders/sky.glsl?raw';
 import view from './shaders/view.glsl?raw';
+import { switchPart } from './switches.ts';
 
 /** An asset's planes as texture arrays, a slab per layer. */
 export interface FurTextures {
@@ -50,6 +53,9 @@ export interface Texels {
 	basis: Basis;
 	environment: number[][];
 }
+
+/** Where hairs are: of all that draws some. */
+export const hairChunks = [body, follicle, comb, displacement];
 
 const lampChunks = ['#include <common>', '#include <lights_pars_begin>', view, moments, shadow, lamps];
 
@@ -89,6 +95,7 @@ export class PeltMaterial extends ShaderMaterial {
 				sharpness: { value: 60 },
 				backlight: { value: 0 },
 				density: { value: 1 },
+				swing: { value: null },
 				...uniforms,
 			},
 			defines: {
@@ -101,7 +108,7 @@ export class PeltMaterial extends ShaderMaterial {
 				SKY: '',
 				...defines,
 			},
-			vertexShader: [...lampChunks, body, displacement, sky, lightOut, colour, vertexShader].join('\n'),
+			vertexShader: [...lampChunks, ...hairChunks, sky, lightOut, colour, vertexShader].join('\n'),
 			fragmentShader: [...lampChunks, lightIn, density, ptm, colour, output, fragmentShader].join('\n'),
 			transparent: true,
 			blending: CustomBlending,
@@ -117,6 +124,7 @@ export class PeltMaterial extends ShaderMaterial {
 			_fur: [1, 1, 1, 0],
 			_comb: [0, 0, 0],
 			_edge: [0, 0, 0, 0],
+			follicle: [0],
 		});
 		for (const name of mirrored) {
 			const uniform = this.uniforms[name];
@@ -173,6 +181,21 @@ export class PeltMaterial extends ShaderMaterial {
 	}
 
 	/**
+	 * How far hairs are from where they were combed, XYZ of a texel for each follicle: displacement of the tip in the tangent
+	 * plane, share of the length, the mesh's own axes; with the comb no longer than 0.8. Needs the attribute `follicle`.
+	 * Undefined costs nothing.
+	 */
+	get swing(): Texture | undefined {
+		return this.uniforms.swing?.value ?? undefined;
+	}
+
+	set swing(texture: Texture | undefined) {
+		const { swing } = this.uniforms;
+		if (swing) swing.value = texture ?? null;
+		this.#switch('SWING', texture !== undefined);
+	}
+
+	/**
 	 * Whether lamps are summed per fragment, not per vertex: the lamps' light on coarse meshes, and the edges of shadows on
 	 * them, to the pixel, for much of the frame.
 	 */
@@ -212,12 +235,7 @@ export class PeltMaterial extends ShaderMaterial {
 
 	/** Has a part of the shaders compiled in or left out, here and in what follows this material. */
 	#switch(define: string, on: boolean): void {
-		for (const material of [this, ...this.#followers]) {
-			if (define in material.defines === on) continue;
-			if (on) material.defines[define] = '';
-			else delete material.defines[define];
-			material.needsUpdate = true;
-		}
+		for (const material of [this, ...this.#followers]) switchPart(material, define, on);
 	}
 
 	/** Other planes of the same shape, of another state of the fur say. */

@@ -16,6 +16,7 @@ export { type DressOptions, dress, Fur } from './Fur.ts';
 export { type FurLoaderOptions, FurLoaderPlugin } from './FurLoaderPlugin.ts';
 export { FurMaterial, type FurMaterialParameters } from './FurMaterial.ts';
 export { FurFins } from './fins.ts';
+export { FOLLICLES_PER_ROW, Follicles } from './follicles.ts';
 export {
 	alphaChannel,
 	type Basis,

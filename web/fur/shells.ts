@@ -124,6 +124,7 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 
 	/** One hull casts the shadow of all shells. */
 	override onBeforeShadow(): void {
+		this.customDepthMaterial.follow();
 		this.geometry.instanceCount = 1;
 	}
 

@@ -82,8 +82,9 @@ ShellPoint shellPoint() {
 	mat4 placement = bodyModelView();
 	point.normal = n;
 	point.turn = mat3(placement) / length(placement[0].xyz);
-	point.frameVS = point.turn * furBend(n, _comb, point.s) * mat3(t, tangent.w * cross(n, t), n);
-	point.pointVS = (placement * vec4(furPoint(position, n, _comb, _fur.y, point.s), 1.0)).xyz;
+	vec3 comb = furComb(_comb);
+	point.frameVS = point.turn * furBend(n, comb, point.s) * mat3(t, tangent.w * cross(n, t), n);
+	point.pointVS = (placement * vec4(furPoint(position, n, comb, _fur.y, point.s), 1.0)).xyz;
 
 	// A shell between two slabs' middles shows its slab sheared by how far the hairs have drifted since, so that they run
 	// on instead of standing in steps.

@@ -1,0 +1,19 @@
+/** Parts of shaders that are compiled in only where there is something to be seen of them: a define each. */
+
+import type { ShaderMaterial } from 'three';
+
+/** What changes where hairs are and how much they cover, whatever lights them. */
+export const SHAPE = ['DENSITY', 'SWING'] as const;
+
+/** Has a part compiled in or left out. The renderer keeps the programs of a material: to switch back and forth is cheap. */
+export function switchPart(material: ShaderMaterial, part: string, on: boolean): void {
+	if (part in material.defines === on) return;
+	if (on) material.defines[part] = '';
+	else delete material.defines[part];
+	material.needsUpdate = true;
+}
+
+/** Has the same of these parts compiled in as another material. */
+export function followParts(material: ShaderMaterial, leader: ShaderMaterial, parts: readonly string[]): void {
+	for (const part of parts) switchPart(material, part, part in leader.defines);
+}
