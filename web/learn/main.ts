@@ -29,6 +29,7 @@ const steps: Record<string, () => Promise<{ mount: Mount }>> = {
 	short: () => import('./steps/short.ts'),
 	spring: () => import('./steps/spring.ts'),
 	wind: () => import('./steps/wind.ts'),
+	wet: () => import('./steps/wet.ts'),
 };
 
 function newLesson(language: Language): Lesson {

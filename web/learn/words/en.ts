@@ -115,4 +115,17 @@ export const en = {
 		degrees: (degrees: number) => `${degrees}°`,
 		stroke: 'Stroke it',
 	},
+	wet: {
+		picture: 'A square of fur between two states. Drag or use the arrow keys to move the light.',
+		neighbours: [
+			'The drier of the two states. Drag or use the arrow keys to move the light.',
+			'The wetter of the two states. Drag or use the arrow keys to move the light.',
+		],
+		states: ['dry', 'damp', 'moist', 'wet', 'soaked'],
+		share: (state: string, share: number) => `${(100 * share).toFixed(0)} % ${state}`,
+		wetness: 'Wetness',
+		dirt: 'Dirt',
+		hair: (length: number, shade: number) =>
+			`Hairs stand ${(100 * length).toFixed(0)} % as high as dry ones, and are ${shade.toFixed(2)} as bright.`,
+	},
 };

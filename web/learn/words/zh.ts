@@ -95,4 +95,13 @@ export const zh: Words = {
 		degrees: (degrees) => `${degrees}°`,
 		stroke: '抚摸一下',
 	},
+	wet: {
+		picture: '介于两种状态之间的一块毛发。拖动或用方向键移动光源。',
+		neighbours: ['两种状态中较干的一种。拖动或用方向键移动光源。', '两种状态中较湿的一种。拖动或用方向键移动光源。'],
+		states: ['干', '微湿', '潮湿', '湿', '湿透'],
+		share: (state, share) => `${state} ${(100 * share).toFixed(0)}%`,
+		wetness: '湿度',
+		dirt: '泥污',
+		hair: (length, shade) => `毛高为干毛的 ${(100 * length).toFixed(0)}%，亮度为干毛的 ${shade.toFixed(2)}。`,
+	},
 };
