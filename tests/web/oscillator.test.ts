@@ -1,12 +1,19 @@
 import { describe, expect, it } from 'vitest';
-import { eulerLimit, eulerPath, exactPath, farthest, type Spring, truth } from '../../web/learn/swing/oscillator.ts';
+import {
+	eulerLimit,
+	eulerPath,
+	exactPath,
+	farthest,
+	type Oscillator,
+	truth,
+} from '../../web/learn/swing/oscillator.ts';
 
 const SECONDS = 2;
-const spring: Spring = { frequency: 3, damping: 0.15, rest: 0.1, from: 0.7 };
+const spring: Oscillator = { frequency: 3, damping: 0.15, rest: 0.1, from: 0.7 };
 const STEPS = [1 / 240, 1 / 60, 1 / 30, 1 / 7, 1 / 2];
 
 /** x after some time by the classical Runge–Kutta method in very short steps: knows nothing of sines. */
-function integrated({ frequency, damping, rest, from }: Spring, time: number): number {
+function integrated({ frequency, damping, rest, from }: Oscillator, time: number): number {
 	const w = 2 * Math.PI * frequency;
 	const pull = (x: number, v: number) => -2 * damping * w * v - w * w * (x - rest);
 	const count = 4000;

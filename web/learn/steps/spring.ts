@@ -4,7 +4,7 @@ import { action, controlRow, figureCanvas, note, slider } from '../controls.ts';
 import { arrows, listenToDrags } from '../drag.ts';
 import type { Mount } from '../lesson.ts';
 import { axes, decimal, draw, legend, mark, Plot, line as path, type Scale } from '../measured/plot.ts';
-import { eulerLimit, eulerPath, exactPath, farthest, type Spring, truth } from '../swing/oscillator.ts';
+import { eulerLimit, eulerPath, exactPath, farthest, type Oscillator, truth } from '../swing/oscillator.ts';
 import { drawTufts, FARTHEST } from '../swing/tufts.ts';
 import '../swing/style.css';
 
@@ -23,7 +23,7 @@ const NUDGE = 0.1;
 
 export const mount: Mount = async (place, lesson) => {
 	const words = lesson.words.spring;
-	const spring: Spring = { frequency: 3, damping: 0.15, rest: 0.1, from: 0.7 };
+	const spring: Oscillator = { frequency: 3, damping: 0.15, rest: 0.1, from: 0.7 };
 	let rate = FIRST_RATE;
 	/** Seconds since it was let go. */
 	let time = 0.3;

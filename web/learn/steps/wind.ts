@@ -8,7 +8,7 @@ import type { Mount } from '../lesson.ts';
 import { FurPatch, tiled } from '../patch.ts';
 import { View } from '../view.ts';
 
-const TILES = 3;
+const TILES = 5;
 /** Squares of the mesh across, each corner with a spring. */
 const CELLS = 36;
 /** Of the hand, tile widths. */
@@ -20,9 +20,9 @@ const STROKE_STEPS = 16;
 
 export const mount: Mount = async (place, lesson) => {
 	const words = lesson.words.wind;
-	const { fur } = await loadFurry('pelt-paper', lesson);
+	const { fur } = await loadFurry('pelt-fox', lesson);
 	const patch = new FurPatch(fur, TILES, tiled(TILES, CELLS));
-	Object.assign(patch.shells.material, { gloss: 0.5, backlight: 6 });
+	Object.assign(patch.shells.material, { gloss: 0.2, backlight: 2 });
 	const motion = new FurMotion(patch.fur);
 	motion.wind.gusts = lesson.calm ? 0 : 1;
 
@@ -41,7 +41,7 @@ export const mount: Mount = async (place, lesson) => {
 		aspect: 16 / 9,
 		azimuth: 24,
 		elevation: 34,
-		zoom: 1.2,
+		zoom: 1.45,
 		centre: patch.middle,
 		radius: TILES * 0.6,
 		drag(pointer, camera) {

@@ -1,6 +1,8 @@
 /** The way of one hair's tip on its spring: as it is, by the library's exact step, and by Euler's. */
 
-export interface Spring {
+import { springOf } from '../../fur/index.ts';
+
+export interface Oscillator {
 	/** Hz, of the swing without damping. */
 	frequency: number;
 	/** ζ, 0..1. */
@@ -17,10 +19,10 @@ interface Tip {
 	v: number;
 }
 
-const omega = ({ frequency }: Spring): number => 2 * Math.PI * frequency;
+const omega = ({ frequency }: Oscillator): number => 2 * Math.PI * frequency;
 
 /** x at a time as amplitude and phase of the fading cosine: another way than the step's. */
-export function truth(spring: Spring, time: number): number {
+export function truth(spring: Oscillator, time: number): number {
 	const { damping, rest, from } = spring;
 	const fade = damping * omega(spring);
 	const turn = omega(spring) * Math.sqrt(1 - damping * damping);
@@ -29,23 +31,16 @@ export function truth(spring: Spring, time: number): number {
 }
 
 /** Where steps of `dt` seconds take the tip within so many seconds; the first is where it is let go. */
-export function exactPath(spring: Spring, dt: number, seconds: number): number[] {
-	const w = omega(spring);
-	const a = spring.damping * w;
-	const wd = w * Math.sqrt(1 - spring.damping ** 2);
+export function exactPath(spring: Oscillator, dt: number, seconds: number): number[] {
+	const { xx, xv, vx, vv } = springOf(spring.frequency, spring.damping, dt);
 	return walk(spring, dt, seconds, ({ x, v }) => {
 		const y = x - spring.rest;
-		const e = Math.exp(-a * dt);
-		const [c, sn] = [Math.cos(wd * dt), Math.sin(wd * dt)];
-		return {
-			x: spring.rest + e * (y * c + ((v + a * y) / wd) * sn),
-			v: e * (v * c - ((a * v + w * w * y) / wd) * sn),
-		};
+		return { x: spring.rest + xx * y + xv * v, v: vx * y + vv * v };
 	});
 }
 
 /** As `exactPath`, by the slope at the beginning of each step. */
-export function eulerPath(spring: Spring, dt: number, seconds: number): number[] {
+export function eulerPath(spring: Oscillator, dt: number, seconds: number): number[] {
 	const w = omega(spring);
 	return walk(spring, dt, seconds, ({ x, v }) => ({
 		x: x + v * dt,
@@ -53,7 +48,7 @@ export function eulerPath(spring: Spring, dt: number, seconds: number): number[]
 	}));
 }
 
-function walk(spring: Spring, dt: number, seconds: number, step: (tip: Tip) => Tip): number[] {
+function walk(spring: Oscillator, dt: number, seconds: number, step: (tip: Tip) => Tip): number[] {
 	const path = [spring.from];
 	let tip = { x: spring.from, v: 0 };
 	// A millionth: 2 / (1 / 60) may be less than 120.
@@ -65,11 +60,11 @@ function walk(spring: Spring, dt: number, seconds: number, step: (tip: Tip) => T
 }
 
 /** How far the points of a path are off the curve at most. */
-export function farthest(path: readonly number[], spring: Spring, dt: number): number {
+export function farthest(path: readonly number[], spring: Oscillator, dt: number): number {
 	return Math.max(...path.map((x, i) => Math.abs(x - truth(spring, i * dt))));
 }
 
 /** The longest step, in seconds, with which Euler's path does not grow: |1 + (−δ ± iω_d)·dt| = 1. */
-export function eulerLimit(spring: Spring): number {
+export function eulerLimit(spring: Oscillator): number {
 	return (2 * spring.damping) / omega(spring);
 }
