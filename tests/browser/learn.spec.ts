@@ -163,6 +163,38 @@ test('hair on a spring: the exact step is on the curve however long it is, Euler
 	await expect.poll(async () => Math.max(...(await fromRest()))).toBeLessThan(0.02);
 });
 
+test('fur bends to the wind and keeps the lane of a hand; wet it is darker, muddy it has another colour', async ({
+	page,
+}) => {
+	await open(page, 'learn.html?still=1&lang=en#swing');
+	await show(page, 'wind');
+	const changes = async (name: string, what: string, change: () => Promise<void>, least: number) => {
+		const before = await pixels(page, name);
+		await change();
+		await expect.poll(async () => apart(before, await pixels(page, name)), what).toBeGreaterThan(least);
+	};
+	await changes('wind', 'no wind', () => figure(page, 'wind').getByLabel('Wind').fill('0'), 1);
+	await changes('wind', 'a stroke', () => figure(page, 'wind').getByRole('button', { name: 'Stroke it' }).click(), 0.5);
+	const { x = 0, y = 0, width = 0, height = 0 } = (await figure(page, 'wind').locator('canvas').boundingBox()) ?? {};
+	const drag = async () => {
+		await page.mouse.move(x + 0.4 * width, y + 0.7 * height);
+		await page.mouse.down();
+		await page.mouse.move(x + 0.7 * width, y + 0.6 * height, { steps: 4 });
+		await page.mouse.up();
+	};
+	await changes('wind', 'a drag', drag, 0.3);
+
+	await show(page, 'wet');
+	const set = (label: string, to: string) => () => figure(page, 'wet').getByLabel(label).fill(to);
+	const bright = async () => (await pixels(page, 'wet')).reduce((sum, value) => sum + value, 0);
+	await changes('wet', 'dry', set('Wetness', '0'), 1);
+	const dry = await bright();
+	await changes('wet', 'soaked', set('Wetness', '1'), 1);
+	expect(await bright()).toBeLessThan(0.95 * dry);
+	await expect(figure(page, 'wet')).toContainText('100 % soaked');
+	await changes('wet', 'muddy', set('Dirt', '1'), 0.5);
+});
+
 test('Table 1 is measured beside the article’s, and figures go on after it', async ({ page }) => {
 	// Measuring itself has a test of its own; this one is about what becomes of it.
 	const body = `export async function measureTable1({ quick }, signal, progress) {

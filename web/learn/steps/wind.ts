@@ -10,19 +10,21 @@ import { View } from '../view.ts';
 
 const TILES = 5;
 /** Squares of the mesh across, each corner with a spring. */
-const CELLS = 36;
+const CELLS = 30;
 /** Of the hand, tile widths. */
-const HAND = 0.28;
+const HAND = 0.5;
 /** Share of the fur's height at which a finger touches it. */
 const TOUCHED = 0.7;
 /** Steps of the stroke that the button does. */
 const STROKE_STEPS = 16;
+/** To and fro: how far, tile widths; how often; seconds of all of it. */
+const [SHAKE, SHAKES, SHAKEN] = [0.25, 3, 1.2];
 
 export const mount: Mount = async (place, lesson) => {
 	const words = lesson.words.wind;
 	const { fur } = await loadFurry('pelt-fox', lesson);
 	const patch = new FurPatch(fur, TILES, tiled(TILES, CELLS));
-	Object.assign(patch.shells.material, { gloss: 0.2, backlight: 2 });
+	Object.assign(patch.shells.material, { gloss: 0.1, backlight: 2 });
 	const motion = new FurMotion(patch.fur);
 	motion.wind.gusts = lesson.calm ? 0 : 1;
 
@@ -30,6 +32,8 @@ export const mount: Mount = async (place, lesson) => {
 	const ray = new Ray();
 	const [before, now] = [new Vector3(), new Vector3()];
 	let touching = false;
+	/** How much of the shaking is over, 0..1. */
+	let shaken = 1;
 	/** The place on the skin under a finger is left in `now`. */
 	const touch = ({ x, y }: Vector2, camera: Camera) => {
 		ray.origin.setFromMatrixPosition(camera.matrixWorld);
@@ -41,7 +45,7 @@ export const mount: Mount = async (place, lesson) => {
 		aspect: 16 / 9,
 		azimuth: 24,
 		elevation: 34,
-		zoom: 1.45,
+		zoom: 1.25,
 		centre: patch.middle,
 		radius: TILES * 0.6,
 		drag(pointer, camera) {
@@ -55,22 +59,21 @@ export const mount: Mount = async (place, lesson) => {
 	});
 	view.add(patch);
 
-	/** Has what has changed seen: at once where nothing is to move. */
-	const changed = (steady: boolean) => {
-		if (!lesson.calm) lesson.painter.wake();
-		else {
-			if (steady) motion.settle();
-			motion.update(0);
-			view.redraw();
-		}
+	/** Shows where steady forces lead where nothing is to move; else it moves there. */
+	const changed = () => {
+		if (!lesson.calm) return lesson.painter.wake();
+		motion.settle();
+		view.redraw();
 	};
 	const stroke = (from: Vector3, to: Vector3) => {
 		motion.stroke(from, to, HAND);
-		changed(false);
+		changed();
 	};
 	lesson.painter.animate((elapsed) => {
 		if (lesson.calm || !view.visible) return false;
-		const moving = motion.update(elapsed);
+		shaken = Math.min(shaken + elapsed / SHAKEN, 1);
+		patch.position.x = SHAKE * Math.sin(2 * Math.PI * SHAKES * shaken) * Math.sin(Math.PI * shaken);
+		const moving = motion.update(elapsed) || shaken < 1;
 		if (moving) view.redraw();
 		return moving;
 	});
@@ -85,7 +88,7 @@ export const mount: Mount = async (place, lesson) => {
 		text: words.strength,
 		input: (strength) => {
 			motion.wind.strength = strength;
-			changed(true);
+			changed();
 		},
 	});
 	slider(controls, {
@@ -98,12 +101,17 @@ export const mount: Mount = async (place, lesson) => {
 		input: (degrees) => {
 			const angle = MathUtils.degToRad(degrees);
 			motion.wind.direction.set(Math.sin(angle), 0, Math.cos(angle));
-			changed(true);
+			changed();
 		},
 	});
 	action(controls, words.stroke, () => {
 		const at = (i: number, to: Vector3) =>
 			to.set((i / STROKE_STEPS - 0.5) * 0.8 * TILES, 0, 0.12 * TILES * Math.sin((i / STROKE_STEPS) * 2 * Math.PI));
 		for (let i = 0; i < STROKE_STEPS; i++) stroke(at(i, before), at(i + 1, now));
+	});
+	if (lesson.calm) return;
+	action(controls, words.shake, () => {
+		shaken = 0;
+		lesson.painter.wake();
 	});
 };

@@ -114,6 +114,7 @@ export const en = {
 		direction: 'Blows to',
 		degrees: (degrees: number) => `${degrees}°`,
 		stroke: 'Stroke it',
+		shake: 'Shake it',
 	},
 	wet: {
 		picture: 'A square of fur between two states. Drag or use the arrow keys to move the light.',

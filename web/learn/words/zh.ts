@@ -94,6 +94,7 @@ export const zh: Words = {
 		direction: '风向',
 		degrees: (degrees) => `${degrees}°`,
 		stroke: '抚摸一下',
+		shake: '摇一摇',
 	},
 	wet: {
 		picture: '介于两种状态之间的一块毛发。拖动或用方向键移动光源。',
