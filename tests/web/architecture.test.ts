@@ -9,12 +9,11 @@ const web = fileURLToPath(new URL('../../web/', import.meta.url));
 
 /** The library from the ground up; modules of one floor do not import each other. A new module gets its floor here. */
 const floors = [
-	['format', 'names', 'weld', 'switches'],
+	['format', 'names', 'weld', 'switches', 'steps'],
 	[
 		'planes',
 		'moments',
 		'comb',
-		'skin',
 		'clip',
 		'shadow',
 		'environment',
@@ -24,9 +23,11 @@ const floors = [
 		'places',
 		'governor',
 		'limits',
+		'states',
 	],
+	['levels', 'texels', 'stains'],
 	['PeltMaterial', 'follicles'],
-	['FurMaterial'],
+	['FurMaterial', 'PeltStates', 'FurWeather', 'skin'],
 	['FinMaterial', 'HullMaterial'],
 	['shells', 'fins'],
 	['Fur'],

@@ -1,7 +1,6 @@
 import {
 	CustomBlending,
 	GLSL3,
-	type IUniform,
 	LessEqualDepth,
 	OneFactor,
 	OneMinusSrcAlphaFactor,
@@ -11,12 +10,9 @@ import {
 	UniformsLib,
 	UniformsUtils,
 	Vector2,
-	Vector3,
-	Vector4,
 	ZeroFactor,
 } from 'three';
-import { type Basis, channelOf } from './format.ts';
-import { BODY_RADIUS, horizonMoments, smoothSum } from './moments.ts';
+import { BODY_RADIUS, smoothSum } from './moments.ts';
 import body from './shaders/body.glsl?raw';
 import colour from './shaders/colour.glsl?raw';
 import comb from './shaders/comb.glsl?raw';
@@ -32,7 +28,12 @@ import ptm from './shaders/ptm.glsl?raw';
 import shadow from './shaders/shadow.glsl?raw';
 import sky from './shaders/sky.glsl?raw';
 import view from './shaders/view.glsl?raw';
+import weatherIn from './shaders/weather.frag.glsl?raw';
+import weather from './shaders/weather.glsl?raw';
+import weatherOut from './shaders/weather.vert.glsl?raw';
+import { type Stained, stain, stainUniforms } from './stains.ts';
 import { switchPart } from './switches.ts';
+import { decoder, momentUniforms, type Texels } from './texels.ts';
 
 /** An asset's planes as texture arrays, a slab per layer. */
 export interface FurTextures {
@@ -46,16 +47,11 @@ export interface FurTextures {
 	direction?: Texture | undefined;
 }
 
-/** What texels mean: how they are decoded, and what their coefficients multiply. */
-export interface Texels {
-	scale: number[];
-	bias: number[];
-	basis: Basis;
-	environment: number[][];
-}
-
 /** Where hairs are: of all that draws some. */
-export const hairChunks = [body, follicle, comb, displacement];
+export const hairChunks = [body, follicle, comb, weather, weatherOut, displacement];
+
+/** How texels are read: in which state they are. */
+export const texelChunks = [density, weather, weatherIn];
 
 const lampChunks = ['#include <common>', '#include <lights_pars_begin>', view, moments, shadow, lamps];
 
@@ -96,6 +92,7 @@ export class PeltMaterial extends ShaderMaterial {
 				backlight: { value: 0 },
 				density: { value: 1 },
 				swing: { value: null },
+				...stainUniforms(),
 				...uniforms,
 			},
 			defines: {
@@ -108,8 +105,8 @@ export class PeltMaterial extends ShaderMaterial {
 				SKY: '',
 				...defines,
 			},
-			vertexShader: [...lampChunks, ...hairChunks, sky, lightOut, colour, vertexShader].join('\n'),
-			fragmentShader: [...lampChunks, lightIn, density, ptm, colour, output, fragmentShader].join('\n'),
+			vertexShader: [...hairChunks, ...lampChunks, sky, lightOut, colour, vertexShader].join('\n'),
+			fragmentShader: [...texelChunks, ...lampChunks, lightIn, ptm, colour, output, fragmentShader].join('\n'),
 			transparent: true,
 			blending: CustomBlending,
 			blendSrc: OneFactor,
@@ -235,59 +232,24 @@ export class PeltMaterial extends ShaderMaterial {
 
 	/** Has a part of the shaders compiled in or left out, here and in what follows this material. */
 	#switch(define: string, on: boolean): void {
-		for (const material of [this, ...this.#followers]) switchPart(material, define, on);
+		this.#compile(define, on ? '' : undefined);
 	}
 
-	/** Other planes of the same shape, of another state of the fur say. */
+	#compile(define: string, value: string | number | undefined): void {
+		for (const material of [this, ...this.#followers]) switchPart(material, define, value);
+	}
+
+	/** Wet or dirty fur, as far as the textures hold it. Needs the attribute `follicle`. Undefined costs nothing. */
+	setStains(stained: Stained | undefined): void {
+		const parts = stain(this.uniforms, stained);
+		for (const [define, value] of Object.entries(parts)) this.#compile(define, value);
+	}
+
+	/** Other planes of the same shape, or of several states of the fur, one after the other. */
 	setTextures({ plane0, plane1, colour }: FurTextures): void {
 		for (const [name, value] of Object.entries({ plane0, plane1: plane1 ?? null, colourPlane: colour ?? null })) {
 			const uniform = this.uniforms[name];
 			if (uniform) uniform.value = value;
 		}
 	}
-}
-
-/**
- * The light moments' matrices, coefficients 0..2 in `Low` and 3..5 in `High`, absent ones 0.
- *
- * @param fin whose normal is the frame's second axis, not the third
- */
-function momentUniforms({ environment, basis }: Texels, fin: boolean): Record<string, IUniform> {
-	const uniforms: Record<string, IUniform> = {};
-	const around = horizonMoments(basis, fin ? (psi) => [Math.cos(psi), 0, Math.sin(psi)] : undefined);
-	for (const [part, first] of [
-		['Low', 0],
-		['High', 3],
-	] as const) {
-		const zeros = new Array<number>(9).fill(0);
-		const rows = [0, 1, 2, 3].map((i) => (i < 3 && environment[first + i]) || zeros);
-		uniforms[`environment${part}0`] = { value: rows.flatMap((row) => row.slice(0, 4)) };
-		uniforms[`environment${part}1`] = { value: rows.flatMap((row) => row.slice(4, 8)) };
-		uniforms[`environment${part}2`] = { value: new Vector3(...rows.slice(0, 3).map((row) => row[8] ?? 0)) };
-		uniforms[`horizon${part}`] = {
-			value: around.map((row) => new Vector3(row[first] ?? 0, row[first + 1] ?? 0, row[first + 2] ?? 0)),
-		};
-		if (basis.kind === 'eigen') {
-			const curves = [0, 1, 2].map((i) => basis.matrix[first + i]);
-			const terms = basis.matrix[0]?.length ?? 0;
-			uniforms[`curves${part}`] = {
-				value: Array.from({ length: terms }, (_, t) => new Vector3(...curves.map((row) => row?.[t] ?? 0))),
-			};
-		}
-	}
-	return uniforms;
-}
-
-/** λ and Ω as multiply-adds on the GPU's 0..1 texels, per plane: a = texel·(255λ) − λΩ. */
-function decoder(scale: number[], bias: number[]): { scale: Vector4[]; offset: Vector4[] } {
-	const vectors = {
-		scale: [new Vector4(0, 0, 0, 0), new Vector4(0, 0, 0, 0)],
-		offset: [new Vector4(0, 0, 0, 0), new Vector4(0, 0, 0, 0)],
-	};
-	scale.forEach((lambda, i) => {
-		const { plane, channel } = channelOf(i);
-		vectors.scale[plane]?.setComponent(channel, lambda * 255);
-		vectors.offset[plane]?.setComponent(channel, -lambda * (bias[i] ?? 0));
-	});
-	return vectors;
 }

@@ -15,6 +15,7 @@ export { FinMaterial, type FinMaterialParameters } from './FinMaterial.ts';
 export { type DressOptions, dress, Fur } from './Fur.ts';
 export { type FurLoaderOptions, FurLoaderPlugin } from './FurLoaderPlugin.ts';
 export { FurMaterial, type FurMaterialParameters } from './FurMaterial.ts';
+export { FurWeather, type WeatheredBody, type WeatherOptions } from './FurWeather.ts';
 export { FurFins } from './fins.ts';
 export { FOLLICLES_PER_ROW, Follicles } from './follicles.ts';
 export {

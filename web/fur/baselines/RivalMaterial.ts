@@ -9,9 +9,8 @@ import {
 	type WebGLRenderer,
 } from 'three';
 import type { FurMaterial } from '../FurMaterial.ts';
-import { hairChunks } from '../PeltMaterial.ts';
+import { hairChunks, texelChunks } from '../PeltMaterial.ts';
 import colour from '../shaders/colour.glsl?raw';
-import density from '../shaders/density.glsl?raw';
 import hairIn from '../shaders/hair.frag.glsl?raw';
 import hairOut from '../shaders/hair.vert.glsl?raw';
 import opacity from '../shaders/opacity.glsl?raw';
@@ -40,9 +39,16 @@ export class RivalMaterial extends ShaderMaterial {
 			uniforms: { ...shells.uniforms, ...UniformsUtils.clone(UniformsLib.lights), ...uniforms },
 			defines: { ...shells.defines, ...defines },
 			vertexShader: ['#include <common>', view, ...hairChunks, shell, colour, hairOut, vertexShader].join('\n'),
-			fragmentShader: ['#include <common>', density, coverage, opacity, colour, hairIn, output, fragmentShader].join(
-				'\n',
-			),
+			fragmentShader: [
+				'#include <common>',
+				...texelChunks,
+				coverage,
+				opacity,
+				colour,
+				hairIn,
+				output,
+				fragmentShader,
+			].join('\n'),
 		});
 		// Blending, depth and the like: those of every material, no shaders.
 		Material.prototype.copy.call(this, shells);

@@ -24,6 +24,9 @@ out vec3 vBack;
 #ifdef GLOSS
 out float vLobe; // white highlight
 out float vTintedLobe;
+#ifdef WET
+out float vPower; // irradiance
+#endif
 #endif
 #endif
 
@@ -53,6 +56,9 @@ void passLight(FurPoint point, float openness) {
 #ifdef GLOSS
 	vLobe = lamps.lobes.x;
 	vTintedLobe = lamps.lobes.y;
+#ifdef WET
+	vPower = lamps.power;
+#endif
 #endif
 #endif
 }
@@ -79,6 +85,9 @@ void passDarkness() {
 #endif
 #ifdef GLOSS
 	vLobe = vTintedLobe = 0.0;
+#ifdef WET
+	vPower = 0.0;
+#endif
 #endif
 #endif
 }
