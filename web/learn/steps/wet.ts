@@ -15,7 +15,7 @@ const FIRST_WETNESS = 0.6;
 
 export const mount: Mount = async (place, lesson) => {
 	const words = lesson.words.wet;
-	const { fur: pelt } = await loadFurry('pelt-bunny', lesson);
+	const { fur: pelt } = await loadFurry('pelt-fox', lesson);
 	// What is drawn, and the states before and after it.
 	const patches = [0, 1, 2].map(() => new FurPatch(pelt, TILES, tiled(TILES, CELLS)));
 	const weathers = patches.map(({ fur }) => {
