@@ -11,42 +11,47 @@ import { mixtureOf } from '../wet/mixture.ts';
 const TILES = 3;
 /** Of the mesh: the lights' moments vary little on a plane. */
 const CELLS = 6;
-const FIRST_WETNESS = 0.6;
+/** Half-way between two states. */
+const FIRST_WETNESS = 0.625;
+/** Dry, how glossy it is, and how much light comes through. */
+const LOOK = { gloss: 0.12, backlight: 2 };
 
 export const mount: Mount = async (place, lesson) => {
 	const words = lesson.words.wet;
 	const { fur: pelt } = await loadFurry('pelt-fox', lesson);
 	// What is drawn, and the states before and after it.
 	const patches = [0, 1, 2].map(() => new FurPatch(pelt, TILES, tiled(TILES, CELLS)));
-	const weathers = patches.map(({ fur }) => {
-		const weather = new FurWeather(fur);
-		fur.weather = weather;
-		return weather;
+	const weathers = patches.map(({ fur, shells }) => {
+		Object.assign(shells.material, LOOK);
+		return new FurWeather(fur);
 	});
 	await Promise.all(patches.map(({ fur }) => fur.loadStates()));
 	const states = pelt.asset.pelts.filter(({ dirt }) => !dirt);
 	const wetnesses = states.map(({ wetness }) => wetness ?? 0);
 
 	const [main] = patches as [FurPatch];
+	const [weather, ...others] = weathers as [FurWeather, ...FurWeather[]];
 	/** Of the three, which this window shows. */
 	const only = (shown: number): Pick<WindowOptions, 'before'> => ({
 		before() {
 			for (const [i, patch] of patches.entries()) patch.visible = i === shown;
 		},
 	});
-	const look = { azimuth: 24, elevation: 36, zoom: 1.3 };
+	const look = { azimuth: 24, elevation: 38 };
 	const view = new View(place, lesson, {
 		label: words.picture,
 		aspect: 16 / 9,
 		...look,
+		zoom: 1.3,
 		centre: main.middle,
 		radius: TILES * 0.62,
 		...only(0),
 	});
 	const row = panes(place, 2);
+	row.classList.add('below');
 	const captions = words.neighbours.map((label, i) => {
 		const { element, caption } = pane(row);
-		view.window(element, { label, aspect: 16 / 9, ...look, lamp: false, ...only(i + 1) });
+		view.window(element, { label, aspect: 16 / 10, ...look, zoom: 1.8, lamp: false, ...only(i + 1) });
 		return caption;
 	});
 	view.add(...patches);
@@ -55,11 +60,12 @@ export const mount: Mount = async (place, lesson) => {
 	const says = note(place);
 	let [wetness, dirt] = [FIRST_WETNESS, 0];
 	const show = () => {
-		const { drier, share } = mixtureOf(wetnesses, wetness);
-		for (const [i, weather] of weathers.entries()) {
-			weather.wetness = [wetness, wetnesses[drier] ?? 0, wetnesses[drier + 1] ?? 1][i] ?? 0;
-			weather.dirt = dirt;
-			weather.update(0);
+		Object.assign(weather, { wetness, dirt }).update(0);
+		// Mud mats hairs as water does.
+		const { drier, share } = mixtureOf(wetnesses, weather.wettest);
+		for (const [i, other] of others.entries()) {
+			other.wetness = wetnesses[drier + i] ?? 0;
+			other.update(0);
 		}
 		for (const [i, caption] of captions.entries())
 			caption.textContent = words.share(words.states[drier + i] ?? '', i ? share : 1 - share);
@@ -72,9 +78,9 @@ export const mount: Mount = async (place, lesson) => {
 		label: words.wetness,
 		min: 0,
 		max: 1,
-		step: 0.01,
+		step: 0.025,
 		value: wetness,
-		text: (value) => value.toFixed(2),
+		text: (value) => value.toFixed(3),
 		input: (value) => {
 			wetness = value;
 			show();
