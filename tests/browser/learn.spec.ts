@@ -38,6 +38,13 @@ function apart(a: number[], b: number[]): number {
 	return a.reduce((sum, value, i) => sum + Math.abs(value - (b[i] ?? 0)), 0) / a.length / 3;
 }
 
+/** Does something by which a figure's first picture has to change. */
+async function changes(page: Page, name: string, what: string, change: () => Promise<void>, least: number) {
+	const before = await pixels(page, name);
+	await change();
+	await expect.poll(async () => apart(before, await pixels(page, name)), what).toBeGreaterThan(least);
+}
+
 /** Coefficients of a pelt seen from straight above, from its files. */
 function seenFromAbove(name: string): number[] {
 	const { layers, size, pelts } = json(`${name}/model.gltf`).extensions.FUR_ptm_shells;
@@ -163,36 +170,40 @@ test('hair on a spring: the exact step is on the curve however long it is, Euler
 	await expect.poll(async () => Math.max(...(await fromRest()))).toBeLessThan(0.02);
 });
 
-test('fur bends to the wind and keeps the lane of a hand; wet it is darker, muddy it has another colour', async ({
-	page,
-}) => {
+test('fur bends to the wind, and keeps the lane of a hand', async ({ page }) => {
 	await open(page, 'learn.html?still=1&lang=en#swing');
 	await show(page, 'wind');
-	const changes = async (name: string, what: string, change: () => Promise<void>, least: number) => {
-		const before = await pixels(page, name);
-		await change();
-		await expect.poll(async () => apart(before, await pixels(page, name)), what).toBeGreaterThan(least);
-	};
-	await changes('wind', 'no wind', () => figure(page, 'wind').getByLabel('Wind').fill('0'), 1);
-	await changes('wind', 'a stroke', () => figure(page, 'wind').getByRole('button', { name: 'Stroke it' }).click(), 0.5);
-	const { x = 0, y = 0, width = 0, height = 0 } = (await figure(page, 'wind').locator('canvas').boundingBox()) ?? {};
+	await changes(page, 'wind', 'no wind', () => figure(page, 'wind').getByRole('slider', { name: 'Wind' }).fill('0'), 1);
+	await changes(
+		page,
+		'wind',
+		'a stroke',
+		() => figure(page, 'wind').getByRole('button', { name: 'Stroke it' }).click(),
+		0.5,
+	);
 	const drag = async () => {
+		const canvas = figure(page, 'wind').locator('canvas');
+		await canvas.evaluate((element) => element.scrollIntoView({ block: 'end', behavior: 'instant' }));
+		const { x = 0, y = 0, width = 0, height = 0 } = (await canvas.boundingBox()) ?? {};
 		await page.mouse.move(x + 0.4 * width, y + 0.7 * height);
 		await page.mouse.down();
 		await page.mouse.move(x + 0.7 * width, y + 0.6 * height, { steps: 4 });
 		await page.mouse.up();
 	};
-	await changes('wind', 'a drag', drag, 0.3);
+	await changes(page, 'wind', 'a drag', drag, 0.3);
+});
 
+test('wet fur is darker than dry, and muddy fur has another colour', async ({ page }) => {
+	await open(page, 'learn.html?still=1&lang=en#wet');
 	await show(page, 'wet');
-	const set = (label: string, to: string) => () => figure(page, 'wet').getByLabel(label).fill(to);
+	const set = (label: string, to: string) => () => figure(page, 'wet').getByRole('slider', { name: label }).fill(to);
 	const bright = async () => (await pixels(page, 'wet')).reduce((sum, value) => sum + value, 0);
-	await changes('wet', 'dry', set('Wetness', '0'), 1);
+	await changes(page, 'wet', 'dry', set('Wetness', '0'), 1);
 	const dry = await bright();
-	await changes('wet', 'soaked', set('Wetness', '1'), 1);
+	await changes(page, 'wet', 'soaked', set('Wetness', '1'), 1);
 	expect(await bright()).toBeLessThan(0.95 * dry);
 	await expect(figure(page, 'wet')).toContainText('100 % soaked');
-	await changes('wet', 'muddy', set('Dirt', '1'), 0.5);
+	await changes(page, 'wet', 'muddy', set('Dirt', '1'), 0.5);
 });
 
 test('Table 1 is measured beside the article’s, and figures go on after it', async ({ page }) => {

@@ -8,11 +8,11 @@ import type { Mount } from '../lesson.ts';
 import { FurPatch, tiled } from '../patch.ts';
 import { View } from '../view.ts';
 
-const TILES = 5;
+const TILES = 4;
 /** Squares of the mesh across, each corner with a spring. */
-const CELLS = 30;
+const CELLS = 24;
 /** Of the hand, tile widths. */
-const HAND = 0.5;
+const HAND = 0.42;
 /** Share of the fur's height at which a finger touches it. */
 const TOUCHED = 0.7;
 /** Steps of the stroke that the button does. */
