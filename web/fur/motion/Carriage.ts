@@ -3,7 +3,7 @@ import type { Drive } from './drive.ts';
 import { Turn } from './Turn.ts';
 
 /** Where gravity takes the tips of the longest fur on a wall, share of the length. */
-const SAG = 0.22;
+const SAG = 0.3;
 /** Seconds in which hairs feel the skin's velocity: the jerks of a pointer arrive rounded. */
 const YIELD = 1 / 40;
 /** Velocity of the skin that hairs feel however fast it is, ω times their length. */
@@ -64,12 +64,14 @@ export class Carriage {
 	 * @returns whether it has moved
 	 */
 	look(seconds: number): boolean {
+		this.#skin.fill(0);
 		const { matrixWorld } = this.#mesh;
 		this.#mesh.updateWorldMatrix(true, false);
-		const moved = this.#placed && !this.#to.equals(matrixWorld);
 		this.#from.copy(this.#to);
+		// What is nowhere stays where it was.
+		if (!(Math.abs(matrixWorld.determinant()) > 0)) return false;
+		const moved = this.#placed && !this.#to.equals(matrixWorld);
 		this.#to.copy(matrixWorld);
-		if (!moved) this.#skin.fill(0);
 		if (!this.#placed || (moved && !this.#measure(seconds))) this.place();
 		return moved;
 	}

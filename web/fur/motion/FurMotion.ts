@@ -58,7 +58,7 @@ export interface MotionOptions {
  *     if (motion.update(seconds)) for (const other of dressed) other.swing = motion.swing;
  *     renderer.render(scene, camera);
  *
- * The body's node may be moved by whatever moves it: `update` looks where it is. Time goes in sub-steps of a sixtieth of a
+ * The body's node may be moved by whatever moves it: `update` looks where it is. Time goes in sub-steps of a fortieth of a
  * second, whatever the frame rate is, and what is seen is one of them behind. Without anything that pulls at it the fur falls
  * asleep, as it was baked, and costs nothing.
  */
@@ -177,6 +177,7 @@ export class FurMotion {
 		this.#carriage.place();
 		this.#strokes.finish();
 		this.#wind.stirs();
+		this.#weight = this.#gravity;
 		this.#pull(1, true);
 		this.#solver.rest();
 		const steps = this.#bent || this.#strokes.widest > 0 ? this.#stepsToRest() : 0;
