@@ -9,7 +9,7 @@ const web = fileURLToPath(new URL('../../web/', import.meta.url));
 
 /** The library from the ground up; modules of one floor do not import each other. A new module gets its floor here. */
 const floors = [
-	['format', 'names', 'weld', 'switches', 'steps'],
+	['format', 'names', 'weld', 'switches', 'steps', 'chunks'],
 	[
 		'planes',
 		'moments',
@@ -24,8 +24,9 @@ const floors = [
 		'governor',
 		'limits',
 		'states',
+		'trim',
 	],
-	['levels', 'texels', 'stains'],
+	['levels', 'TrimLight', 'texels', 'stains'],
 	['PeltMaterial', 'follicles'],
 	['FurMaterial', 'PeltStates', 'FurWeather', 'skin'],
 	['FinMaterial', 'HullMaterial'],

@@ -213,10 +213,10 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 	 */
 	async #later(index: number): Promise<() => Promise<StoredImage>> {
 		const { json, options } = this.#parser;
-		const { uri, name = uri } = json.images?.[index] ?? {};
+		const { uri } = json.images?.[index] ?? {};
 		try {
 			const url = uri && options.manager.resolveURL(LoaderUtils.resolveURL(uri, options.path));
-			if (url && !/^(blob|data):/i.test(url)) return () => this.#file(name, url, new LoadingManager());
+			if (url && !/^(blob|data):/i.test(url)) return () => this.#file(uri, url, new LoadingManager());
 			const image = await this.#image(index);
 			return async () => image;
 		} catch (error) {

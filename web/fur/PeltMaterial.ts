@@ -1,6 +1,7 @@
 import {
 	CustomBlending,
 	GLSL3,
+	type IUniform,
 	LessEqualDepth,
 	OneFactor,
 	OneMinusSrcAlphaFactor,
@@ -12,27 +13,17 @@ import {
 	Vector2,
 	ZeroFactor,
 } from 'three';
+import { hairChunks, lampChunks, texelChunks } from './chunks.ts';
 import { BODY_RADIUS, smoothSum } from './moments.ts';
-import body from './shaders/body.glsl?raw';
 import colour from './shaders/colour.glsl?raw';
-import comb from './shaders/comb.glsl?raw';
-import density from './shaders/density.glsl?raw';
-import displacement from './shaders/displacement.glsl?raw';
-import follicle from './shaders/follicle.glsl?raw';
-import lamps from './shaders/lamps.glsl?raw';
 import lightIn from './shaders/light.frag.glsl?raw';
 import lightOut from './shaders/light.vert.glsl?raw';
-import moments from './shaders/moments.glsl?raw';
 import output from './shaders/output.glsl?raw';
 import ptm from './shaders/ptm.glsl?raw';
-import shadow from './shaders/shadow.glsl?raw';
 import sky from './shaders/sky.glsl?raw';
-import view from './shaders/view.glsl?raw';
-import weatherIn from './shaders/weather.frag.glsl?raw';
-import weather from './shaders/weather.glsl?raw';
-import weatherOut from './shaders/weather.vert.glsl?raw';
 import { type Stained, stain, stainUniforms } from './stains.ts';
 import { switchPart } from './switches.ts';
+import { TrimLight } from './TrimLight.ts';
 import { decoder, momentUniforms, type Texels } from './texels.ts';
 
 /** An asset's planes as texture arrays, a slab per layer. */
@@ -47,17 +38,13 @@ export interface FurTextures {
 	direction?: Texture | undefined;
 }
 
-/** Where hairs are: of all that draws some. */
-export const hairChunks = [body, follicle, comb, weather, weatherOut, displacement];
-
-/** How texels are read: in which state they are. */
-export const texelChunks = [density, weather, weatherIn];
-
-const lampChunks = ['#include <common>', '#include <lights_pars_begin>', view, moments, shadow, lamps];
-
 /** What the materials of shells and fins have in common: texels of coefficients that meet light moments. */
 export class PeltMaterial extends ShaderMaterial {
 	readonly #followers: PeltMaterial[] = [];
+	readonly #leader: PeltMaterial | undefined;
+	readonly #texels: Texels;
+	readonly #planes: readonly Texture[];
+	#trimLight: TrimLight | undefined;
 
 	/**
 	 * @param parameters own shaders (after the common chunks), uniforms and defines
@@ -93,6 +80,8 @@ export class PeltMaterial extends ShaderMaterial {
 				density: { value: 1 },
 				swing: { value: null },
 				...stainUniforms(),
+				furTrim: { value: 1 },
+				trimLight: { value: null },
 				...uniforms,
 			},
 			defines: {
@@ -134,6 +123,9 @@ export class PeltMaterial extends ShaderMaterial {
 				},
 			});
 		}
+		this.#texels = texels;
+		this.#planes = [textures.plane0, textures.plane1].filter((plane) => plane !== undefined);
+		this.#leader = leader;
 		this.setTextures(textures);
 		if (leader) leader.#followers.push(this);
 	}
@@ -193,6 +185,42 @@ export class PeltMaterial extends ShaderMaterial {
 	}
 
 	/**
+	 * Share of the hairs that is left when they are cut, above 0 to 1: the lowest slabs, as thick as they were, in the light
+	 * that they get when the hair above is gone. 1 costs nothing.
+	 */
+	get trim(): number {
+		return this.uniforms.furTrim?.value;
+	}
+
+	set trim(share: number) {
+		if (this.#leader) this.#leader.trim = share;
+		if (share === this.trim) return;
+		const { furTrim } = this.uniforms;
+		if (furTrim) furTrim.value = share;
+		if (share < 1) {
+			const places = this.#light().places(share);
+			for (const material of [this, ...this.#followers]) material.#light().set(places);
+		}
+		this.#switch('TRIMMED', share < 1);
+	}
+
+	/** Made from the texels that the material was made with: other states of the fur have their light changed alike. */
+	#light(): TrimLight {
+		if (!this.#trimLight) {
+			const { LAYERS, FIN } = this.defines as { LAYERS: number; FIN?: string };
+			this.#trimLight = new TrimLight(this.#planes, this.#texels, LAYERS, FIN === undefined ? LAYERS : 1);
+			(this.uniforms.trimLight as IUniform).value = this.#trimLight.texture;
+		}
+		return this.#trimLight;
+	}
+
+	/** Frees what it has on the GPU but for the pelt's textures. */
+	override dispose(): void {
+		super.dispose();
+		this.#trimLight?.texture.dispose();
+	}
+
+	/**
 	 * Whether lamps are summed per fragment, not per vertex: the lamps' light on coarse meshes, and the edges of shadows on
 	 * them, to the pixel, for much of the frame.
 	 */
@@ -230,11 +258,11 @@ export class PeltMaterial extends ShaderMaterial {
 		this.#switch(name.toUpperCase(), on);
 	}
 
-	/** Has a part of the shaders compiled in or left out, here and in what follows this material. */
 	#switch(define: string, on: boolean): void {
 		this.#compile(define, on ? '' : undefined);
 	}
 
+	/** Has a part of the shaders compiled in or left out, here and in what follows this material. */
 	#compile(define: string, value: string | number | undefined): void {
 		for (const material of [this, ...this.#followers]) switchPart(material, define, value);
 	}

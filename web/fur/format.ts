@@ -159,7 +159,7 @@ export function parseFur(extension: unknown): FurAsset | undefined {
 }
 
 /** What states of one fur have in common, so that they can be mixed. */
-function checkStates({ pelts, coefficients }: FurAsset): void {
+function checkStates({ pelts, coefficients, mud }: FurAsset): void {
 	const [first, ...others] = pelts as [Pelt, ...Pelt[]];
 	const refuse = (where: string, got: unknown, expected: string) => {
 		throw new Error(`${EXTENSION}/${where}: got ${got}, expected ${expected}`);
@@ -177,6 +177,7 @@ function checkStates({ pelts, coefficients }: FurAsset): void {
 		if (wetness && before.some((other) => (other.wetness ?? 0) >= wetness))
 			refuse(`${name}.wetness`, wetness, 'more than of the pelts before it');
 		if (dirt && before.some((other) => other.dirt)) refuse(`${name}.dirt`, dirt, 'no second dirty pelt');
+		if (dirt && !mud) refuse('mud', 'none', 'the colour of dirt');
 		if (dirt && coefficients < 4) refuse('coefficients', coefficients, '4 or more of fur that is dirty');
 		for (const [where, got, wanted] of [
 			['scale', pelt.scale, first.scale],

@@ -12,7 +12,7 @@ export {
 	visitEnvironment,
 } from './environment.ts';
 export { FinMaterial, type FinMaterialParameters } from './FinMaterial.ts';
-export { type DressOptions, dress, Fur } from './Fur.ts';
+export { type DressOptions, dress, Fur, type HasStates } from './Fur.ts';
 export { type FurLoaderOptions, FurLoaderPlugin } from './FurLoaderPlugin.ts';
 export { FurMaterial, type FurMaterialParameters } from './FurMaterial.ts';
 export { FurWeather, type WeatheredBody, type WeatherOptions } from './FurWeather.ts';

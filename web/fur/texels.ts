@@ -1,4 +1,4 @@
-/** What texels mean, as uniforms: how bytes are decoded, and which moments of light their coefficients meet. */
+/** What a texel's bytes and coefficients mean, as uniforms. */
 
 import { type IUniform, Vector3, Vector4 } from 'three';
 import { type Basis, channelOf } from './format.ts';

@@ -101,5 +101,9 @@ Lamps lampsAt(FurPoint point) {
 	lamps.lobes *= furTraits.z;
 	lamps.power = power;
 #endif
+#ifdef TRIMMED
+	lamps.lobes *= furTrim; // stubble is seen from its ends more than from its sides
+	lamps.moments = trimmed(lamps.moments, point.s);
+#endif
 	return lamps;
 }
