@@ -43,6 +43,7 @@ export {
 	smoothFunctions,
 } from './moments.ts';
 export { FurMotion, type MotionOptions } from './motion/FurMotion.ts';
+export { type Spring, springOf } from './motion/spring.ts';
 export type { WindSettings } from './motion/Wind.ts';
 export type { FurTextures } from './PeltMaterial.ts';
 export { fitShadow } from './shadow.ts';
