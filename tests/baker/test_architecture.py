@@ -28,6 +28,7 @@ FLOORS = {
     "verify": {"asset", "pelt", "options", "bake", "pathtrace"},
     "compare": {"pelt", "options", "bake"},
     "halfway": {"pelt", "options", "bake", "verify"},
+    "trim": {"pelt", "options", "bake", "verify"},
     "lesson": {"asset", "pelt", "options", "identity", "bake"},
     "cli": {
         "asset",
@@ -43,6 +44,7 @@ FLOORS = {
         "pathtrace",
         "compare",
         "halfway",
+        "trim",
         "lesson",
         "cli",
     },

@@ -1,23 +1,39 @@
-import { GLSL3, type IUniform, ShaderMaterial } from 'three';
+import { GLSL3, type IUniform, ShaderMaterial, type ShaderMaterialParameters } from 'three';
+import { hairChunks } from './chunks.ts';
 import type { FurMaterial } from './FurMaterial.ts';
-import body from './shaders/body.glsl?raw';
-import displacement from './shaders/displacement.glsl?raw';
 import fragmentShader from './shaders/hull.frag.glsl?raw';
 import vertexShader from './shaders/hull.vert.glsl?raw';
+import { followParts } from './switches.ts';
+
+/** What hulls have from the shells that they stand for. */
+const SHARED = ['furLength', 'furTrim', 'swing', 'stains', 'wetnesses', 'traits'];
+
+/** Parts of the shells' shaders that change a hull. */
+const PARTS = ['SWING', 'TRIMMED', 'WET'];
 
 /**
  * What fur casts a shadow with: its hull at half the hairs' length, without a hole. Where light gets between the hairs the
  * shadow's filter has its say.
  */
 export class HullMaterial extends ShaderMaterial {
-	constructor(shells: FurMaterial) {
+	readonly #shells: FurMaterial;
+
+	/** @param parameters other shaders (the vertex shader's after the common chunks) and properties */
+	constructor(shells: FurMaterial, parameters: ShaderMaterialParameters = {}) {
 		super({
 			name: 'HullMaterial',
 			glslVersion: GLSL3,
-			uniforms: { furLength: shells.uniforms.furLength as IUniform },
-			vertexShader: [body, displacement, vertexShader].join('\n'),
 			fragmentShader,
+			...parameters,
+			uniforms: Object.fromEntries(SHARED.map((name) => [name, shells.uniforms[name] as IUniform])),
+			vertexShader: [...hairChunks, parameters.vertexShader ?? vertexShader].join('\n'),
 		});
-		Object.assign(this.defaultAttributeValues, { _fur: [1, 1, 1, 0], _comb: [0, 0, 0] });
+		this.#shells = shells;
+		Object.assign(this.defaultAttributeValues, shells.defaultAttributeValues);
+	}
+
+	/** Bends hairs where the shells do. To be called before it is drawn. */
+	follow(): void {
+		followParts(this, this.#shells, PARTS);
 	}
 }

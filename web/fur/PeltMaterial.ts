@@ -11,25 +11,20 @@ import {
 	UniformsLib,
 	UniformsUtils,
 	Vector2,
-	Vector3,
-	Vector4,
 	ZeroFactor,
 } from 'three';
-import { type Basis, channelOf } from './format.ts';
-import { BODY_RADIUS, horizonMoments, smoothSum } from './moments.ts';
-import body from './shaders/body.glsl?raw';
+import { hairChunks, lampChunks, texelChunks } from './chunks.ts';
+import { BODY_RADIUS, smoothSum } from './moments.ts';
 import colour from './shaders/colour.glsl?raw';
-import density from './shaders/density.glsl?raw';
-import displacement from './shaders/displacement.glsl?raw';
-import lamps from './shaders/lamps.glsl?raw';
 import lightIn from './shaders/light.frag.glsl?raw';
 import lightOut from './shaders/light.vert.glsl?raw';
-import moments from './shaders/moments.glsl?raw';
 import output from './shaders/output.glsl?raw';
 import ptm from './shaders/ptm.glsl?raw';
-import shadow from './shaders/shadow.glsl?raw';
 import sky from './shaders/sky.glsl?raw';
-import view from './shaders/view.glsl?raw';
+import { type Stained, stain, stainUniforms } from './stains.ts';
+import { switchPart } from './switches.ts';
+import { TrimLight } from './TrimLight.ts';
+import { decoder, momentUniforms, type Texels } from './texels.ts';
 
 /** An asset's planes as texture arrays, a slab per layer. */
 export interface FurTextures {
@@ -43,19 +38,13 @@ export interface FurTextures {
 	direction?: Texture | undefined;
 }
 
-/** What texels mean: how they are decoded, and what their coefficients multiply. */
-export interface Texels {
-	scale: number[];
-	bias: number[];
-	basis: Basis;
-	environment: number[][];
-}
-
-const lampChunks = ['#include <common>', '#include <lights_pars_begin>', view, moments, shadow, lamps];
-
 /** What the materials of shells and fins have in common: texels of coefficients that meet light moments. */
 export class PeltMaterial extends ShaderMaterial {
 	readonly #followers: PeltMaterial[] = [];
+	readonly #leader: PeltMaterial | undefined;
+	readonly #texels: Texels;
+	readonly #planes: readonly Texture[];
+	#trimLight: TrimLight | undefined;
 
 	/**
 	 * @param parameters own shaders (after the common chunks), uniforms and defines
@@ -89,6 +78,10 @@ export class PeltMaterial extends ShaderMaterial {
 				sharpness: { value: 60 },
 				backlight: { value: 0 },
 				density: { value: 1 },
+				swing: { value: null },
+				...stainUniforms(),
+				furTrim: { value: 1 },
+				trimLight: { value: null },
 				...uniforms,
 			},
 			defines: {
@@ -101,8 +94,8 @@ export class PeltMaterial extends ShaderMaterial {
 				SKY: '',
 				...defines,
 			},
-			vertexShader: [...lampChunks, body, displacement, sky, lightOut, colour, vertexShader].join('\n'),
-			fragmentShader: [...lampChunks, lightIn, density, ptm, colour, output, fragmentShader].join('\n'),
+			vertexShader: [...hairChunks, ...lampChunks, sky, lightOut, colour, vertexShader].join('\n'),
+			fragmentShader: [...texelChunks, ...lampChunks, lightIn, ptm, colour, output, fragmentShader].join('\n'),
 			transparent: true,
 			blending: CustomBlending,
 			blendSrc: OneFactor,
@@ -117,6 +110,7 @@ export class PeltMaterial extends ShaderMaterial {
 			_fur: [1, 1, 1, 0],
 			_comb: [0, 0, 0],
 			_edge: [0, 0, 0, 0],
+			follicle: [0],
 		});
 		for (const name of mirrored) {
 			const uniform = this.uniforms[name];
@@ -129,6 +123,9 @@ export class PeltMaterial extends ShaderMaterial {
 				},
 			});
 		}
+		this.#texels = texels;
+		this.#planes = [textures.plane0, textures.plane1].filter((plane) => plane !== undefined);
+		this.#leader = leader;
 		this.setTextures(textures);
 		if (leader) leader.#followers.push(this);
 	}
@@ -173,6 +170,57 @@ export class PeltMaterial extends ShaderMaterial {
 	}
 
 	/**
+	 * How far hairs are from where they were combed, XYZ of a texel for each follicle: displacement of the tip in the tangent
+	 * plane, share of the length, the mesh's own axes; with the comb no longer than 0.8. Needs the attribute `follicle`.
+	 * Undefined costs nothing.
+	 */
+	get swing(): Texture | undefined {
+		return this.uniforms.swing?.value ?? undefined;
+	}
+
+	set swing(texture: Texture | undefined) {
+		const { swing } = this.uniforms;
+		if (swing) swing.value = texture ?? null;
+		this.#switch('SWING', texture !== undefined);
+	}
+
+	/**
+	 * Share of the hairs that is left when they are cut, above 0 to 1: the lowest slabs, as thick as they were, in the light
+	 * that they get when the hair above is gone. 1 costs nothing.
+	 */
+	get trim(): number {
+		return this.uniforms.furTrim?.value;
+	}
+
+	set trim(share: number) {
+		if (this.#leader) this.#leader.trim = share;
+		if (share === this.trim) return;
+		const { furTrim } = this.uniforms;
+		if (furTrim) furTrim.value = share;
+		if (share < 1) {
+			const places = this.#light().places(share);
+			for (const material of [this, ...this.#followers]) material.#light().set(places);
+		}
+		this.#switch('TRIMMED', share < 1);
+	}
+
+	/** Made from the texels that the material was made with: other states of the fur have their light changed alike. */
+	#light(): TrimLight {
+		if (!this.#trimLight) {
+			const { LAYERS, FIN } = this.defines as { LAYERS: number; FIN?: string };
+			this.#trimLight = new TrimLight(this.#planes, this.#texels, LAYERS, FIN === undefined ? LAYERS : 1);
+			(this.uniforms.trimLight as IUniform).value = this.#trimLight.texture;
+		}
+		return this.#trimLight;
+	}
+
+	/** Frees what it has on the GPU but for the pelt's textures. */
+	override dispose(): void {
+		super.dispose();
+		this.#trimLight?.texture.dispose();
+	}
+
+	/**
 	 * Whether lamps are summed per fragment, not per vertex: the lamps' light on coarse meshes, and the edges of shadows on
 	 * them, to the pixel, for much of the frame.
 	 */
@@ -210,66 +258,26 @@ export class PeltMaterial extends ShaderMaterial {
 		this.#switch(name.toUpperCase(), on);
 	}
 
-	/** Has a part of the shaders compiled in or left out, here and in what follows this material. */
 	#switch(define: string, on: boolean): void {
-		for (const material of [this, ...this.#followers]) {
-			if (define in material.defines === on) continue;
-			if (on) material.defines[define] = '';
-			else delete material.defines[define];
-			material.needsUpdate = true;
-		}
+		this.#compile(define, on ? '' : undefined);
 	}
 
-	/** Other planes of the same shape, of another state of the fur say. */
+	/** Has a part of the shaders compiled in or left out, here and in what follows this material. */
+	#compile(define: string, value: string | number | undefined): void {
+		for (const material of [this, ...this.#followers]) switchPart(material, define, value);
+	}
+
+	/** Wet or dirty fur, as far as the textures hold it. Needs the attribute `follicle`. Undefined costs nothing. */
+	setStains(stained: Stained | undefined): void {
+		const parts = stain(this.uniforms, stained);
+		for (const [define, value] of Object.entries(parts)) this.#compile(define, value);
+	}
+
+	/** Other planes of the same shape, or of several states of the fur, one after the other. */
 	setTextures({ plane0, plane1, colour }: FurTextures): void {
 		for (const [name, value] of Object.entries({ plane0, plane1: plane1 ?? null, colourPlane: colour ?? null })) {
 			const uniform = this.uniforms[name];
 			if (uniform) uniform.value = value;
 		}
 	}
-}
-
-/**
- * The light moments' matrices, coefficients 0..2 in `Low` and 3..5 in `High`, absent ones 0.
- *
- * @param fin whose normal is the frame's second axis, not the third
- */
-function momentUniforms({ environment, basis }: Texels, fin: boolean): Record<string, IUniform> {
-	const uniforms: Record<string, IUniform> = {};
-	const around = horizonMoments(basis, fin ? (psi) => [Math.cos(psi), 0, Math.sin(psi)] : undefined);
-	for (const [part, first] of [
-		['Low', 0],
-		['High', 3],
-	] as const) {
-		const zeros = new Array<number>(9).fill(0);
-		const rows = [0, 1, 2, 3].map((i) => (i < 3 && environment[first + i]) || zeros);
-		uniforms[`environment${part}0`] = { value: rows.flatMap((row) => row.slice(0, 4)) };
-		uniforms[`environment${part}1`] = { value: rows.flatMap((row) => row.slice(4, 8)) };
-		uniforms[`environment${part}2`] = { value: new Vector3(...rows.slice(0, 3).map((row) => row[8] ?? 0)) };
-		uniforms[`horizon${part}`] = {
-			value: around.map((row) => new Vector3(row[first] ?? 0, row[first + 1] ?? 0, row[first + 2] ?? 0)),
-		};
-		if (basis.kind === 'eigen') {
-			const curves = [0, 1, 2].map((i) => basis.matrix[first + i]);
-			const terms = basis.matrix[0]?.length ?? 0;
-			uniforms[`curves${part}`] = {
-				value: Array.from({ length: terms }, (_, t) => new Vector3(...curves.map((row) => row?.[t] ?? 0))),
-			};
-		}
-	}
-	return uniforms;
-}
-
-/** λ and Ω as multiply-adds on the GPU's 0..1 texels, per plane: a = texel·(255λ) − λΩ. */
-function decoder(scale: number[], bias: number[]): { scale: Vector4[]; offset: Vector4[] } {
-	const vectors = {
-		scale: [new Vector4(0, 0, 0, 0), new Vector4(0, 0, 0, 0)],
-		offset: [new Vector4(0, 0, 0, 0), new Vector4(0, 0, 0, 0)],
-	};
-	scale.forEach((lambda, i) => {
-		const { plane, channel } = channelOf(i);
-		vectors.scale[plane]?.setComponent(channel, lambda * 255);
-		vectors.offset[plane]?.setComponent(channel, -lambda * (bias[i] ?? 0));
-	});
-	return vectors;
 }

@@ -1,6 +1,7 @@
 /** How the fur is combed: from the file's attribute to one that the shells can share. */
 
 import { BufferAttribute, type BufferGeometry, Vector3 } from 'three';
+import { weld } from './weld.ts';
 
 /**
  * The tips' displacement in the mesh's own axes, shares of the length, from `_comb` along T and B.
@@ -16,16 +17,11 @@ export function sharedComb(surface: BufferGeometry): BufferAttribute | undefined
 	);
 	if (!comb || !position || !normal || !tangent) return undefined;
 	const [n, t, b] = [new Vector3(), new Vector3(), new Vector3()];
-	const first = new Map<string, number>();
-	const leader = new Uint32Array(comb.count);
-	const sums = new Float64Array(comb.count * 4);
+	const { count, point } = weld(surface);
+	const sums = new Float64Array(count * 4);
 	for (let i = 0; i < comb.count; i++) {
-		n.fromBufferAttribute(normal, i);
-		const key = [position.getX(i), position.getY(i), position.getZ(i), n.x, n.y, n.z].join();
-		const copy = first.get(key) ?? i;
-		first.set(key, copy);
-		leader[i] = copy;
-		n.normalize();
+		const copy = point[i] as number;
+		n.fromBufferAttribute(normal, i).normalize();
 		t.fromBufferAttribute(tangent, i).addScaledVector(n, -n.dot(t)).normalize();
 		b.crossVectors(n, t).multiplyScalar(tangent.getW(i) * comb.getY(i));
 		t.multiplyScalar(comb.getX(i)).add(b);
@@ -33,7 +29,7 @@ export function sharedComb(surface: BufferGeometry): BufferAttribute | undefined
 			sums[copy * 4 + axis] = (sums[copy * 4 + axis] ?? 0) + value;
 	}
 	const shared = new Float32Array(comb.count * 3).map((_, i) => {
-		const copy = (leader[Math.floor(i / 3)] ?? 0) * 4;
+		const copy = (point[Math.floor(i / 3)] ?? 0) * 4;
 		return (sums[copy + (i % 3)] ?? 0) / (sums[copy + 3] ?? 1);
 	});
 	return new BufferAttribute(shared, 3);

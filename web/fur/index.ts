@@ -12,10 +12,12 @@ export {
 	visitEnvironment,
 } from './environment.ts';
 export { FinMaterial, type FinMaterialParameters } from './FinMaterial.ts';
-export { type DressOptions, dress, Fur } from './Fur.ts';
+export { type DressOptions, dress, Fur, type HasStates } from './Fur.ts';
 export { type FurLoaderOptions, FurLoaderPlugin } from './FurLoaderPlugin.ts';
 export { FurMaterial, type FurMaterialParameters } from './FurMaterial.ts';
+export { FurWeather, type WeatheredBody, type WeatherOptions } from './FurWeather.ts';
 export { FurFins } from './fins.ts';
+export { FOLLICLES_PER_ROW, Follicles } from './follicles.ts';
 export {
 	alphaChannel,
 	type Basis,
@@ -40,6 +42,9 @@ export {
 	relight,
 	smoothFunctions,
 } from './moments.ts';
+export { FurMotion, type MotionOptions } from './motion/FurMotion.ts';
+export { type Spring, springOf } from './motion/spring.ts';
+export type { WindSettings } from './motion/Wind.ts';
 export type { FurTextures } from './PeltMaterial.ts';
 export { fitShadow } from './shadow.ts';
 export { FurShells, MAX_SHELLS } from './shells.ts';

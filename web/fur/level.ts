@@ -69,6 +69,9 @@ class Draw extends Mesh<InstancedBufferGeometry, ShaderMaterial> {
 
 	/** Draws `count` bodies from `drawn[first]` on. */
 	put(drawn: Uint32Array, first: number, count: number, matrices: Float32Array, moved: boolean): void {
+		// What the vertices have been given since.
+		const follicle = this.#source.getAttribute('follicle');
+		if (follicle && !this.geometry.hasAttribute('follicle')) this.geometry.setAttribute('follicle', follicle);
 		this.visible = count > 0;
 		this.#places.put(drawn, first, 1, count, matrices, moved);
 		this.geometry.instanceCount = count * this.#each;
@@ -179,7 +182,10 @@ export class BodyHull extends Draw {
 	}
 
 	putAll(count: number, matrices: Float32Array, moved: boolean): void {
-		this.castShadow = this.#fur.shells.castShadow;
+		const { castShadow, customDepthMaterial } = this.#fur.shells;
+		customDepthMaterial.follow();
+		this.customDepthMaterial.follow();
+		this.castShadow = castShadow;
 		this.put(this.#all, 0, count, matrices, moved);
 		this.#count = count;
 		this.geometry.instanceCount = 0;

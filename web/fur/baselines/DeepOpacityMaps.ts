@@ -27,8 +27,7 @@ import {
 } from 'three';
 import type { Fur } from '../Fur.ts';
 import type { FurMaterial } from '../FurMaterial.ts';
-import body from '../shaders/body.glsl?raw';
-import displacement from '../shaders/displacement.glsl?raw';
+import { HullMaterial } from '../HullMaterial.ts';
 import deepOpacity from './deepOpacity.glsl?raw';
 import hullFragment from './lightHull.frag.glsl?raw';
 import hullVertex from './lightHull.vert.glsl?raw';
@@ -49,8 +48,8 @@ export interface MapOptions {
 const BYTE_OPACITY = 8;
 
 /** What the maps depend on, beside the light's direction and the fur's transform: uniforms, textures, attributes. */
-const WATCHED = ['furLength', 'shellCount', 'firstShell', 'tiles', 'density'] as const;
-const PLANES = ['plane0', 'plane1'] as const;
+const WATCHED = ['furLength', 'furTrim', 'shellCount', 'firstShell', 'tiles', 'density'] as const;
+const TEXTURES = ['plane0', 'plane1', 'swing', 'stains'] as const;
 const MOVING = ['position', '_fur', '_comb'] as const;
 
 const AXES = ['x', 'y', 'z'] as const;
@@ -99,7 +98,6 @@ export class DeepOpacityMaps {
 		this.#shells = shells;
 		this.#options = { size, halfFloat };
 		const nearest = {
-			glslVersion: GLSL3,
 			blending: CustomBlending,
 			blendEquation: MinEquation,
 			blendSrc: OneFactor,
@@ -107,20 +105,19 @@ export class DeepOpacityMaps {
 		} as const;
 		const skin = new ShaderMaterial({
 			...nearest,
+			glslVersion: GLSL3,
 			name: 'LightSkin',
 			vertexShader: skinVertex,
 			fragmentShader: skinFragment,
 			side: DoubleSide,
 		});
-		const hull = new ShaderMaterial({
+		const hull = new HullMaterial(shells, {
 			...nearest,
 			name: 'LightHull',
-			uniforms: { furLength: shells.uniforms.furLength as IUniform },
-			vertexShader: [body, displacement, hullVertex].join('\n'),
+			vertexShader: hullVertex,
 			fragmentShader: hullFragment,
 			depthWrite: false,
 		});
-		Object.assign(hull.defaultAttributeValues, shells.defaultAttributeValues);
 		const layers = new RivalMaterial(shells, {
 			name: 'LightShells',
 			vertexShader: shellsVertex,
@@ -143,6 +140,7 @@ export class DeepOpacityMaps {
 		// One hull, the outside of all shells; after the skin, behind which nothing of it is wanted.
 		outside.renderOrder = 1;
 		outside.onBeforeRender = () => {
+			hull.follow();
 			fur.shells.geometry.instanceCount = 1;
 		};
 		this.#double(fur.shells, layers, this.#opacityScene).onBeforeRender = () => {
@@ -205,7 +203,11 @@ export class DeepOpacityMaps {
 		for (const axis of AXES) this.#note(this.#towards[axis]);
 		for (const { double } of this.#doubles) for (const element of double.matrixWorld.elements) this.#note(element);
 		for (const name of WATCHED) this.#note(this.#shells.uniforms[name]?.value ?? 0);
-		for (const name of PLANES) this.#note(this.#shells.uniforms[name]?.value?.id ?? -1);
+		for (const name of TEXTURES) {
+			const texture = this.#shells.uniforms[name]?.value;
+			this.#note(texture?.id ?? -1);
+			this.#note(texture?.version ?? -1);
+		}
 		for (const name of MOVING) this.#note(versionOf(this.#fur.shells.geometry.attributes[name]));
 		return this.#differs;
 	}

@@ -8,23 +8,23 @@ import {
 	UniformsUtils,
 	type WebGLRenderer,
 } from 'three';
+import { hairChunks, texelChunks } from '../chunks.ts';
 import type { FurMaterial } from '../FurMaterial.ts';
-import body from '../shaders/body.glsl?raw';
 import colour from '../shaders/colour.glsl?raw';
-import density from '../shaders/density.glsl?raw';
-import displacement from '../shaders/displacement.glsl?raw';
 import hairIn from '../shaders/hair.frag.glsl?raw';
 import hairOut from '../shaders/hair.vert.glsl?raw';
 import opacity from '../shaders/opacity.glsl?raw';
 import output from '../shaders/output.glsl?raw';
 import shell from '../shaders/shell.glsl?raw';
 import view from '../shaders/view.glsl?raw';
+import { followParts, SHAPE } from '../switches.ts';
 import coverage from './coverage.glsl?raw';
 
 /**
  * The shells of a FurMaterial in another light: geometry, coverage, colour, blending and output are the same chunks with the
- * same uniforms, so that only the light differs, and what is set on either holds for both, density included. Other switches
- * of the FurMaterial that compile something in or out, and its blending, are taken as they stand when the rival is made.
+ * same uniforms, so that only the light differs, and what is set on either holds for both, what is compiled in for it included.
+ * Switches of the FurMaterial's light, and its blending, are taken as they stand when the rival is made.
+ * Of wet and dirty fur they have lengths, coverage and colours; directions of the hairs are those of the dry.
  */
 export class RivalMaterial extends ShaderMaterial {
 	/**
@@ -39,10 +39,17 @@ export class RivalMaterial extends ShaderMaterial {
 			glslVersion: shells.glslVersion,
 			uniforms: { ...shells.uniforms, ...UniformsUtils.clone(UniformsLib.lights), ...uniforms },
 			defines: { ...shells.defines, ...defines },
-			vertexShader: ['#include <common>', view, body, displacement, shell, colour, hairOut, vertexShader].join('\n'),
-			fragmentShader: ['#include <common>', density, coverage, opacity, colour, hairIn, output, fragmentShader].join(
-				'\n',
-			),
+			vertexShader: ['#include <common>', view, ...hairChunks, shell, colour, hairOut, vertexShader].join('\n'),
+			fragmentShader: [
+				'#include <common>',
+				...texelChunks,
+				coverage,
+				opacity,
+				colour,
+				hairIn,
+				output,
+				fragmentShader,
+			].join('\n'),
 		});
 		// Blending, depth and the like: those of every material, no shaders.
 		Material.prototype.copy.call(this, shells);
@@ -62,12 +69,17 @@ export class RivalMaterial extends ShaderMaterial {
 		this.shells.density = ratio;
 	}
 
-	/** Has the density compiled in where the shells have. */
+	/** As of the shells. */
+	get trim(): number {
+		return this.shells.trim;
+	}
+
+	set trim(share: number) {
+		this.shells.trim = share;
+	}
+
+	/** Has hairs where the shells have them. */
 	override onBeforeRender(_renderer: WebGLRenderer, _scene: Scene, _camera: Camera): void {
-		const on = 'DENSITY' in this.shells.defines;
-		if (on === 'DENSITY' in this.defines) return;
-		if (on) this.defines.DENSITY = '';
-		else delete this.defines.DENSITY;
-		this.needsUpdate = true;
+		followParts(this, this.shells, SHAPE);
 	}
 }

@@ -20,6 +20,7 @@ float finFade(vec2 facing, float broadside) {
 }
 
 void main() {
+	feelWeather();
 	vec3 n = normalize(normal);
 	vec3 edge = normalize(tangent.xyz);
 	vec3 across = normalize(cross(edge, n));
@@ -33,13 +34,16 @@ void main() {
 	float broadside = dot(across, viewer);
 	vFade = finFade(cos(angle) * dot(upright, viewer) + sin(angle) * broadside, broadside);
 
-	vAt = uv * vec2(tiles, finHeights);
+	vAt = uv * vec2(tiles, finHeights * furTrim);
 	// Where nothing is to be seen the quad falls onto its root, and no fragment is left of it.
-	float s = vFade > 0.0 ? min(vAt.y, 1.0) : 0.0;
-	vec3 comb = frame * vec3(_edge.z, 0.0, _edge.w);
+	float s = vFade > 0.0 ? min(vAt.y, furTrim) : 0.0;
+	vec3 comb = furComb(frame * vec3(_edge.z, 0.0, _edge.w));
 	vec3 pointVS = (placement * vec4(furPoint(position, n, comb, _fur.y * finLength, s), 1.0)).xyz;
 	gl_Position = projectionMatrix * vec4(pointVS, 1.0);
 	vSkin = vec4(skinColour * color.rgb, tipShare * _fur.w);
+#ifdef WET
+	vSkin.rgb *= furTraits.y;
+#endif
 	if (vFade > 0.0) {
 		vec3 tip = position + n * (furLength * _fur.y);
 		passLight(FurPoint(turn * furBend(n, comb, s) * frame, pointVS, (bodyModel() * vec4(tip, 1.0)).xyz, s), _fur.z);

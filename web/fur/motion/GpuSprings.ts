@@ -1,0 +1,201 @@
+import {
+	DataTexture,
+	FloatType,
+	type IUniform,
+	NearestFilter,
+	type PixelFormat,
+	RGBAFormat,
+	RGFormat,
+	type Texture,
+	Vector4,
+	type WebGLRenderer,
+	WebGLRenderTarget,
+} from 'three';
+import { FOLLICLES_PER_ROW } from '../follicles.ts';
+import { type Drive, GUST, LEE, STRENGTHS, VEER, WAVES } from './drive.ts';
+import type { Roots } from './roots.ts';
+import type { Strokes } from './Strokes.ts';
+import showFragment from './show.frag.glsl?raw';
+import { type Solver, STATE, type States } from './solver.ts';
+import { LIMIT, type Spring } from './spring.ts';
+import stepFragment from './springs.frag.glsl?raw';
+import { TexelPass } from './TexelPass.ts';
+
+const float = (value: number) => value.toFixed(6);
+
+const DEFINES = {
+	ROW: FOLLICLES_PER_ROW,
+	WAVES,
+	LIMIT: float(LIMIT),
+	LEE: float(LEE),
+	GUST: float(GUST),
+	VEER: float(VEER),
+	...Object.fromEntries(STRENGTHS.map((strength, w) => [`STRENGTH${w}`, float(strength)])),
+};
+
+const options = { type: FloatType, depthBuffer: false, magFilter: NearestFilter, minFilter: NearestFilter } as const;
+
+/**
+ * The springs of `CpuSprings` on the GPU, a texel for each follicle. States lie in two targets in turn, a sub-step is one
+ * pass over their texels. After a lost context all hairs are at rest.
+ */
+export class GpuSprings implements Solver {
+	readonly #renderer: WebGLRenderer;
+	readonly #strokes: Strokes;
+	readonly #step: TexelPass;
+	readonly #show: TexelPass;
+	readonly #targets: readonly [WebGLRenderTarget, WebGLRenderTarget];
+	readonly #shown: WebGLRenderTarget;
+	/** Displacements before, displacements and velocities after the last sub-step, as they came from the CPU. */
+	readonly #given: readonly [DataTexture, DataTexture, DataTexture];
+	readonly #offsets: DataTexture;
+	readonly #tables: DataTexture[];
+	/** Version of the strokes that the offsets are. */
+	#version = -1;
+	/** Which of the targets is drawn to next. */
+	#next: 0 | 1 = 0;
+	#lost = false;
+	/** What belongs to a lost context is let go of while it is lost: three would ask the next one to delete it. */
+	readonly #lose = () => {
+		this.#free();
+		this.#lost = true;
+	};
+
+	/** Whether a GPU can draw to such targets, and has room for all. */
+	static suits({ extensions, capabilities }: WebGLRenderer, { follicles }: Roots): boolean {
+		const rows = Math.ceil(Math.max(follicles.count, follicles.links.length) / FOLLICLES_PER_ROW);
+		return extensions.has('EXT_color_buffer_float') && rows <= capabilities.maxTextureSize;
+	}
+
+	/** @param states to go on with */
+	constructor(renderer: WebGLRenderer, roots: Roots, spring: Spring, strokes: Strokes, states: States) {
+		const { follicles, comb, weights } = roots;
+		const { count, position, normal, length, first, links } = follicles;
+		const rows = Math.ceil(count / FOLLICLES_PER_ROW);
+		this.#renderer = renderer;
+		this.#strokes = strokes;
+		this.#offsets = texture(strokes.offsets, RGBAFormat);
+		const places = table(count, 4, (i, c) => (c < 3 ? position[3 * i + c] : length[i]) as number);
+		const normals = table(count, 4, (i, c) => (c < 3 ? normal[3 * i + c] : first[i]) as number);
+		const neighbours = (i: number) => (first[i + 1] as number) - (first[i] as number);
+		const combs = table(count, 4, (i, c) => (c < 3 ? (comb[3 * i + c] as number) : neighbours(i)));
+		const pairs = table(links.length, 2, (i, c) => (c === 0 ? links[i] : weights[i]) as number);
+		this.#tables = [places, normals, combs, pairs];
+		const given = (from: Float32Array, part: number) =>
+			table(count, 4, (i, c) => (c < 3 ? (from[STATE * i + part + c] as number) : 0));
+		this.#given = [given(states.before, 0), given(states.after, 0), given(states.after, 3)];
+		const [before, after, velocities] = this.#given;
+		const { xx, xv, vx, vv, fastest } = spring;
+		this.#step = new TexelPass(
+			'FurSprings',
+			stepFragment,
+			{
+				count: { value: count },
+				places: { value: places },
+				normals: { value: normals },
+				combs: { value: combs },
+				links: { value: pairs },
+				offsets: { value: this.#offsets },
+				displacements: { value: after },
+				velocities: { value: velocities },
+				spring: { value: new Vector4(xx, xv, vx, vv) },
+				fastest: { value: fastest },
+				sag: { value: null },
+				blow: { value: null },
+				gale: { value: 0 },
+				gusts: { value: 0 },
+				waves: { value: null },
+				kick: { value: null },
+				fade: { value: 1 },
+			},
+			DEFINES,
+		);
+		this.#show = new TexelPass('FurSwing', showFragment, {
+			before: { value: before },
+			after: { value: after },
+			share: { value: 1 },
+		});
+		const target = () => new WebGLRenderTarget(FOLLICLES_PER_ROW, rows, { ...options, count: 2 });
+		this.#targets = [target(), target()];
+		this.#shown = new WebGLRenderTarget(FOLLICLES_PER_ROW, rows, options);
+		this.#shown.texture.name = 'swing';
+		renderer.domElement.addEventListener('webglcontextlost', this.#lose);
+	}
+
+	get swing(): Texture {
+		return this.#shown.texture;
+	}
+
+	/** Whether the states have gone with their context. */
+	get lost(): boolean {
+		return this.#lost;
+	}
+
+	step(drive: Drive): void {
+		const { uniforms } = this.#step;
+		if (this.#version !== this.#strokes.version) {
+			this.#version = this.#strokes.version;
+			this.#offsets.needsUpdate = true;
+		}
+		const target = this.#targets[this.#next];
+		for (const name of NAMES) (uniforms[name] as IUniform).value = drive[name];
+		this.#step.draw(this.#renderer, target);
+		const [displacements, velocities] = target.textures as [Texture, Texture];
+		this.#read((uniforms.displacements as IUniform).value, displacements, velocities);
+		this.#next = this.#next === 0 ? 1 : 0;
+	}
+
+	/** Makes these the states that are read. */
+	#read(before: Texture, after: Texture, velocities: Texture): void {
+		const { uniforms } = this.#step;
+		(uniforms.displacements as IUniform).value = after;
+		(uniforms.velocities as IUniform).value = velocities;
+		(this.#show.uniforms.before as IUniform).value = before;
+		(this.#show.uniforms.after as IUniform).value = after;
+	}
+
+	show(share: number): void {
+		(this.#show.uniforms.share as IUniform).value = share;
+		this.#show.draw(this.#renderer, this.#shown);
+		// For what has to be drawn anew when it changes.
+		this.swing.version++;
+	}
+
+	rest(): void {
+		const [before, after, velocities] = this.#given;
+		for (const texture of this.#given) {
+			(texture.image.data as Float32Array).fill(0);
+			texture.needsUpdate = true;
+		}
+		this.#lost = false;
+		this.#read(before, after, velocities);
+	}
+
+	dispose(): void {
+		this.#renderer.domElement.removeEventListener('webglcontextlost', this.#lose);
+		this.#free();
+	}
+
+	#free(): void {
+		for (const pass of [this.#step, this.#show]) pass.dispose();
+		for (const target of [...this.#targets, this.#shown]) target.dispose();
+		for (const table of [...this.#tables, ...this.#given, this.#offsets]) table.dispose();
+	}
+}
+
+/** What a pass takes from the drive as it is. */
+const NAMES = ['sag', 'blow', 'gale', 'gusts', 'waves', 'kick', 'fade'] as const satisfies (keyof Drive)[];
+
+/** Numbers in rows as follicles are, a texel each. */
+function table(count: number, size: 2 | 4, value: (i: number, channel: number) => number): DataTexture {
+	const values = new Float32Array(size * FOLLICLES_PER_ROW * Math.ceil(count / FOLLICLES_PER_ROW));
+	for (let i = 0; i < count; i++) for (let c = 0; c < size; c++) values[size * i + c] = value(i, c);
+	return texture(values, size === 4 ? RGBAFormat : RGFormat);
+}
+
+function texture(values: Float32Array, format: PixelFormat): DataTexture {
+	const rows = values.length / (format === RGBAFormat ? 4 : 2) / FOLLICLES_PER_ROW;
+	const made = new DataTexture(values, FOLLICLES_PER_ROW, rows, format, FloatType);
+	made.needsUpdate = true;
+	return made;
+}

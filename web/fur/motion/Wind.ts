@@ -1,0 +1,130 @@
+import { Vector3 } from 'three';
+import { type Drive, WAVES } from './drive.ts';
+import type { Turn } from './Turn.ts';
+
+/** Where a storm takes the tips of the longest fur that it meets from ahead, share of the length. */
+const LAY = 0.7;
+
+/** Of each wave, turns per radius of the body; the last one turns the wind, the others strengthen it. */
+const TURNS = [0.9, 1.4, 2.6, 0.6] as const;
+/** How far they may stray from the wind's direction, radians. */
+const STRAY = [0.25, 0.7, 0.5, 0.6] as const;
+/** How fast they run, shares of the gusts' speed. */
+const SPEED = [1, 0.85, 1.2, 0.9] as const;
+/** Gusts' speed in a breath of wind, and what a storm has more, radii of the body per second. */
+const BREATH = 0.5;
+const STORM = 1.4;
+
+/** The wind as an app sets it. It blows everywhere alike, but for its gusts, which run over the fur. */
+export interface WindSettings {
+	/** Where it blows to, in the world. Its length does not matter; zero is no wind. */
+	readonly direction: Vector3;
+	/** 0 is none, 1 a storm that lays the fur. */
+	strength: number;
+	/** 0 is steady; 1 swells and slackens by two thirds, and turns a little. */
+	gusts: number;
+}
+
+/** Waves of a seed that travel with the wind. What a follicle makes of them: `CpuSprings` and springs.frag.glsl. */
+export class Wind implements WindSettings {
+	readonly direction = new Vector3(1, 0, 0);
+	strength = 0;
+	gusts = 0.6;
+	/** Of each wave: shares of the wind's direction and of the two axes across, and where it starts, turns. */
+	readonly #waves = new Float64Array(4 * WAVES);
+	/** How far gusts have come, radii of the body. */
+	#travel = 0;
+	/** As it was when it was last asked whether it stirs. */
+	readonly #known = { direction: new Vector3(), force: 0, gusts: 0 };
+	readonly #along = new Vector3();
+	readonly #right = new Vector3();
+	readonly #up = new Vector3();
+	readonly #wave = new Vector3();
+
+	constructor(seed: number) {
+		const next = random(seed);
+		for (const [w, most] of STRAY.entries()) {
+			const [stray, roll] = [most * (2 * next() - 1), 2 * Math.PI * next()];
+			const across = Math.sin(stray);
+			this.#waves.set([Math.cos(stray), across * Math.cos(roll), across * Math.sin(roll), next()], 4 * w);
+		}
+	}
+
+	/** Its strength as it is used. */
+	get #force(): number {
+		return this.direction.lengthSq() > 0 ? share(this.strength) : 0;
+	}
+
+	/** Whether it changes by itself, or has been changed since this was asked. */
+	stirs(): boolean {
+		const known = this.#known;
+		const force = this.#force;
+		const gusts = share(this.gusts);
+		const other = known.gusts !== gusts || !known.direction.equals(this.direction);
+		const stirs = known.force !== force || (force > 0 && (gusts > 0 || other));
+		known.force = force;
+		known.gusts = gusts;
+		known.direction.copy(this.direction);
+		return stirs;
+	}
+
+	/** As if it had not blown yet. */
+	reset(): void {
+		this.#known.force = 0;
+		this.#travel = 0;
+	}
+
+	/** Gusts travel on. */
+	advance(seconds: number): void {
+		this.#travel += seconds * (BREATH + STORM * this.#force);
+	}
+
+	/**
+	 * Writes what the wind has to do with.
+	 *
+	 * @param turn of the body in it
+	 * @param centre of the body, and its radius, units of its mesh
+	 * @param steady leaves out the gusts
+	 */
+	write(drive: Drive, turn: Turn, centre: Vector3, radius: number, steady: boolean): void {
+		const along = this.#along.copy(this.direction).normalize();
+		const right = this.#right.set(along.z, 0, -along.x);
+		if (right.lengthSq() < 1e-6) right.set(1, 0, 0);
+		right.normalize();
+		const up = this.#up.crossVectors(along, right);
+		const wave = this.#wave;
+		for (let w = 0; w < WAVES; w++) {
+			const turns = TURNS[w] as number;
+			wave.copy(along).multiplyScalar(this.#waves[4 * w] as number);
+			wave.addScaledVector(right, this.#waves[4 * w + 1] as number);
+			wave.addScaledVector(up, this.#waves[4 * w + 2] as number);
+			turn.toMesh(wave.multiplyScalar(turns / radius));
+			const start = (this.#waves[4 * w + 3] as number) - turns * (SPEED[w] as number) * this.#travel;
+			const phase = start - wave.dot(centre);
+			drive.waves[4 * w] = wave.x;
+			drive.waves[4 * w + 1] = wave.y;
+			drive.waves[4 * w + 2] = wave.z;
+			drive.waves[4 * w + 3] = phase - Math.floor(phase);
+		}
+		turn.toMesh(along);
+		drive.blow[0] = along.x;
+		drive.blow[1] = along.y;
+		drive.blow[2] = along.z;
+		drive.gale = LAY * this.#force;
+		drive.gusts = steady ? 0 : share(this.gusts);
+	}
+}
+
+/** Numbers in 0..1, the same for the same seed (Park and Miller 1988). */
+function random(seed: number): () => number {
+	let state = (Math.abs(Math.trunc(seed)) % 2147483646) + 1;
+	const next = () => {
+		state = (state * 48271) % 2147483647;
+		return state / 2147483647;
+	};
+	// Small seeds start with small numbers.
+	for (let i = 0; i < 4; i++) next();
+	return next;
+}
+
+const share = (value: number) => Math.min(Math.max(value, 0), 1) || 0;

@@ -1,0 +1,14 @@
+// How the hair at a vertex lies: as it was combed, and as far as it swings from there.
+
+#ifdef SWING
+uniform highp sampler2D swing; // of each follicle, XYZ = displacement of the tip beyond its comb, share of the length, the mesh's own axes
+#endif
+
+// comb: displacement of the tip in the tangent plane, share of the length, the mesh's own axes.
+vec3 furComb(vec3 comb) {
+#ifdef SWING
+	return comb + texelFetch(swing, follicleTexel(), 0).xyz;
+#else
+	return comb;
+#endif
+}
