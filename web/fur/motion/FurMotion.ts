@@ -45,7 +45,7 @@ export interface MotionOptions {
 	seed?: number;
 	/** Whose GPU takes over what is too much for the CPU; without it nothing does. */
 	renderer?: WebGLRenderer;
-	/** Milliseconds by which the CPU's time is taken. */
+	/** Milliseconds by which the time of CPU and GPU is taken. */
 	clock?: () => number;
 }
 
@@ -88,6 +88,8 @@ export class FurMotion {
 	/** Whether hairs are bent although they are still. */
 	#bent = false;
 	#asleep = true;
+	/** Whether CPU and GPU have been compared: a software renderer's GPU is the CPU, and slower. */
+	#compared = false;
 
 	/** @param body whose shells move, and whose axes its hairs move in; not one that `dress` made */
 	constructor(
@@ -131,7 +133,10 @@ export class FurMotion {
 		return this.#asleep;
 	}
 
-	/** Which of them moves the hairs. It begins on the CPU, and the GPU takes over what takes too long there. */
+	/**
+	 * Which of them moves the hairs. It begins on the CPU; when that takes more than 2 ms a frame, the GPU is tried once, and
+	 * goes on if it takes less.
+	 */
 	get processor(): 'cpu' | 'gpu' {
 		return this.#solver instanceof GpuSprings ? 'gpu' : 'cpu';
 	}
@@ -148,9 +153,9 @@ export class FurMotion {
 		if (this.#driven(moved)) this.#wake();
 		if (this.#asleep) return false;
 		this.#stopwatch.start();
-		const stepped = this.#advance(Math.min(seconds, LONGEST));
+		const steps = this.#advance(Math.min(seconds, LONGEST));
 		this.#solver.show(this.#behind / STEP);
-		if (stepped && this.processor === 'cpu' && this.#stopwatch.stop()) this.#unburden();
+		if (steps > 0 && this.#renderer) this.#compare(this.#renderer, steps);
 		if (this.#unrest < NOTHING && this.#strokes.widest === 0) this.#sleep();
 		this.#body.swing = this.swing;
 		return true;
@@ -238,8 +243,9 @@ export class FurMotion {
 		if (!this.#bent) this.#solver.rest();
 	}
 
-	/** @returns whether there was a sub-step */
-	#advance(frame: number): boolean {
+	/** @returns how many sub-steps there were */
+	#advance(frame: number): number {
+		let steps = 0;
 		let left = frame;
 		let before = 0;
 		while (this.#behind + left >= STEP) {
@@ -254,11 +260,12 @@ export class FurMotion {
 			this.#solver.step(this.#drive);
 			this.#unrest *= this.#spring.decay;
 			before = now;
+			steps++;
 		}
 		this.#carriage.advance(left);
 		this.#behind += left;
 		this.#strokes.endFrame();
-		return before > 0;
+		return steps;
 	}
 
 	/** Writes what pulls in a sub-step. @param share of the frame at its end */
@@ -275,13 +282,23 @@ export class FurMotion {
 		return Math.ceil(Math.log(NOTHING / this.#spring.widest) / Math.log(this.#spring.decay));
 	}
 
-	/** The GPU goes on where the CPU was. */
-	#unburden(): void {
-		const [renderer, solver] = [this.#renderer, this.#solver];
-		if (!renderer || !(solver instanceof CpuSprings) || !GpuSprings.suits(renderer, this.#roots)) return;
-		this.#solver = new GpuSprings(renderer, this.#roots, this.#spring, this.#strokes, solver);
-		this.#solver.show(this.#behind / STEP);
-		solver.dispose();
+	/** Where the CPU takes too long, and the GPU less, the GPU goes on. @param steps of this frame */
+	#compare(renderer: WebGLRenderer, steps: number): void {
+		const solver = this.#solver;
+		if (this.#compared || !(solver instanceof CpuSprings)) return;
+		const time = this.#stopwatch.stop();
+		if (time === 0) return;
+		this.#compared = true;
+		if (!GpuSprings.suits(renderer, this.#roots)) return;
+		const other = new GpuSprings(renderer, this.#roots, this.#spring, this.#strokes, solver);
+		// What is compiled for it does not count.
+		other.rehearse(this.#drive, 1);
+		this.#stopwatch.start();
+		other.rehearse(this.#drive, steps);
+		const faster = this.#stopwatch.lap() < time;
+		other.show(this.#behind / STEP);
+		this.#solver = faster ? other : solver;
+		(faster ? solver : other).dispose();
 	}
 }
 
