@@ -1,17 +1,10 @@
-import {
-	BufferAttribute,
-	BufferGeometry,
-	Matrix4,
-	Sphere,
-	type Texture,
-	type Vector3,
-	type WebGLRenderer,
-} from 'three';
+import { Matrix4, type Texture, type Vector3, type WebGLRenderer } from 'three';
 import type { Fur } from '../Fur.ts';
 import { Carriage } from './Carriage.ts';
 import { CpuSprings } from './CpuSprings.ts';
 import { calm } from './drive.ts';
 import { GpuSprings } from './GpuSprings.ts';
+import { completed, type MotionOptions } from './options.ts';
 import { type Roots, rootsOf } from './roots.ts';
 import { Stopwatch } from './Stopwatch.ts';
 import { Strokes } from './Strokes.ts';
@@ -28,26 +21,6 @@ const NOTHING = 1e-3;
 
 /** Gravities that count. */
 const MOST_GRAVITY = 100;
-
-/** What a FurMotion may be told. */
-export interface MotionOptions {
-	/** How fast the fur swings to and fro, Hz; 0.2 to 20. */
-	frequency?: number;
-	/** How soon it is still: ζ, share of the critical damping, 0.05 to 0.95. */
-	damping?: number;
-	/** How much hairs go along with their neighbours: 0 not at all, 1 as if they stuck together. */
-	coupling?: number;
-	/** Seconds in which a stroked lane loses all but 1/e. */
-	relaxation?: number;
-	/** {@inheritDoc FurMotion.gravity} */
-	gravity?: number;
-	/** Of the wind's gusts. */
-	seed?: number;
-	/** Whose GPU takes over what is too much for the CPU; without it nothing does. */
-	renderer?: WebGLRenderer;
-	/** Milliseconds by which the time of CPU and GPU is taken. */
-	clock?: () => number;
-}
 
 /**
  * Fur that moves: hairs are damped springs which gravity, wind, their body's motion and fingers pull at.
@@ -76,7 +49,6 @@ export class FurMotion {
 	readonly #strokes: Strokes;
 	readonly #stopwatch: Stopwatch;
 	readonly #drive = calm();
-	readonly #sphere: Sphere;
 	readonly #meshFromWorld = new Matrix4();
 	#solver: Solver;
 	/** Seconds since the end of the last sub-step. */
@@ -92,33 +64,18 @@ export class FurMotion {
 	#compared = false;
 
 	/** @param body whose shells move, and whose axes its hairs move in; not one that `dress` made */
-	constructor(
-		body: Fur,
-		{
-			frequency = 2.4,
-			damping = 0.22,
-			coupling = 0.3,
-			relaxation = 1.6,
-			gravity = 1,
-			seed = 1,
-			renderer,
-			clock = () => performance.now(),
-		}: MotionOptions = {},
-	) {
-		checkRange('frequency', frequency, 0.2, 20);
-		checkRange('damping', damping, 0.05, 0.95);
-		checkRange('coupling', coupling, 0, 1);
-		checkRange('relaxation', relaxation, 0.01, 3600);
+	constructor(body: Fur, options: MotionOptions = {}) {
+		const { frequency, damping, coupling, relaxation, gravity, seed, clock } = completed(options);
 		const { shells, asset, follicles } = body;
 		this.#body = body;
-		this.#renderer = renderer;
+		this.#renderer = options.renderer;
 		this.gravity = gravity;
 		this.#roots = rootsOf(follicles, coupling);
 		this.#spring = springOf(frequency, damping);
 		this.wind = this.#wind = new Wind(seed);
 		this.#strokes = new Strokes(follicles, relaxation);
-		this.#sphere = sphereOf(follicles.position);
-		this.#carriage = new Carriage(shells, this.#sphere, asset.length / shells.scale.x, this.#spring.pace);
+		const furLength = asset.length / shells.scale.x;
+		this.#carriage = new Carriage(shells, follicles.position, furLength, this.#spring.pace);
 		this.#stopwatch = new Stopwatch(BUDGET, clock);
 		this.#solver = new CpuSprings(this.#roots, this.#spring, this.#strokes);
 	}
@@ -271,7 +228,7 @@ export class FurMotion {
 	/** Writes what pulls in a sub-step. @param share of the frame at its end */
 	#pull(share: number, steady: boolean): void {
 		const drive = this.#drive;
-		const { center, radius } = this.#sphere;
+		const { center, radius } = this.#carriage.sphere;
 		this.#carriage.write(drive, share, this.#gravity);
 		this.#wind.write(drive, this.#carriage.turn, center, radius, steady);
 		drive.fade = this.#strokes.fade;
@@ -300,16 +257,4 @@ export class FurMotion {
 		this.#solver = faster ? other : solver;
 		(faster ? solver : other).dispose();
 	}
-}
-
-function checkRange(name: string, value: number, least: number, most: number): void {
-	if (value >= least && value <= most) return;
-	throw new Error(`FurMotion/${name}: got ${value}, expected ${least} to ${most}`);
-}
-
-/** Around all follicles. */
-function sphereOf(position: Float32Array): Sphere {
-	const geometry = new BufferGeometry().setAttribute('position', new BufferAttribute(position, 3));
-	geometry.computeBoundingSphere();
-	return geometry.boundingSphere ?? new Sphere();
 }
