@@ -19,7 +19,7 @@ const MIRRORED = ['finLength', 'finOpacity', 'finHeights'] as const satisfies (k
 
 /** What fins have from the shells that they stand between. */
 const SHARED = [
-	...['tiles', 'furLength', 'bodyRadius', 'lean', 'gloss', 'sharpness', 'backlight', 'density', 'swing'],
+	...['tiles', 'furLength', 'furTrim', 'bodyRadius', 'lean', 'gloss', 'sharpness', 'backlight', 'density', 'swing'],
 	...['skinColour', 'root', 'tip', 'tip2', 'tipShare', 'rampPower'],
 ];
 
@@ -53,7 +53,7 @@ export class FinMaterial extends PeltMaterial {
 					finHeights: { value: shells.uniforms.tiles?.value },
 				},
 				// |n·v| of the faces, between which a fin fades out; half a mip level finer than even, since fins are seen askew.
-				defines: { FIN: '', FADE_FROM: '0.03', FADE_TO: '0.15', LOD_BIAS: '-0.5' },
+				defines: { FIN: '', LAYERS: shells.defines.LAYERS, FADE_FROM: '0.03', FADE_TO: '0.15', LOD_BIAS: '-0.5' },
 				depthWrite: false,
 				side: DoubleSide,
 			},

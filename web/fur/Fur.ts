@@ -87,13 +87,14 @@ export class Fur {
 		else this.ground.skin.bare(this.asset);
 	}
 
-	/** How long it is, share of what was baked, 0.1 to 2. */
+	/** How long it is, share of what was baked, 0.1 to 2: below 1 it is cut, above it is drawn out. */
 	get length(): number {
 		return this.#length;
 	}
 
 	set length(share: number) {
 		this.#length = share;
+		this.material.trim = Math.min(share, 1);
 		this.shells.furLength = share * this.asset.length;
 		this.fins?.fit(this.shells);
 	}

@@ -6,10 +6,10 @@ import vertexShader from './shaders/hull.vert.glsl?raw';
 import { followParts } from './switches.ts';
 
 /** What hulls have from the shells that they stand for. */
-const SHARED = ['furLength', 'swing'];
+const SHARED = ['furLength', 'furTrim', 'swing'];
 
 /** Parts of the shells' shaders that change a hull. */
-const PARTS = ['SWING'];
+const PARTS = ['SWING', 'TRIMMED'];
 
 /**
  * What fur casts a shadow with: its hull at half the hairs' length, without a hole. Where light gets between the hairs the

@@ -11,12 +11,9 @@ import {
 	UniformsLib,
 	UniformsUtils,
 	Vector2,
-	Vector3,
-	Vector4,
 	ZeroFactor,
 } from 'three';
-import { type Basis, channelOf } from './format.ts';
-import { BODY_RADIUS, horizonMoments, smoothSum } from './moments.ts';
+import { BODY_RADIUS, smoothSum } from './moments.ts';
 import body from './shaders/body.glsl?raw';
 import colour from './shaders/colour.glsl?raw';
 import comb from './shaders/comb.glsl?raw';
@@ -31,8 +28,12 @@ import output from './shaders/output.glsl?raw';
 import ptm from './shaders/ptm.glsl?raw';
 import shadow from './shaders/shadow.glsl?raw';
 import sky from './shaders/sky.glsl?raw';
+import trim from './shaders/trim.glsl?raw';
+import trimmed from './shaders/trimmed.glsl?raw';
 import view from './shaders/view.glsl?raw';
 import { switchPart } from './switches.ts';
+import { TrimLight } from './TrimLight.ts';
+import { decoder, momentUniforms, type Texels } from './texels.ts';
 
 /** An asset's planes as texture arrays, a slab per layer. */
 export interface FurTextures {
@@ -46,22 +47,18 @@ export interface FurTextures {
 	direction?: Texture | undefined;
 }
 
-/** What texels mean: how they are decoded, and what their coefficients multiply. */
-export interface Texels {
-	scale: number[];
-	bias: number[];
-	basis: Basis;
-	environment: number[][];
-}
-
 /** Where hairs are: of all that draws some. */
-export const hairChunks = [body, follicle, comb, displacement];
+export const hairChunks = [body, follicle, comb, trim, displacement];
 
-const lampChunks = ['#include <common>', '#include <lights_pars_begin>', view, moments, shadow, lamps];
+const lampChunks = ['#include <common>', '#include <lights_pars_begin>', view, moments, trimmed, shadow, lamps];
 
 /** What the materials of shells and fins have in common: texels of coefficients that meet light moments. */
 export class PeltMaterial extends ShaderMaterial {
 	readonly #followers: PeltMaterial[] = [];
+	readonly #leader: PeltMaterial | undefined;
+	readonly #texels: Texels;
+	readonly #planes: readonly Texture[];
+	#trimLight: TrimLight | undefined;
 
 	/**
 	 * @param parameters own shaders (after the common chunks), uniforms and defines
@@ -96,6 +93,8 @@ export class PeltMaterial extends ShaderMaterial {
 				backlight: { value: 0 },
 				density: { value: 1 },
 				swing: { value: null },
+				furTrim: { value: 1 },
+				trimLight: { value: null },
 				...uniforms,
 			},
 			defines: {
@@ -109,7 +108,7 @@ export class PeltMaterial extends ShaderMaterial {
 				...defines,
 			},
 			vertexShader: [...lampChunks, ...hairChunks, sky, lightOut, colour, vertexShader].join('\n'),
-			fragmentShader: [...lampChunks, lightIn, density, ptm, colour, output, fragmentShader].join('\n'),
+			fragmentShader: [...lampChunks, trim, lightIn, density, ptm, colour, output, fragmentShader].join('\n'),
 			transparent: true,
 			blending: CustomBlending,
 			blendSrc: OneFactor,
@@ -137,6 +136,9 @@ export class PeltMaterial extends ShaderMaterial {
 				},
 			});
 		}
+		this.#texels = texels;
+		this.#planes = [textures.plane0, textures.plane1].filter((plane) => plane !== undefined);
+		this.#leader = leader;
 		this.setTextures(textures);
 		if (leader) leader.#followers.push(this);
 	}
@@ -196,6 +198,41 @@ export class PeltMaterial extends ShaderMaterial {
 	}
 
 	/**
+	 * Share of the hairs that is left when they are cut, above 0 to 1: the lowest slabs, as thick as they were, in the light
+	 * that they get when the hair above is gone. 1 costs nothing.
+	 */
+	get trim(): number {
+		return this.uniforms.furTrim?.value;
+	}
+
+	set trim(share: number) {
+		if (this.#leader) this.#leader.trim = share;
+		if (share === this.trim) return;
+		const { furTrim } = this.uniforms;
+		if (furTrim) furTrim.value = share;
+		if (share < 1) {
+			const places = this.#light().places(share);
+			for (const material of [this, ...this.#followers]) material.#light().set(places);
+		}
+		this.#switch('TRIMMED', share < 1);
+	}
+
+	/** Made from the texels that the material was made with: other states of the fur have their light changed alike. */
+	#light(): TrimLight {
+		if (!this.#trimLight) {
+			this.#trimLight = new TrimLight(this.#planes, this.#texels, this.defines.LAYERS as number);
+			(this.uniforms.trimLight as IUniform).value = this.#trimLight.texture;
+		}
+		return this.#trimLight;
+	}
+
+	/** Frees what it has on the GPU but for the pelt's textures. */
+	override dispose(): void {
+		super.dispose();
+		this.#trimLight?.texture.dispose();
+	}
+
+	/**
 	 * Whether lamps are summed per fragment, not per vertex: the lamps' light on coarse meshes, and the edges of shadows on
 	 * them, to the pixel, for much of the frame.
 	 */
@@ -245,49 +282,4 @@ export class PeltMaterial extends ShaderMaterial {
 			if (uniform) uniform.value = value;
 		}
 	}
-}
-
-/**
- * The light moments' matrices, coefficients 0..2 in `Low` and 3..5 in `High`, absent ones 0.
- *
- * @param fin whose normal is the frame's second axis, not the third
- */
-function momentUniforms({ environment, basis }: Texels, fin: boolean): Record<string, IUniform> {
-	const uniforms: Record<string, IUniform> = {};
-	const around = horizonMoments(basis, fin ? (psi) => [Math.cos(psi), 0, Math.sin(psi)] : undefined);
-	for (const [part, first] of [
-		['Low', 0],
-		['High', 3],
-	] as const) {
-		const zeros = new Array<number>(9).fill(0);
-		const rows = [0, 1, 2, 3].map((i) => (i < 3 && environment[first + i]) || zeros);
-		uniforms[`environment${part}0`] = { value: rows.flatMap((row) => row.slice(0, 4)) };
-		uniforms[`environment${part}1`] = { value: rows.flatMap((row) => row.slice(4, 8)) };
-		uniforms[`environment${part}2`] = { value: new Vector3(...rows.slice(0, 3).map((row) => row[8] ?? 0)) };
-		uniforms[`horizon${part}`] = {
-			value: around.map((row) => new Vector3(row[first] ?? 0, row[first + 1] ?? 0, row[first + 2] ?? 0)),
-		};
-		if (basis.kind === 'eigen') {
-			const curves = [0, 1, 2].map((i) => basis.matrix[first + i]);
-			const terms = basis.matrix[0]?.length ?? 0;
-			uniforms[`curves${part}`] = {
-				value: Array.from({ length: terms }, (_, t) => new Vector3(...curves.map((row) => row?.[t] ?? 0))),
-			};
-		}
-	}
-	return uniforms;
-}
-
-/** λ and Ω as multiply-adds on the GPU's 0..1 texels, per plane: a = texel·(255λ) − λΩ. */
-function decoder(scale: number[], bias: number[]): { scale: Vector4[]; offset: Vector4[] } {
-	const vectors = {
-		scale: [new Vector4(0, 0, 0, 0), new Vector4(0, 0, 0, 0)],
-		offset: [new Vector4(0, 0, 0, 0), new Vector4(0, 0, 0, 0)],
-	};
-	scale.forEach((lambda, i) => {
-		const { plane, channel } = channelOf(i);
-		vectors.scale[plane]?.setComponent(channel, lambda * 255);
-		vectors.offset[plane]?.setComponent(channel, -lambda * (bias[i] ?? 0));
-	});
-	return vectors;
 }

@@ -264,8 +264,8 @@ export class FurInstances extends Object3D {
 		const away = eye[3] ? scale * Math.sqrt((this.#powers[i] as number) + radius * radius) : 1;
 		const near = Math.max(away - this.#radius * unit, 0.1 * away);
 		const { automatic, shellCount, coarseness } = this.#fur.shells;
-		const wanted =
-			shellsFor(this.#length * unit * pixelsPerUnit(camera, this.height, near), this.fewestShells) / coarseness;
+		const fewest = this.fewestShells * this.#fur.material.trim;
+		const wanted = shellsFor(this.#length * unit * pixelsPerUnit(camera, this.height, near), fewest) / coarseness;
 		this.#details[2 * i] = Math.min(Math.max(automatic ? wanted : shellCount, 1), this.levels[0] as number);
 		this.#details[2 * i + 1] = cutFor(this.#texel * unit * pixelsPerUnit(camera, this.height, away));
 	}

@@ -110,7 +110,8 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 		const height = renderer.getCurrentViewport(viewport).w;
 		if (this.automatic)
 			this.#draw(
-				shellsFor(this.furLength * unit * pixelsPerUnit(camera, height, near), this.#layers) / this.coarseness,
+				shellsFor(this.furLength * unit * pixelsPerUnit(camera, height, near), this.#layers * this.material.trim) /
+					this.coarseness,
 			);
 		this.material.alphaCut = cutFor(this.#texel * unit * pixelsPerUnit(camera, height, away));
 		this.material.uniformsNeedUpdate = true;

@@ -3,7 +3,7 @@
 import type { ShaderMaterial } from 'three';
 
 /** What changes where hairs are and how much they cover, whatever lights them. */
-export const SHAPE = ['DENSITY', 'SWING'] as const;
+export const SHAPE = ['DENSITY', 'SWING', 'TRIMMED'] as const;
 
 /** Has a part compiled in or left out. The renderer keeps the programs of a material: to switch back and forth is cheap. */
 export function switchPart(material: ShaderMaterial, part: string, on: boolean): void {

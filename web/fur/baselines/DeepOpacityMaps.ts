@@ -48,7 +48,7 @@ export interface MapOptions {
 const BYTE_OPACITY = 8;
 
 /** What the maps depend on, beside the light's direction and the fur's transform: uniforms, textures, attributes. */
-const WATCHED = ['furLength', 'shellCount', 'firstShell', 'tiles', 'density'] as const;
+const WATCHED = ['furLength', 'furTrim', 'shellCount', 'firstShell', 'tiles', 'density'] as const;
 const TEXTURES = ['plane0', 'plane1', 'swing'] as const;
 const MOVING = ['position', '_fur', '_comb'] as const;
 

@@ -17,6 +17,7 @@ import hairOut from '../shaders/hair.vert.glsl?raw';
 import opacity from '../shaders/opacity.glsl?raw';
 import output from '../shaders/output.glsl?raw';
 import shell from '../shaders/shell.glsl?raw';
+import trim from '../shaders/trim.glsl?raw';
 import view from '../shaders/view.glsl?raw';
 import { followParts, SHAPE } from '../switches.ts';
 import coverage from './coverage.glsl?raw';
@@ -40,9 +41,17 @@ export class RivalMaterial extends ShaderMaterial {
 			uniforms: { ...shells.uniforms, ...UniformsUtils.clone(UniformsLib.lights), ...uniforms },
 			defines: { ...shells.defines, ...defines },
 			vertexShader: ['#include <common>', view, ...hairChunks, shell, colour, hairOut, vertexShader].join('\n'),
-			fragmentShader: ['#include <common>', density, coverage, opacity, colour, hairIn, output, fragmentShader].join(
-				'\n',
-			),
+			fragmentShader: [
+				'#include <common>',
+				trim,
+				density,
+				coverage,
+				opacity,
+				colour,
+				hairIn,
+				output,
+				fragmentShader,
+			].join('\n'),
 		});
 		// Blending, depth and the like: those of every material, no shaders.
 		Material.prototype.copy.call(this, shells);
@@ -60,6 +69,15 @@ export class RivalMaterial extends ShaderMaterial {
 
 	set density(ratio: number) {
 		this.shells.density = ratio;
+	}
+
+	/** As of the shells. */
+	get trim(): number {
+		return this.shells.trim;
+	}
+
+	set trim(share: number) {
+		this.shells.trim = share;
 	}
 
 	/** Has hairs where the shells have them. */

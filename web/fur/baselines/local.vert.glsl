@@ -25,7 +25,8 @@ out vec3 vViewer; // unit vector to the eye, (T, B, N)
 
 // Hairs shade the roots, and more smoothly than they do it one by one.
 vec2 darkened(float s) {
-	return 1.0 - darkness * (1.0 - s) * (1.0 - s);
+	float depth = 1.0 - s / furTrim;
+	return 1.0 - darkness * depth * depth;
 }
 
 // A body shades itself (D. C. Banks: Illumination in Diverse Codimensions, SIGGRAPH 1994), tips less than roots.

@@ -8,10 +8,11 @@ uniform vec3 tip2; // of the other tips
 uniform float tipShare; // how much of the way there the attributes lead, 0..1
 uniform float rampPower;
 
-// tipShare: from tip to tip2; s = 0 at the skin, 1 at the tip.
+// tipShare: from tip to tip2; s = 0 at the skin, 1 at the tip. Cut hair keeps the colours of its root half way only: a whole
+// ramp would be another animal's, and roots alone are dark.
 vec3 furRamp(float tipShare, float s) {
 #ifdef COLOUR_PLANE
 	tipShare = 1.0;
 #endif
-	return mix(root, mix(tip, tip2, tipShare), pow(s, rampPower));
+	return mix(root, mix(tip, tip2, tipShare), pow(s / sqrt(furTrim), rampPower));
 }

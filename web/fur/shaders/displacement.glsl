@@ -1,7 +1,7 @@
 // A hair above a point of the skin, in the mesh's own units: it leaves along the normal and bends to where it is combed
 // (Lengyel 2001: shells are the skin moved outwards; here along a trajectory). s = 0 at the skin, 1 at the tip.
 
-uniform float furLength; // longest fur, the mesh's own units
+uniform float furLength; // longest fur, as long as it is left, the mesh's own units
 
 // comb: displacement of the tip in the tangent plane, share of the length; the tip stays as far from the root as uncombed.
 float furRise(vec3 comb) {
@@ -9,7 +9,7 @@ float furRise(vec3 comb) {
 }
 
 vec3 furPoint(vec3 root, vec3 outward, vec3 comb, float lengthShare, float s) {
-	return root + (furRise(comb) * outward + s * comb) * (furLength * lengthShare * s);
+	return root + (furRise(comb) * outward + s * comb) * (furLength / furTrim * lengthShare * s);
 }
 
 // The frame of light bends with the hair: the smallest rotation that takes the normal onto the curve's tangent at s.

@@ -33,9 +33,9 @@ void main() {
 	float broadside = dot(across, viewer);
 	vFade = finFade(cos(angle) * dot(upright, viewer) + sin(angle) * broadside, broadside);
 
-	vAt = uv * vec2(tiles, finHeights);
+	vAt = uv * vec2(tiles, finHeights * furTrim);
 	// Where nothing is to be seen the quad falls onto its root, and no fragment is left of it.
-	float s = vFade > 0.0 ? min(vAt.y, 1.0) : 0.0;
+	float s = vFade > 0.0 ? min(vAt.y, furTrim) : 0.0;
 	vec3 comb = furComb(frame * vec3(_edge.z, 0.0, _edge.w));
 	vec3 pointVS = (placement * vec4(furPoint(position, n, comb, _fur.y * finLength, s), 1.0)).xyz;
 	gl_Position = projectionMatrix * vec4(pointVS, 1.0);

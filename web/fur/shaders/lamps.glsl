@@ -83,5 +83,9 @@ Lamps lampsAt(FurPoint point) {
 	#pragma unroll_loop_end
 #endif
 	lamps.lobes /= max(power, 1e-6);
+#ifdef TRIMMED
+	lamps.lobes *= furTrim; // stubble is seen from its ends more than from its sides
+	lamps.moments = trimmed(lamps.moments, point.s);
+#endif
 	return lamps;
 }

@@ -20,7 +20,7 @@ float shellOpacity(float coverage) {
 #ifdef ALPHA_TO_COVERAGE
 	// Fragments of a pixel all cover the same samples first, and so add up to no more than the densest of them: a hair is
 	// there or it is not, with an edge as wide as a pixel.
-	float most = min(2.0 * vWeight * shellCount / float(LAYERS), 1.0); // of the patches that lap over each other here
+	float most = min(2.0 * vWeight * shellCount / (furTrim * float(LAYERS)), 1.0); // of the patches that lap over each other here
 	return clamp((coverage * most - HAIR) / max(fwidth(coverage), 1e-3) + 0.5, 0.0, 1.0);
 #else
 	float facing = max(abs(vFacing), 1.0 / MAX_SLANT);

@@ -24,6 +24,13 @@ out float vFacing; // n·v
 
 #define NUDGE 1e-4 // slabs, over what rounding does to heights where two meet
 
+#define SLABS (furTrim * float(LAYERS)) // that are left
+#ifdef TRIMMED
+#define TOP (int(ceil(SLABS - NUDGE)) - 1) // the uppermost of them
+#else
+#define TOP (LAYERS - 1)
+#endif
+
 struct ShellPoint {
 	bool there; // whether the body has this shell
 	float s; // 0 at the skin, 1 at the tip
@@ -50,17 +57,22 @@ vec2 driftAt(float s) {
 int slabAt(float s, float i, float count) {
 	// Where shells are fewer and two slabs as near, which of them it is differs from shell to shell: all at once would be
 	// seen when their number changes.
-	float nudge = count < float(LAYERS) ? 0.4 * (fract(0.618034 * i) - 0.5) : NUDGE;
-	return clamp(int(s * float(LAYERS) + nudge), 0, LAYERS - 1);
+	float nudge = count < SLABS ? 0.4 * (fract(0.618034 * i) - 0.5) : NUDGE;
+	return clamp(int(s * float(LAYERS) + nudge), 0, TOP);
 }
 
 // How many shells stand for a slab, the outermost counted by its share; all slabs weigh the same, or fur would change
 // its colour with the number of shells.
 float sharesOf(int slab, float count) {
-	float each = count / float(LAYERS);
+	float each = count / SLABS;
 	if (each < 1.0) return each;
 	float first = ceil((float(slab) - NUDGE) * each - 0.5), next = ceil((float(slab + 1) - NUDGE) * each - 0.5);
-	return slab == LAYERS - 1 ? count - first : next - first;
+#ifdef TRIMMED
+	// The last slab may be cut so thin that no shell shows it, or the outermost shell alone.
+	return slab == TOP ? (count - first) / min(SLABS - float(slab), 1.0) : min(next, count) - first;
+#else
+	return slab == TOP ? count - first : next - first;
+#endif
 }
 
 // Places the vertex and writes what every fragment of a shell needs, whatever it is lit by.
@@ -76,7 +88,7 @@ ShellPoint shellPoint() {
 	point.there = i < count;
 	// Shells lie in the middle of their share of the fur; the outermost has a smaller one where n is no whole number.
 	float share = clamp(count - i, 0.0, 1.0);
-	point.s = min((i + 0.5 * share) / count, 1.0);
+	point.s = furTrim * min((i + 0.5 * share) / count, 1.0);
 	vec3 n = normalize(normal);
 	vec3 t = normalize(tangent.xyz - n * dot(n, tangent.xyz));
 	mat4 placement = bodyModelView();
@@ -88,7 +100,12 @@ ShellPoint shellPoint() {
 
 	// A shell between two slabs' middles shows its slab sheared by how far the hairs have drifted since, so that they run
 	// on instead of standing in steps.
+#ifdef TRIMMED
+	// Where the outermost shell would lie if it were whole: so shares are counted.
+	int slab = slabAt(count < SLABS ? point.s : furTrim * min((i + 0.5) / count, 1.0), i, count);
+#else
 	int slab = slabAt(point.s, i, count);
+#endif
 	vAt = vec3(uv * tiles - (driftAt(point.s) - driftKnot(slab + 1)), float(slab));
 	vWeight = _fur.x * share / sharesOf(slab, count);
 	vFacing = dot(point.turn * n, viewerVS(point.pointVS));

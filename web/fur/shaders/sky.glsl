@@ -82,5 +82,8 @@ Moments environmentMoments(mat3 frameVS, float s) {
 	moments.high += transpose(order2) * mat3x4(environmentHigh1) + outerProduct(last, environmentHigh2);
 #endif
 	addDip(moments, Y0 * radiance[0], Y1 * mat3(radiance[3], radiance[1], radiance[2]), form, s);
+#ifdef TRIMMED
+	moments = trimmed(moments, s);
+#endif
 	return moments;
 }

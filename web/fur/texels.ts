@@ -1,0 +1,58 @@
+/** What a texel's bytes and coefficients mean, as uniforms. */
+
+import { type IUniform, Vector3, Vector4 } from 'three';
+import { type Basis, channelOf } from './format.ts';
+import { horizonMoments } from './moments.ts';
+
+/** What texels mean: how they are decoded, and what their coefficients multiply. */
+export interface Texels {
+	scale: number[];
+	bias: number[];
+	basis: Basis;
+	environment: number[][];
+}
+
+/**
+ * The light moments' matrices, coefficients 0..2 in `Low` and 3..5 in `High`, absent ones 0.
+ *
+ * @param fin whose normal is the frame's second axis, not the third
+ */
+export function momentUniforms({ environment, basis }: Texels, fin: boolean): Record<string, IUniform> {
+	const uniforms: Record<string, IUniform> = {};
+	const around = horizonMoments(basis, fin ? (psi) => [Math.cos(psi), 0, Math.sin(psi)] : undefined);
+	for (const [part, first] of [
+		['Low', 0],
+		['High', 3],
+	] as const) {
+		const zeros = new Array<number>(9).fill(0);
+		const rows = [0, 1, 2, 3].map((i) => (i < 3 && environment[first + i]) || zeros);
+		uniforms[`environment${part}0`] = { value: rows.flatMap((row) => row.slice(0, 4)) };
+		uniforms[`environment${part}1`] = { value: rows.flatMap((row) => row.slice(4, 8)) };
+		uniforms[`environment${part}2`] = { value: new Vector3(...rows.slice(0, 3).map((row) => row[8] ?? 0)) };
+		uniforms[`horizon${part}`] = {
+			value: around.map((row) => new Vector3(row[first] ?? 0, row[first + 1] ?? 0, row[first + 2] ?? 0)),
+		};
+		if (basis.kind === 'eigen') {
+			const curves = [0, 1, 2].map((i) => basis.matrix[first + i]);
+			const terms = basis.matrix[0]?.length ?? 0;
+			uniforms[`curves${part}`] = {
+				value: Array.from({ length: terms }, (_, t) => new Vector3(...curves.map((row) => row?.[t] ?? 0))),
+			};
+		}
+	}
+	return uniforms;
+}
+
+/** λ and Ω as multiply-adds on the GPU's 0..1 texels, per plane: a = texel·(255λ) − λΩ. */
+export function decoder(scale: number[], bias: number[]): { scale: Vector4[]; offset: Vector4[] } {
+	const vectors = {
+		scale: [new Vector4(0, 0, 0, 0), new Vector4(0, 0, 0, 0)],
+		offset: [new Vector4(0, 0, 0, 0), new Vector4(0, 0, 0, 0)],
+	};
+	scale.forEach((lambda, i) => {
+		const { plane, channel } = channelOf(i);
+		vectors.scale[plane]?.setComponent(channel, lambda * 255);
+		vectors.offset[plane]?.setComponent(channel, -lambda * (bias[i] ?? 0));
+	});
+	return vectors;
+}
