@@ -50,7 +50,8 @@ export interface FurTextures {
 /** Where hairs are: of all that draws some. */
 export const hairChunks = [body, follicle, comb, trim, displacement];
 
-const lampChunks = ['#include <common>', '#include <lights_pars_begin>', view, moments, trimmed, shadow, lamps];
+const head = ['#include <common>', '#include <lights_pars_begin>', view];
+const lampChunks = [moments, trimmed, shadow, lamps];
 
 /** What the materials of shells and fins have in common: texels of coefficients that meet light moments. */
 export class PeltMaterial extends ShaderMaterial {
@@ -107,8 +108,8 @@ export class PeltMaterial extends ShaderMaterial {
 				SKY: '',
 				...defines,
 			},
-			vertexShader: [...lampChunks, ...hairChunks, sky, lightOut, colour, vertexShader].join('\n'),
-			fragmentShader: [...lampChunks, trim, lightIn, density, ptm, colour, output, fragmentShader].join('\n'),
+			vertexShader: [...head, ...hairChunks, ...lampChunks, sky, lightOut, colour, vertexShader].join('\n'),
+			fragmentShader: [...head, trim, ...lampChunks, lightIn, density, ptm, colour, output, fragmentShader].join('\n'),
 			transparent: true,
 			blending: CustomBlending,
 			blendSrc: OneFactor,
