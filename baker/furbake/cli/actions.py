@@ -35,6 +35,7 @@ from furbake.verify import lines, verify
 GIVEN = (
     "layers", "size", "lights", "basis", "coefficients", "length", "tile", "height", "seed", "flat", "guide",
     "length_by_thickness", "fins", "uv", "max_faces", "length_map", "mask", "comb", "features", "directions",
+    "states", "dirt",
 )  # fmt: skip
 """Options of the command that are options of the bake; one that is not given is the preset's."""
 

@@ -8,6 +8,7 @@ from importlib.metadata import version
 from typing import Any, NoReturn
 
 from furbake.cli import actions
+from furbake.pelt.states import WETNESS
 from furbake.swatch import FROM_THE_SIDE
 from furbake.trim import LENGTHS
 from furbake.verify import SAMPLES
@@ -82,6 +83,10 @@ def _guide(text: str) -> str:
     if text not in ("nose-tail", "down") and not text.endswith(".json"):
         raise argparse.ArgumentTypeError(f"got {text!r}, expected nose-tail, down or a .json file of strokes")
     return text
+
+
+def _states(text: str) -> tuple[str, ...]:
+    return tuple(WETNESS) if text == "dry..wet" else tuple(name.strip() for name in text.split(","))
 
 
 def _path(text: str) -> str:
@@ -170,6 +175,8 @@ def _bake_arguments(parser: _Parser) -> None:
     add("--no-fins", dest="fins", action="store_false", default=unset, help="no quads on the edges")
     add("--directions", action="store_true", default=unset, help="store the hairs' directions too, for other shaders")
     add("--flat", action="store_true", default=unset, help="a flat patch under a point at infinity, for checks")
+    add("--states", type=_states, default=unset, metavar="dry..wet|dry,NAME", help="wet states too: all five, or some")
+    add("--dirt", action="store_true", default=unset, help="a dirty state too")
     add("--samples", type=_path, metavar="FILE.npz", help="write the sampled physics too, for others to check")
     add("--force", action="store_true", help="replace DIR if it is a bake")
     add("--if-stale", action="store_true", help="only if DIR differs in options, input or version; implies --force")

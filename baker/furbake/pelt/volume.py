@@ -91,7 +91,7 @@ def voxelise(strands: Strands, height: float, layers: int, size: int, opacity: f
         along = direction[hair, segment]
         along = along * np.where(along[:, 2:] < 0, -1.0, 1.0)
 
-        cover, voxel = _cross_sections(centre, thick, along, size)
+        cover, voxel = cross_sections(centre, thick, along, size)
         here = np.zeros(size * size)
         np.maximum.at(here, voxel.ravel(), cover.ravel())
         solid[slab] += here / PLANES
@@ -119,7 +119,7 @@ def voxelise(strands: Strands, height: float, layers: int, size: int, opacity: f
     )
 
 
-def _cross_sections(centre: Array, thick: Array, along: Array, size: int) -> tuple[Array, NDArray[np.int64]]:
+def cross_sections(centre: Array, thick: Array, along: Array, size: int) -> tuple[Array, NDArray[np.int64]]:
     """Coverage of the voxels around n cut hairs: (n, w) coverage 0..1 and (n, w) flat voxel index, wrapped."""
     reach = int(np.ceil(min((thick / np.maximum(along[:, 2], 0.3)).max() * size, size / 2))) + 1
     offset = np.arange(-reach, reach + 1)

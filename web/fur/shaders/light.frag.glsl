@@ -22,6 +22,9 @@ in vec3 vBack;
 #ifdef GLOSS
 in float vLobe;
 in float vTintedLobe;
+#ifdef WET
+in float vPower;
+#endif
 #endif
 #endif
 
@@ -29,7 +32,8 @@ Lamps receivedLamps() {
 #ifdef LAMPS_PER_FRAGMENT
 	return lampsAt(FurPoint(vFrame, vPoint, vTip, vS));
 #else
-	Lamps lamps = Lamps(Moments(vLampLow, mat3(0.0)), vec3(0.0), vec2(0.0));
+	Lamps lamps = DARKNESS;
+	lamps.moments.low = vLampLow;
 #ifdef TWO_PLANES
 	lamps.moments.high = vLampHigh;
 #endif
@@ -38,6 +42,9 @@ Lamps receivedLamps() {
 #endif
 #ifdef GLOSS
 	lamps.lobes = vec2(vLobe, vTintedLobe);
+#ifdef WET
+	lamps.power = vPower;
+#endif
 #endif
 	return lamps;
 #endif
