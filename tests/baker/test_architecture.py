@@ -27,6 +27,7 @@ FLOORS = {
     "pathtrace": {"pelt"},
     "verify": {"asset", "pelt", "options", "bake", "pathtrace"},
     "compare": {"pelt", "options", "bake"},
+    "trim": {"pelt", "options", "bake", "verify"},
     "lesson": {"asset", "pelt", "options", "identity", "bake"},
     "cli": {
         "asset",
@@ -41,6 +42,7 @@ FLOORS = {
         "verify",
         "pathtrace",
         "compare",
+        "trim",
         "lesson",
         "cli",
     },

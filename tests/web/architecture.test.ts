@@ -9,7 +9,7 @@ const web = fileURLToPath(new URL('../../web/', import.meta.url));
 
 /** The library from the ground up; modules of one floor do not import each other. A new module gets its floor here. */
 const floors = [
-	['format', 'names', 'weld', 'switches', 'steps'],
+	['format', 'names', 'weld', 'switches', 'steps', 'chunks'],
 	[
 		'planes',
 		'moments',
@@ -40,7 +40,7 @@ const floors = [
 	['level'],
 	['instances'],
 	// The room of what moves.
-	['spring', 'drive', 'Turn', 'TexelPass', 'Stopwatch'],
+	['spring', 'drive', 'options', 'Turn', 'TexelPass', 'Stopwatch'],
 	['solver', 'roots', 'Wind', 'Carriage', 'Strokes'],
 	['CpuSprings', 'GpuSprings'],
 	['FurMotion'],

@@ -26,6 +26,14 @@ export interface Ground {
 	finHeights: number;
 }
 
+/** Which weather a fur can show. */
+export interface HasStates {
+	/** Whether it can be wet. */
+	wet: boolean;
+	/** Whether it can be dirty. */
+	dirt: boolean;
+}
+
 /** Shells, fins and the shade of the skin below them: `gltf.userData.fur` of a loaded asset, or made by `dress`. */
 export class Fur {
 	/** What its file says of it. */
@@ -145,7 +153,7 @@ export class Fur {
 	}
 
 	/** What of its file there is beside dry, clean fur; shown once `loadStates` has it. */
-	get hasStates(): { wet: boolean; dirt: boolean } {
+	get hasStates(): HasStates {
 		const { wet, dirty } = this.pelt.all;
 		return { wet: wet.length > 1, dirt: dirty !== undefined };
 	}

@@ -1,6 +1,6 @@
 /** Where the fur of a body is wet and where it is dirty, and how it dries. */
 
-import { DataTexture, Matrix4 as Matrix, type Matrix4, RGFormat, UnsignedByteType, Vector3 } from 'three';
+import { DataTexture, Matrix4, type Object3D, RGFormat, UnsignedByteType, Vector3 } from 'three';
 import { FOLLICLES_PER_ROW, type Follicles } from './follicles.ts';
 
 /** What 1 is stored as: a number that 2, 3, 4, 5, 6 and 8 divide, so that the usual states are met exactly. */
@@ -24,7 +24,7 @@ export interface WeatheredBody {
 	/** Points of the skin, in the axes of the shells. */
 	readonly follicles: Follicles;
 	/** Where they are. */
-	readonly shells: { readonly matrixWorld: Matrix4 };
+	readonly shells: Pick<Object3D, 'matrixWorld'>;
 	/** What it is worn by. */
 	weather: FurWeather | undefined;
 }
@@ -35,7 +35,7 @@ export interface WeatherOptions {
 	drying?: number;
 }
 
-const inverse = new Matrix();
+const inverse = new Matrix4();
 const place = new Vector3();
 
 /**
@@ -221,7 +221,9 @@ export class FurWeather {
 		let closest = Number.POSITIVE_INFINITY;
 		for (let i = 0; i < count; i++) {
 			const distance = away(i);
-			if (distance < closest) [closest, nearest] = [distance, i];
+			if (distance >= closest) continue;
+			closest = distance;
+			nearest = i;
 		}
 		const [nx, ny, nz] = [normal[3 * nearest], normal[3 * nearest + 1], normal[3 * nearest + 2]] as [
 			number,
@@ -230,7 +232,8 @@ export class FurWeather {
 		];
 		for (let i = 0; i < count; i++) {
 			const distance = away(i) / reach;
-			if (distance >= 1) continue;
+			// Nor where the brush has no size.
+			if (!(distance < 1)) continue;
 			const alike =
 				(normal[3 * i] as number) * nx + (normal[3 * i + 1] as number) * ny + (normal[3 * i + 2] as number) * nz;
 			const facing = Math.min(Math.max((alike - ASIDE) / (FACING - ASIDE), 0), 1);

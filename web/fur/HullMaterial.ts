@@ -1,6 +1,6 @@
 import { GLSL3, type IUniform, ShaderMaterial, type ShaderMaterialParameters } from 'three';
+import { hairChunks } from './chunks.ts';
 import type { FurMaterial } from './FurMaterial.ts';
-import { hairChunks } from './PeltMaterial.ts';
 import fragmentShader from './shaders/hull.frag.glsl?raw';
 import vertexShader from './shaders/hull.vert.glsl?raw';
 import { followParts } from './switches.ts';

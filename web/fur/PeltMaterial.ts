@@ -13,27 +13,14 @@ import {
 	Vector2,
 	ZeroFactor,
 } from 'three';
+import { hairChunks, lampChunks, texelChunks } from './chunks.ts';
 import { BODY_RADIUS, smoothSum } from './moments.ts';
-import body from './shaders/body.glsl?raw';
 import colour from './shaders/colour.glsl?raw';
-import comb from './shaders/comb.glsl?raw';
-import density from './shaders/density.glsl?raw';
-import displacement from './shaders/displacement.glsl?raw';
-import follicle from './shaders/follicle.glsl?raw';
-import lamps from './shaders/lamps.glsl?raw';
 import lightIn from './shaders/light.frag.glsl?raw';
 import lightOut from './shaders/light.vert.glsl?raw';
-import moments from './shaders/moments.glsl?raw';
 import output from './shaders/output.glsl?raw';
 import ptm from './shaders/ptm.glsl?raw';
-import shadow from './shaders/shadow.glsl?raw';
 import sky from './shaders/sky.glsl?raw';
-import trim from './shaders/trim.glsl?raw';
-import trimmed from './shaders/trimmed.glsl?raw';
-import view from './shaders/view.glsl?raw';
-import weatherIn from './shaders/weather.frag.glsl?raw';
-import weather from './shaders/weather.glsl?raw';
-import weatherOut from './shaders/weather.vert.glsl?raw';
 import { type Stained, stain, stainUniforms } from './stains.ts';
 import { switchPart } from './switches.ts';
 import { TrimLight } from './TrimLight.ts';
@@ -50,14 +37,6 @@ export interface FurTextures {
 	/** Mean tangent of the hairs, for renderers that don't light by coefficients; mips are means, shorter than 1. */
 	direction?: Texture | undefined;
 }
-
-/** Where hairs are: of all that draws some. */
-export const hairChunks = [body, follicle, comb, weather, weatherOut, trim, displacement];
-
-/** How texels are read: in which state they are. */
-export const texelChunks = [trim, density, weather, weatherIn];
-
-const lampChunks = ['#include <common>', '#include <lights_pars_begin>', view, moments, trimmed, shadow, lamps];
 
 /** What the materials of shells and fins have in common: texels of coefficients that meet light moments. */
 export class PeltMaterial extends ShaderMaterial {

@@ -10,6 +10,7 @@ from typing import Any, NoReturn
 from furbake.cli import actions
 from furbake.pelt.states import WETNESS
 from furbake.swatch import FROM_THE_SIDE
+from furbake.trim import LENGTHS
 from furbake.verify import SAMPLES
 
 
@@ -20,7 +21,7 @@ class UsageError(ValueError):
 class _Parser(argparse.ArgumentParser):
     """Says what is wrong in the words of all other errors, instead of printing usage."""
 
-    shape = "furbake bake, inspect, validate, presets, report, swatch, lesson, verify, compare or patches"
+    shape = "furbake bake, inspect, validate, presets, report, swatch, lesson, verify, compare, trim or patches"
 
     def error(self, message: str) -> NoReturn:
         if match := re.fullmatch(r"the following arguments are required: (.*)", message, re.DOTALL):
@@ -54,6 +55,13 @@ def _number(text: str) -> float:
         return float(text)
     except ValueError:
         raise argparse.ArgumentTypeError(f"got {text!r}, expected a number") from None
+
+
+def _share(text: str) -> float:
+    share = _number(text)
+    if not 0 < share <= 1:
+        raise argparse.ArgumentTypeError(f"got {text}, expected above 0 and at most 1")
+    return share
 
 
 def _setting(text: str) -> tuple[str, str]:
@@ -125,6 +133,14 @@ def parser() -> argparse.ArgumentParser:
     compare.add_argument("--lights", type=_lights, default=192, metavar="N", help="lights of the fit (default: 192)")
     compare.add_argument("--size", type=_whole, metavar="N", help="texels per side of a slab (default: the preset's)")
     compare.add_argument("--quiet", action="store_true", help="no progress")
+    trim = add("trim", actions.run_trim, "[NAME ...]", "table of fur that is cut at run time, as Markdown")
+    trim.add_argument("names", metavar="NAME", nargs="*", type=_path, help="presets or .toml files (default: all)")
+    trim.add_argument(
+        "--lengths", type=_share, nargs="+", default=LENGTHS, metavar="S", help="shares of the fur that are left"
+    )
+    trim.add_argument("--lights", type=_lights, default=64, metavar="N", help="lights of the fit (default: 64)")
+    trim.add_argument("--size", type=_whole, metavar="N", help="texels per side of a slab (default: the preset's)")
+    trim.add_argument("--quiet", action="store_true", help="no progress")
     patches = add("patches", actions.run_patches, "MODEL ...", "table of how lapped patches cover models, as Markdown")
     patches.add_argument("models", metavar="MODEL", nargs="+", type=_path)
     patches.add_argument(

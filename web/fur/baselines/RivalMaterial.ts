@@ -8,8 +8,8 @@ import {
 	UniformsUtils,
 	type WebGLRenderer,
 } from 'three';
+import { hairChunks, texelChunks } from '../chunks.ts';
 import type { FurMaterial } from '../FurMaterial.ts';
-import { hairChunks, texelChunks } from '../PeltMaterial.ts';
 import colour from '../shaders/colour.glsl?raw';
 import hairIn from '../shaders/hair.frag.glsl?raw';
 import hairOut from '../shaders/hair.vert.glsl?raw';
@@ -24,6 +24,7 @@ import coverage from './coverage.glsl?raw';
  * The shells of a FurMaterial in another light: geometry, coverage, colour, blending and output are the same chunks with the
  * same uniforms, so that only the light differs, and what is set on either holds for both, what is compiled in for it included.
  * Switches of the FurMaterial's light, and its blending, are taken as they stand when the rival is made.
+ * Of wet and dirty fur they have lengths, coverage and colours; directions of the hairs are those of the dry.
  */
 export class RivalMaterial extends ShaderMaterial {
 	/**

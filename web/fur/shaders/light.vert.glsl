@@ -1,5 +1,5 @@
 // What of the light goes from vertex to fragment: moments, summed here; or, where lamps are summed per fragment, the point.
-// WebGL2 promises no more than 15 vectors: of a shell four matrices and three vec3, with scalars in their gaps.
+// WebGL2 promises no more than 15 vectors: of a shell four matrices and three vec3, with eleven scalars in their gaps.
 
 #ifdef SKY
 out mat3 vSkyLow;
