@@ -4,7 +4,7 @@ import type { WebGLRenderer } from 'three';
 export interface MotionOptions {
 	/** How fast the fur swings to and fro, Hz; 0.2 to 20, 2.4 by default. */
 	frequency?: number;
-	/** How soon it is still: ζ, share of the critical damping; 0.05 to 0.95, 0.22 by default. */
+	/** How soon it is still: ζ, share of the critical damping; 0.05 to 0.95, 0.28 by default. */
 	damping?: number;
 	/** How much hairs take their neighbours along, 0 (not at all) to 1; 0.3 by default. */
 	coupling?: number;
@@ -30,7 +30,7 @@ const RANGES = {
 /** Options with their defaults in place. */
 export function completed({
 	frequency = 2.4,
-	damping = 0.22,
+	damping = 0.28,
 	coupling = 0.3,
 	relaxation = 1.6,
 	gravity = 1,
