@@ -8,6 +8,7 @@ import { FurPatch, tiled } from '../patch.ts';
 import { View, type WindowOptions } from '../view.ts';
 import { mixtureOf } from '../wet/mixture.ts';
 
+const PELT = 'pelt-fox';
 const TILES = 3;
 /** Of the mesh: the lights' moments vary little on a plane. */
 const CELLS = 6;
@@ -18,7 +19,7 @@ const LOOK = { gloss: 0.12, backlight: 2 };
 
 export const mount: Mount = async (place, lesson) => {
 	const words = lesson.words.wet;
-	const { fur: pelt } = await loadFurry('pelt-fox', lesson);
+	const { fur: pelt } = await loadFurry(PELT, lesson);
 	// What is drawn, and the states before and after it.
 	const patches = [0, 1, 2].map(() => new FurPatch(pelt, TILES, tiled(TILES, CELLS)));
 	const weathers = patches.map(({ fur, shells }) => {
@@ -28,6 +29,7 @@ export const mount: Mount = async (place, lesson) => {
 	await Promise.all(patches.map(({ fur }) => fur.loadStates()));
 	const states = pelt.asset.pelts.filter(({ dirt }) => !dirt);
 	const wetnesses = states.map(({ wetness }) => wetness ?? 0);
+	if (wetnesses.length < 2) throw new Error(`models/${PELT}: got ${wetnesses.length} state, expected dry to soaked`);
 
 	const [main] = patches as [FurPatch];
 	const [weather, ...others] = weathers as [FurWeather, ...FurWeather[]];
