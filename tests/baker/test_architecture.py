@@ -26,6 +26,7 @@ FLOORS = {
     "pathtrace": {"pelt"},
     "verify": {"asset", "pelt", "options", "bake", "pathtrace"},
     "compare": {"pelt", "options", "bake"},
+    "bend": {"pelt", "knobs", "options", "bake"},
     "lesson": {"asset", "pelt", "options", "identity", "bake"},
     "cli": {
         "asset",
@@ -40,6 +41,7 @@ FLOORS = {
         "verify",
         "pathtrace",
         "compare",
+        "bend",
         "lesson",
         "cli",
     },
