@@ -14,6 +14,7 @@ import {
 	ZeroFactor,
 } from 'three';
 import { BODY_RADIUS, smoothSum } from './moments.ts';
+import bent from './shaders/bent.glsl?raw';
 import body from './shaders/body.glsl?raw';
 import colour from './shaders/colour.glsl?raw';
 import comb from './shaders/comb.glsl?raw';
@@ -50,7 +51,7 @@ export interface FurTextures {
 /** Where hairs are: of all that draws some. */
 export const hairChunks = [body, follicle, comb, trim, displacement];
 
-const lampChunks = ['#include <common>', '#include <lights_pars_begin>', view, moments, trimmed, shadow, lamps];
+const lampChunks = ['#include <common>', '#include <lights_pars_begin>', view, moments, trimmed, bent, shadow, lamps];
 
 /** What the materials of shells and fins have in common: texels of coefficients that meet light moments. */
 export class PeltMaterial extends ShaderMaterial {

@@ -11,6 +11,8 @@ in mat3 vFrame;
 in vec3 vPoint;
 in vec3 vTip;
 in float vS;
+in float vCombX;
+in float vCombY;
 #else
 in mat3 vLampLow;
 #ifdef TWO_PLANES
@@ -27,7 +29,9 @@ in float vTintedLobe;
 
 Lamps receivedLamps() {
 #ifdef LAMPS_PER_FRAGMENT
-	return lampsAt(FurPoint(vFrame, vPoint, vTip, vS));
+	vec3 comb = vec3(vCombX, 0.0, 0.0);
+	comb[3 - UPRIGHT] = vCombY;
+	return lampsAt(FurPoint(vFrame, comb, vPoint, vTip, vS));
 #else
 	Lamps lamps = Lamps(Moments(vLampLow, mat3(0.0)), vec3(0.0), vec2(0.0));
 #ifdef TWO_PLANES
