@@ -82,7 +82,7 @@ def test_command(run: Callable[..., Any], monkeypatch: pytest.MonkeyPatch) -> No
         kinds = ("state", "half-way", "dirt")
         return [Row(options.preset, kind, kind, 0.9, 0.8) for kind in kinds]
 
-    monkeypatch.setattr("furbake.cli.actions.halfway", few)
+    monkeypatch.setattr("furbake.cli.tables.halfway", few)
     done = run("states", "paper", "fox", "--size", "32", "--lights", "16", "--quiet")
     assert (done.status, done.err) == (0, "")
     assert len(done.out.splitlines()) == 4
