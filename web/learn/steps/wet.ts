@@ -16,6 +16,8 @@ const CELLS = 6;
 const FIRST_WETNESS = 0.625;
 /** Dry, how glossy it is, and how much light comes through. */
 const LOOK = { gloss: 0.12, backlight: 2 };
+/** Three pictures are drawn at a time: each with fewer shells than look best. */
+const COARSE = 1.5;
 
 export const mount: Mount = async (place, lesson) => {
 	const words = lesson.words.wet;
@@ -24,6 +26,7 @@ export const mount: Mount = async (place, lesson) => {
 	const patches = [0, 1, 2].map(() => new FurPatch(pelt, TILES, tiled(TILES, CELLS)));
 	const weathers = patches.map(({ fur, shells }) => {
 		Object.assign(shells.material, LOOK);
+		shells.coarseness = COARSE;
 		return new FurWeather(fur);
 	});
 	await Promise.all(patches.map(({ fur }) => fur.loadStates()));
