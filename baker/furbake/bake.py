@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field, replace
 from importlib.metadata import version
@@ -22,20 +22,17 @@ from furbake.options import BakeOptions
 from furbake.pelt import basis as bases
 from furbake.pelt.basis import Basis, environment
 from furbake.pelt.fill import fill, fill_directions
-from furbake.pelt.fin import FIN_FRAME, fit_fin, side_view
 from furbake.pelt.fit import Judge, fit, relight
-from furbake.pelt.pelt import FinPelt, Pelt
+from furbake.pelt.pelt import Pelt, State
 from furbake.pelt.quantise import byte_range, dequantise, quantise, signed_bytes, srgb_bytes, unit_bytes
+from furbake.pelt.states import Fur, chosen, in_state
 from furbake.pelt.strands import Strands, grow
 from furbake.pelt.transport import LOWEST, LOWEST_FLAT, hemisphere, sample
-from furbake.pelt.volume import Volume, coarsen, fine_shape, voxelise
+from furbake.pelt.volume import Volume, coarsen
+from furbake.sides import fit_sides
 from furbake.surface.fins import build_fins
 
 STAGES = ("mesh", "strands", "volume", "light", "fit", "fins", "write")
-
-FIN_LIGHTS, FIN_HELD_OUT = 64, 16
-"""Lights of a fin's fit, and others that it does not see: enough for six numbers."""
-
 
 Progress = Callable[[str, float], None]
 Floats = NDArray[np.float64]
@@ -80,6 +77,15 @@ class Lighting:
     samples: Single
 
 
+@dataclass(frozen=True)
+class Sampled:
+    """A state of the fur: the stored slabs, and the light in them."""
+
+    state: State
+    volume: Volume
+    lighting: Lighting
+
+
 def bake(
     model: str,
     out: Path,
@@ -105,21 +111,31 @@ def bake(
         height = body.length / body.tile
         with clock.stage("strands"):
             strands = grow(options.coat, height, options.seed)
+            furs = [
+                in_state(state, options.coat, strands, height, options.seed)
+                for state in chosen(options.states, options.dirt)
+            ]
         with clock.stage("volume"):
-            fine = voxelise(strands, height, *fine_shape(options.layers, options.size, height), options.coat.opacity)
-            volume = coarsen(fine, options.layers, options.size)
+            fine = furs[0].voxels(options.layers, options.size)
+
+        def voxels(fur: Fur) -> Volume:
+            """Of the states but the dry one the fine volumes are made anew: all of them at once take much memory."""
+            return fine if fur is furs[0] else fur.voxels(options.layers, options.size)
+
         with clock.stage("light") as step:
-            lighting = light(fine, options, step)
+            share = zip(furs, parts(step, len(furs)), strict=True)
+            lit = [sampled(fur, voxels(fur), options, part) for fur, part in share]
         with clock.stage("fit"):
-            pelt, figures = fit_pelt(volume, lighting, options)
+            pelts, figures = map(list, zip(*fit_pelts(lit, options), strict=True))
         with clock.stage("fins"):
             fins = None
             if options.fins:
-                lean = float(volume.drift[-1, 1])
+                lean = float(pelts[0].drift[-1, 1])
                 fins = build_fins(body.ground, body.direction, body.tile, lean, options.seed, body.length)
             if fins is not None and len(fins.faces):
-                fin, figures["fin"] = fit_side(strands, fine, options)
-                pelt = replace(pelt, fin=fin)
+                sides = fit_sides(((fur, voxels(fur)) for fur in furs), options)
+                pelts = [replace(pelt, fin=fin) for pelt, (fin, _) in zip(pelts, sides, strict=True)]
+                figures = [found | {"fin": fin} for found, (_, fin) in zip(figures, sides, strict=True)]
             else:  # a body that is all creases
                 fins = None
         with clock.stage("write"):
@@ -129,15 +145,29 @@ def bake(
                 "options": options.as_record(),
                 "input": describe_input(model, body.skin),
                 "key": bake_key(model, options),
-                "fit": figures,
+                "fit": figures[0],
             }
+            if len(pelts) > 1:
+                record["states"] = [
+                    {"name": pelt.state.name, "wetness": pelt.state.wetness, "dirt": pelt.state.dirt, "fit": found}
+                    for pelt, found in zip(pelts, figures, strict=True)
+                ]
             base = None if body.ground is body.skin else body.ground
             record["asset"] = write_gltf(
-                folder, body.skin, body.charts, body.fur, pelt, body.length, fins, base, body.features
+                folder,
+                body.skin,
+                body.charts,
+                body.fur,
+                pelts[0],
+                body.length,
+                fins,
+                base,
+                body.features,
+                tuple(pelts[1:]),
             )
             (folder / "bake.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
             if archive is not None:
-                write_samples(archive, volume, lighting, strands)
+                write_samples(archive, lit[0], strands)
     return BakeResult(out, record, clock.seconds, body.skin.notices)
 
 
@@ -164,44 +194,74 @@ def under(
     return sample(fine, layers, size, lights, albedo=coat.albedo, skin=coat.skin, flat=options.flat, progress=step)
 
 
+def parts(step: Callable[[float], None], count: int) -> Iterator[Callable[[float], None]]:
+    """Progress of `count` equal parts of a stage."""
+
+    def part(number: int) -> Callable[[float], None]:
+        return lambda fraction: step((number + fraction) / count)
+
+    return map(part, range(count))
+
+
+def sampled(
+    fur: Fur, fine: Volume, options: BakeOptions, step: Callable[[float], None] = lambda fraction: None
+) -> Sampled:
+    """A state of the fur as stored slabs, and the light in it; fine : its oversampled volume."""
+    lighting = light(fine, replace(options, coat=fur.coat), step)
+    return Sampled(fur.state, coarsen(fine, options.layers, options.size), lighting)
+
+
 def fit_pelt(volume: Volume, lighting: Lighting, options: BakeOptions) -> tuple[Pelt, dict[str, Any]]:
-    """Coefficients, bytes and the figures that `bake.json` reports."""
-    alpha = volume.coverage
-    seen, unseen = lighting.lights[~lighting.held_out], lighting.lights[lighting.held_out]
-    samples = lighting.samples[~lighting.held_out]
-    basis = choose_basis(samples, alpha, seen, options)
-    coefficients = fit(samples, basis, seen)
-    filled = fill(coefficients, alpha)
-    scale, bias = byte_range(filled, alpha)
+    """Coefficients, bytes and the figures that `bake.json` reports, of dry fur alone."""
+    return fit_pelts([Sampled(State(), volume, lighting)], options)[0]
+
+
+def fit_pelts(states: Sequence[Sampled], options: BakeOptions) -> list[tuple[Pelt, dict[str, Any]]]:
+    """As `fit_pelt`, of several states of the same fur under the same lights, with one basis, one λ and one Ω."""
+    held_out, lights = states[0].lighting.held_out, states[0].lighting.lights
+    seen, unseen = lights[~held_out], lights[held_out]
+    samples = [state.lighting.samples[~held_out] for state in states]
+    alphas = np.concatenate([state.volume.coverage for state in states])
+    joined = samples[0] if len(states) == 1 else np.concatenate(samples, axis=1)
+    basis = choose_basis(joined, alphas, seen, options)
+    coefficients = [fit(part, basis, seen) for part in samples]
+    filled = [fill(part, state.volume.coverage) for part, state in zip(coefficients, states, strict=True)]
+    scale, bias = byte_range(np.concatenate(filled), alphas)
     phi = basis(seen)
-    codes = quantise(filled, scale, bias, phi.T @ phi / len(phi))
-    coverage, tint = unit_bytes(alpha), unit_bytes(fill(volume.tint[..., None], alpha)[..., 0])
-    pelt = Pelt(
-        codes=codes,
-        alpha=coverage,
-        tint=tint,
-        colour=srgb_bytes(fill(options.ramp.colour(volume.tint, volume.hue), alpha)) if options.colour_plane else None,
-        scale=scale,
-        bias=bias,
-        kind=basis.kind,
-        degree=basis.degree,
-        matrix=basis.matrix,
-        environment=environment(basis),
-        drift=volume.drift,
-        height=volume.height,
-        ramp=options.ramp,
-        direction=signed_bytes(fill_directions(volume.tangent, alpha)) if options.directions else None,
-    )
-    judge = Judge(lighting.samples[lighting.held_out], alpha, volume.tint)
-    fitted, stored = relight(coefficients, basis, unseen), relight(dequantise(codes, scale, bias), basis, unseen)
-    quantised = judge.figures(stored)
-    figures = judge.figures(fitted) | {
-        "psnr_quantised": quantised["psnr"],
-        "psnr_quantised_composite": quantised["psnr_composite"],
-        "psnr_quantisation": judge.between(stored, relight(filled, basis, unseen)),
-        "bound": judge.bound(basis.coefficients),
-    }
-    return pelt, figures
+    found = []
+    for state, fitted, stored in zip(states, coefficients, filled, strict=True):
+        volume, alpha = state.volume, state.volume.coverage
+        dirty = state.state.dirt > 0
+        codes = quantise(stored, scale, bias, phi.T @ phi / len(phi))
+        colour = options.ramp.colour(volume.tint, volume.hue) if options.colour_plane and not dirty else None
+        pelt = Pelt(
+            codes=codes,
+            alpha=unit_bytes(alpha),
+            tint=unit_bytes(fill(volume.tint[..., None], alpha)[..., 0]),
+            colour=None if colour is None else srgb_bytes(fill(colour, alpha)),
+            scale=scale,
+            bias=bias,
+            kind=basis.kind,
+            degree=basis.degree,
+            matrix=basis.matrix,
+            environment=environment(basis),
+            drift=volume.drift,
+            height=volume.height,
+            ramp=options.ramp,
+            direction=signed_bytes(fill_directions(volume.tangent, alpha)) if options.directions else None,
+            state=state.state,
+        )
+        judge = Judge(state.lighting.samples[held_out], alpha, np.ones_like(alpha) if dirty else volume.tint)
+        curves, bytes_ = relight(fitted, basis, unseen), relight(dequantise(codes, scale, bias), basis, unseen)
+        quantised = judge.figures(bytes_)
+        figures = judge.figures(curves) | {
+            "psnr_quantised": quantised["psnr"],
+            "psnr_quantised_composite": quantised["psnr_composite"],
+            "psnr_quantisation": judge.between(bytes_, relight(stored, basis, unseen)),
+            "bound": judge.bound(basis.coefficients),
+        }
+        found.append((pelt, figures))
+    return found
 
 
 def choose_basis(samples: Single, alpha: Floats, lights: Floats, options: BakeOptions) -> Basis:
@@ -211,22 +271,9 @@ def choose_basis(samples: Single, alpha: Floats, lights: Floats, options: BakeOp
     return bases.eigen(samples.reshape(len(samples), -1), alpha.ravel(), lights, options.coefficients)
 
 
-def fit_side(strands: Strands, fine: Volume, options: BakeOptions) -> tuple[FinPelt, dict[str, float]]:
-    """The fins' texture, and how good it is: `psnr` and `r2` over lights that its fit did not see."""
-    fitted = hemisphere(min(options.lights, FIN_LIGHTS))
-    unseen = hemisphere(FIN_HELD_OUT, turn=1.0)
-    lights = np.concatenate([fitted, unseen])
-    view = side_view(strands, fine, options.layers, options.size, lights, options.coat, flat=options.flat)
-    colour = options.ramp.colour(view.tint, view.hue) if options.colour_plane else None
-    fin = fit_fin(replace(view, light=view.light[: len(fitted)]), fitted, colour)
-    judge = Judge(view.light[len(fitted) :, :, None].astype(np.float32), view.alpha[:, None], view.tint[:, None])
-    stored = relight(dequantise(fin.codes, fin.scale, fin.bias), bases.PTM, unseen[:, FIN_FRAME])
-    figures = judge.figures(stored[:, :, None])
-    return fin, {name: figures[name] for name in ("psnr", "r2")}
-
-
-def write_samples(archive: BinaryIO, volume: Volume, lighting: Lighting, strands: Strands) -> None:
-    """The physics for others to check, as a NumPy archive."""
+def write_samples(archive: BinaryIO, dry: Sampled, strands: Strands) -> None:
+    """The physics of the dry fur for others to check, as a NumPy archive."""
+    volume, lighting = dry.volume, dry.lighting
     np.savez_compressed(
         archive,
         sigma=volume.sigma,

@@ -13,6 +13,7 @@ from typing import Any, Literal
 from furbake import knobs
 from furbake.knobs import KNOBS, OptionError
 from furbake.pelt.pelt import Ramp
+from furbake.pelt.states import WETNESS
 from furbake.pelt.strands import Coat
 
 __all__ = ["BakeOptions", "OptionError", "as_toml", "override", "preset", "preset_names", "preset_summary"]
@@ -26,6 +27,10 @@ FILES = ("length_map", "mask", "comb", "features")
 
 OF_VERTICES = "vertex:"
 """With it `length_map` and `mask` name a channel of the vertex colours or an attribute instead."""
+
+
+LATER = ("directions", "states", "dirt")
+"""Options that early records do not have."""
 
 
 @dataclass(frozen=True)
@@ -87,6 +92,10 @@ class BakeOptions:
     """Store the paper's original colour of every texel as a third plane."""
     directions: bool = False
     """Store the hairs' mean direction in every texel, for renderers that compute the light themselves."""
+    states: tuple[str, ...] = ("dry",)
+    """States of wetness by name, dry first: some of those in `WETNESS`."""
+    dirt: bool = False
+    """A dirty state besides."""
     tile_share: float = 0.13
     """Default width of a tile as a share of the model's largest side, 0.001 to 10."""
     height_share: float = 0.5
@@ -110,6 +119,13 @@ class BakeOptions:
             raise OptionError(
                 "length: got length, tile and height, expected at most two of them (length = height × tile)"
             )
+        known = list(WETNESS)
+        if self.states[:1] != ("dry",) or len({*self.states} & {*known}) < len(self.states):
+            raise OptionError(
+                f"states: got {','.join(self.states)}, expected dry..wet, or dry and some of {', '.join(known[1:])}"
+            )
+        if self.dirt and self.coefficients < 4:
+            raise OptionError("dirt: got 3 coefficients, which leave no room for the share of mud, expected 4 to 6")
         hairs = self.coat.guard.count + self.coat.under.count
         knobs.within("coat.guard.count + coat.under.count", hairs, 1, 20_000)
 
@@ -128,11 +144,9 @@ class BakeOptions:
         return tile, height * tile
 
     def as_record(self) -> dict[str, Any]:
-        """Plain data, for bake.json. `directions` is in it only where it is on: other records stay what they were."""
-        record = asdict(self)
-        if not self.directions:
-            del record["directions"]
-        return record
+        """Plain data, for bake.json. Of `LATER` only what is used is in it: other records stay what they were."""
+        unused = {name for name in LATER if getattr(self, name) == getattr(BakeOptions, name)}
+        return {name: value for name, value in asdict(self).items() if name not in unused}
 
     @classmethod
     def from_record(cls, record: dict[str, Any]) -> BakeOptions:

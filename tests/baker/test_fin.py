@@ -18,9 +18,9 @@ from furbake.pelt.fin import (
     fill_fin,
     fin_environment,
     fin_shape,
-    fit_fin,
+    fit_fins,
+    in_the_row,
     overlap,
-    row_of_tufts,
     seen_from_the_side,
     side_view,
 )
@@ -99,13 +99,12 @@ def test_a_turn_of_the_tile_turns_the_texture() -> None:
 
 def test_only_a_row_of_tufts_is_seen_and_whole() -> None:
     strands = grow(BakeOptions().coat, HEIGHT, 0)
-    row = row_of_tufts(strands)
+    row = strands.some(in_the_row(strands))
     off = np.abs(row.points[:, 0, 0] % 1 - 0.5)
     assert off.max() <= THICKNESS / 2
     assert len(row.points) == pytest.approx(THICKNESS * len(strands.points), rel=0.1)
     assert row.points.shape[1:] == strands.points.shape[1:]
-    alone = row_of_tufts(straight([(0.05, 0.2)]))
-    assert len(alone.points) == 1  # a fin is never bare
+    assert in_the_row(straight([(0.05, 0.2)])).all()  # a fin is never bare
 
 
 def test_alpha_is_what_all_hairs_along_the_view_cover() -> None:
@@ -165,7 +164,8 @@ def test_known_polynomials_come_back() -> None:
     lights = hemisphere(64)
     coefficients = chance.uniform(-0.3, 0.5, (8, 16, 6)) + np.array([0, 0, 0, 0, 0, 2.0])
     light = np.einsum("hwc,nc->nhw", coefficients, PTM(lights[:, FIN_FRAME]))
-    fin = fit_fin(SideView(np.ones((8, 16)), np.full((8, 16), 0.4), np.zeros((8, 16)), light), lights)
+    side = SideView(np.ones((8, 16)), np.full((8, 16), 0.4), np.zeros((8, 16)), light)
+    (fin,) = fit_fins([side], lights, [None])
     back = relight(dequantise(fin.codes, fin.scale, fin.bias), PTM, lights[:, FIN_FRAME])
     assert np.abs(back - light).max() < 0.02
     assert (fin.tint == 102).all()

@@ -40,7 +40,7 @@ def test_stored_bytes_give_the_expected_light(name: str) -> None:
     assert expected.max() > 1
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", [*NAMES, "states"])
 def test_golden_assets_are_valid_but_for_the_record_of_a_bake(name: str) -> None:
     problems = validate(GOLDEN / name)
     assert [problem for problem in problems if not problem.startswith("bake.json")] == []

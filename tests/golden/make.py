@@ -7,6 +7,10 @@ random coefficients, all of them covered. Beside it `lights.json` holds 64 unit 
 horizon) and `light.f32` the L of every texel, little-endian float32 [light, layer, row, column]. L is computed here in
 plain loops over lights from the formulas of the format, sharing no code with either wing's evaluation.
 
+`states` has three wet states and a dirty one. Its `weather.json` lists 16 of the lights, and weathers as wetness and
+dirt; `weather.f32` has, for each of these, the red part of radiance · 4π of every texel under a lamp of irradiance 1:
+[weather, light, layer, row, column]. The skin is white, so that is L times the hairs' shade, or the mud's.
+
 `ptm-6` has fins, too: a quad on every edge and a side view of 16 × 8 random texels. `fin.f32` holds its L under the
 same 64 vectors taken in the fin's frame as (l·t, l·w, l·n): [light, row, column]. `bent.f32` holds L of the top layer
 where hairs are bent by each of `BENDS` (tips along T and B, shares of the length) under one light: [bend, row, column].
@@ -24,7 +28,7 @@ import numpy as np
 from furbake.asset.gltf import write_gltf
 from furbake.pelt.basis import Basis, environment
 from furbake.pelt.fin import fin_environment
-from furbake.pelt.pelt import FinPelt, Pelt, Ramp
+from furbake.pelt.pelt import FinPelt, Pelt, Ramp, State
 from furbake.surface.charts import laid
 from furbake.surface.coat import VertexFur
 from furbake.surface.fins import build_fins
@@ -37,6 +41,15 @@ TEXEL = 16 / 49  # a tip that moves so far moves the top layer by a texel
 BENDS = [[TEXEL, 0.0], [0.0, TEXEL], [-TEXEL, TEXEL], [2 * TEXEL, 0.0]]
 BENT_LIGHT = [0.48, 0.6, 0.64]
 VARIANTS = {"ptm-6": ("ptm", 6), "eigen-6": ("eigen", 6), "eigen-3": ("eigen", 3)}
+STATES = (
+    State("moist", wetness=0.5, length=0.95, shade=0.8, gloss=1.5, sharpness=2.0),
+    State("wet", wetness=0.75, length=0.9, shade=0.7, gloss=2.0, sharpness=3.0),
+    State("soaked", wetness=1.0, length=0.85, shade=0.5, gloss=2.5, sharpness=4.0),
+    State("dirty", dirt=1.0, mud=(0.25, 0.2, 0.1)),
+)
+WEATHERS = ((0.0, 0.0), (0.25, 0.0), (0.5, 0.0), (0.625, 0.0), (1.0, 0.0), (0.75, 1.0), (0.75, 0.5))
+FILM = 0.6
+"""Mud on the hairs between its crumbs, as the shader has it."""
 
 
 def phi(kind: str, matrix: np.ndarray | None, light: np.ndarray) -> np.ndarray:
@@ -97,9 +110,40 @@ def expected_fin(fin: FinPelt, lights: np.ndarray) -> np.ndarray:
     return out
 
 
-def golden_fin() -> FinPelt:
+def expected_weather(pelts: list[Pelt], wetness: float, dirt: float, lights: np.ndarray) -> np.ndarray:
+    """Red radiance · 4π, (n, K, N, N), of states in the order of `STATES` after the dry one; all fully covered."""
+    *clean, dirty = pelts
+    steps = [pelt.state.wetness for pelt in clean]
+    after = next((i for i, step in enumerate(steps) if step >= wetness), len(steps) - 1)
+    drier, wetter = clean[max(after - 1, 0)], clean[after]
+    apart = wetter.state.wetness - drier.state.wetness
+    part = (wetness - drier.state.wetness) / apart if apart else 0.0
+    codes = (1 - part) * drier.codes.astype(float) + part * wetter.codes.astype(float)
+    shade = (1 - part) * drier.state.shade + part * wetter.state.shade
+    share = dirty.tint / 255
+    lit = (dirt * ((1 - wetness) + wetness * share))[..., None]
+    mixed = replace(clean[0], codes=(1 - lit) * codes + lit * dirty.codes)
+    mud = np.maximum(dirt * share, FILM * dirt)
+    return expected(mixed, lights) * (shade * ((1 - mud) + mud * dirty.state.mud[0]))
+
+
+def golden_states() -> list[Pelt]:
+    """The dry pelt and those of `STATES`, of the same λ and Ω; each with a fin."""
+    dry = replace(golden_pelt("ptm", 6), fin=golden_fin())
+    pelts = [dry]
+    for i, state in enumerate(STATES):
+        rng = np.random.default_rng([7, i])
+        shape = dry.codes.shape
+        tint = rng.integers(0, 256, shape[:3], dtype=np.uint8) if state.dirt else dry.tint
+        codes = rng.integers(0, 256, shape, dtype=np.uint8)
+        fin = replace(golden_fin(10 + i), scale=dry.fin.scale, bias=dry.fin.bias)
+        pelts.append(replace(dry, codes=codes, tint=tint, fin=fin, state=state))
+    return pelts
+
+
+def golden_fin(seed: int = 8) -> FinPelt:
     """A side view of random bytes, covered less and less from root to tip."""
-    rng = np.random.default_rng(8)
+    rng = np.random.default_rng(seed)
     shape = (8, 16)
     return FinPelt(
         codes=rng.integers(0, 256, (*shape, 6), dtype=np.uint8),
@@ -164,6 +208,20 @@ def main() -> None:
         write_gltf(folder, surface, charts, fur, pelt, 0.5, fins)
         (folder / "lights.json").write_text(json.dumps(lights.tolist()) + "\n", "utf-8")
         expected(pelt, lights).astype("<f4").tofile(folder / "light.f32")
+
+    folder = HERE / "states"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    pelts = golden_states()
+    fins = build_fins(surface, laid(charts, surface.normals), 1.0, 0.2)
+    write_gltf(
+        folder, surface, charts, VertexFur.even(len(surface.vertices)), pelts[0], 0.5, fins, states=tuple(pelts[1:])
+    )
+    few = lights[::4]
+    weathers = [{"wetness": wetness, "dirt": dirt} for wetness, dirt in WEATHERS]
+    (folder / "weather.json").write_text(json.dumps({"lights": few.tolist(), "weathers": weathers}) + "\n", "utf-8")
+    radiance = [expected_weather(pelts, wetness, dirt, few) for wetness, dirt in WEATHERS]
+    np.stack(radiance).astype("<f4").tofile(folder / "weather.f32")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { alphaChannel, channelOf, type FurAsset, parseFur } from '../../web/fur/format.ts';
+import { alphaChannel, channelOf, type FurAsset, type Pelt, parseFur } from '../../web/fur/format.ts';
 
 /** A golden extension with the side view that fins need. */
 const withFins = (name = 'ptm-6'): FurAsset & Record<string, unknown> => {
@@ -20,6 +20,10 @@ const withFins = (name = 'ptm-6'): FurAsset & Record<string, unknown> => {
 	};
 	return fur;
 };
+
+/** A golden extension of several states. */
+const withStates = (): FurAsset =>
+	JSON.parse(readFileSync(new URL('../golden/states/model.gltf', import.meta.url), 'utf8')).extensions.FUR_ptm_shells;
 
 const golden = (): FurAsset & Record<string, unknown> =>
 	JSON.parse(readFileSync(new URL('../golden/ptm-6/model.gltf', import.meta.url), 'utf8')).extensions.FUR_ptm_shells;
@@ -43,6 +47,60 @@ describe('parseFur', () => {
 	])('refuses %s of fins in one sentence', (_, breakIt, message) => {
 		const fur = withFins();
 		breakIt(fur);
+		expect(() => parseFur(fur)).toThrow(message);
+	});
+
+	it('takes states of one fur, in any order of wet and dirty ones, and other pelts beside them', () => {
+		expect(parseFur(withStates())?.pelts.map(({ name }) => name)).toEqual(['dry', 'moist', 'wet', 'soaked', 'dirty']);
+		const fur = withStates();
+		const [dry, moist, wet, soaked, dirty] = fur.pelts;
+		fur.pelts = [dry, dirty, moist, { ...dry, name: 'other', scale: [1, 1, 1, 1, 1, 1] }, wet, soaked] as Pelt[];
+		expect(parseFur(fur)).toBe(fur);
+	});
+
+	it.each<[string, (pelts: Pelt[], fur: FurAsset) => void, string]>([
+		['a first one that is wet', ([dry]) => Object.assign(dry ?? {}, { wetness: 0.5 }), 'the dry and clean one'],
+		[
+			'wet dirt',
+			(pelts) => Object.assign(pelts[4] ?? {}, { wetness: 1 }),
+			'dirty: got wetness 1 with dirt 1, expected',
+		],
+		[
+			'falling wetness',
+			(pelts) => pelts.splice(1, 2, ...pelts.slice(1, 3).reverse()),
+			'moist.wetness: got 0.5, expected',
+		],
+		['two as wet', (pelts) => Object.assign(pelts[2] ?? {}, { wetness: 0.5 }), 'wet.wetness: got 0.5, expected more'],
+		[
+			'a second dirty one',
+			(pelts) => pelts.push({ ...(pelts[4] as Pelt), name: 'filthy' }),
+			'filthy.dirt: got 1, expected',
+		],
+		[
+			'another λ',
+			(pelts) => Object.assign(pelts[1] ?? {}, { scale: [1, 2, 3, 4, 5, 6] }),
+			'moist.scale: got 1,2,3,4,5,6',
+		],
+		['another Ω of a fin', (pelts) => pelts[3]?.fin?.bias.splice(0, 1, 77), 'soaked.fin.bias: got 77,'],
+		[
+			'a fin too few',
+			(pelts) => Reflect.deleteProperty(pelts[2] ?? {}, 'fin'),
+			'wet.fin.scale: got undefined, expected',
+		],
+		[
+			'a colour plane too many',
+			(pelts) => Object.assign(pelts[1] ?? {}, { colour: 1 }),
+			'moist.colour: got true, expected',
+		],
+		['a wetness of two', (pelts) => Object.assign(pelts[1] ?? {}, { wetness: 2 }), 'pelts/1'],
+		[
+			'no mud',
+			(_, fur) => Reflect.deleteProperty(fur, 'mud'),
+			'FUR_ptm_shells/mud: got none, expected the colour of dirt',
+		],
+	])('refuses states with %s', (_, breakIt, message) => {
+		const fur = withStates();
+		breakIt(fur.pelts, fur);
 		expect(() => parseFur(fur)).toThrow(message);
 	});
 

@@ -2,12 +2,14 @@ import { BufferGeometry, type Color, Object3D, type Texture } from 'three';
 import type { Columns } from './clip.ts';
 import { FinMaterial } from './FinMaterial.ts';
 import { FurMaterial } from './FurMaterial.ts';
+import type { FurWeather } from './FurWeather.ts';
 import { FurFins } from './fins.ts';
 import { Follicles } from './follicles.ts';
 import type { FurAsset, Pelt } from './format.ts';
 import type { FurTextures } from './PeltMaterial.ts';
+import type { PeltStates } from './PeltStates.ts';
 import { FurShells } from './shells.ts';
-import type { Skin } from './skin.ts';
+import type { Skin, Wetness } from './skin.ts';
 
 /** What a body brings to a fur: what it stands on, and what is seen between its hairs. */
 export interface Ground {
@@ -22,6 +24,14 @@ export interface Ground {
 	quadPlacement: Object3D | undefined;
 	/** What the fins' second texture coordinate is multiplied by to be 1 at their tips. */
 	finHeights: number;
+}
+
+/** Which weather a fur can show. */
+export interface HasStates {
+	/** Whether it can be wet. */
+	wet: boolean;
+	/** Whether it can be dirty. */
+	dirt: boolean;
 }
 
 /** Shells, fins and the shade of the skin below them: `gltf.userData.fur` of a loaded asset, or made by `dress`. */
@@ -42,22 +52,22 @@ export class Fur {
 	readonly skin: Object3D;
 	/** What it stands on, for `dress`. */
 	readonly ground: Ground;
+	/** Its textures and what they hold, for `dress`. */
+	readonly pelt: PeltStates;
 	readonly #parts = new Object3D();
 	readonly #release: () => void;
 	#length = 1;
 	#clip: Columns | undefined;
+	#weather: FurWeather | undefined;
 
 	/** @param release frees what this fur alone has beside its materials, its geometry included */
-	constructor(
-		asset: FurAsset,
-		textures: FurTextures,
-		finTextures: FurTextures | undefined,
-		ground: Ground,
-		release: () => void,
-	) {
+	constructor(asset: FurAsset, pelt: PeltStates, ground: Ground, release: () => void) {
+		const [{ textures }, fins] = pelt.cuts;
+		const finTextures = fins?.textures;
 		const { skin, surface, placement, quads, quadPlacement, colour, finHeights } = ground;
 		const { fin } = asset.pelts[0] as Pelt;
 		this.asset = asset;
+		this.pelt = pelt;
 		this.textures = textures;
 		this.finTextures = finTextures;
 		this.ground = ground;
@@ -74,6 +84,7 @@ export class Fur {
 		for (const part of [this.fins, this.shells]) if (part) this.#parts.add(part);
 		this.skin.parent?.add(this.#parts);
 		skin.cover(asset);
+		pelt.join(this.#stain);
 	}
 
 	/** Whether it is seen, and the skin as dark as below it: of several furs of a body below the one that was shown last. */
@@ -83,7 +94,7 @@ export class Fur {
 
 	set visible(on: boolean) {
 		this.#parts.visible = on;
-		if (on) this.ground.skin.cover(this.asset);
+		if (on) this.ground.skin.cover(this.asset, this.#wetness());
 		else this.ground.skin.bare(this.asset);
 	}
 
@@ -141,8 +152,62 @@ export class Fur {
 		return follicles;
 	}
 
+	/** What of its file there is beside dry, clean fur; shown once `loadStates` has it. */
+	get hasStates(): HasStates {
+		const { wet, dirty } = this.pelt.all;
+		return { wet: wet.length > 1, dirt: dirty !== undefined };
+	}
+
+	/**
+	 * Fetches and decodes the pelt's wet and dirty states, bit by bit, once: for all furs that wear it.
+	 *
+	 * @param most states in the textures at a time, by default as the loader was told
+	 * @returns rejects with an Error of one sentence where that fails; the fur is then as before, and it can be tried again
+	 */
+	loadStates(most?: number): Promise<void> {
+		return this.pelt.load(most);
+	}
+
+	/** Where it is wet and dirty, undefined: nowhere. Furs of one body may have theirs in common. */
+	get weather(): FurWeather | undefined {
+		return this.#weather;
+	}
+
+	set weather(weather: FurWeather | undefined) {
+		if (weather === this.#weather) return;
+		this.#weather?.leave(this.#stain);
+		this.#weather = weather;
+		weather?.join(this.#stain);
+		if (weather) this.#mark();
+		this.#stain();
+	}
+
+	/** Shows the weather, as far as there are states for it. */
+	readonly #stain = (): void => {
+		const { stains, driest = 0, wettest = 0, dirtiest = 0 } = this.#weather ?? {};
+		const { wet, dirty, loaded, all } = this.pelt;
+		const mud = dirtiest > 0 && loaded && all.dirty ? this.asset.mud : undefined;
+		this.material.setTextures(this.textures);
+		if (this.finTextures) this.fins?.material.setTextures(this.finTextures);
+		const shown = stains && (mud || (wettest > 0 && wet.length > 1));
+		const states = wettest > 0 ? wet : wet.slice(0, 1);
+		this.material.setStains(shown ? { stains, wet: states, mud, clumps: dirty ? wet.length : undefined } : undefined);
+		this.ground.skin.soak(this.asset, this.#wetness());
+		this.pelt.want(this.#stain, driest, wettest);
+	};
+
+	/** Undefined where it is not seen. */
+	#wetness(): Wetness | undefined {
+		const weather = this.#weather;
+		return 'WET' in this.material.defines && weather
+			? { follicles: this.follicles, at: (follicle) => weather.wetnessAt(follicle) }
+			: undefined;
+	}
+
 	/** Frees geometry, materials and textures; of a dressed body the materials alone, the rest is the body's and the pelt's. */
 	readonly dispose = (): void => {
+		this.weather = undefined;
+		this.pelt.leave(this.#stain);
 		this.#parts.removeFromParent();
 		this.ground.skin.bare(this.asset);
 		this.#release();
@@ -197,8 +262,7 @@ export function dress(body: Fur, pelt: Fur, { tips = 1 }: DressOptions = {}): Fu
 	const quads = body.fins && shareGeometry(body.fins.geometry);
 	const dressed = new Fur(
 		asset,
-		pelt.textures,
-		pelt.finTextures,
+		pelt.pelt,
 		{ ...ground, surface: body.shells.geometry, quads, quadPlacement: undefined },
 		() => {
 			unshareGeometry(dressed.shells.geometry);
@@ -206,6 +270,7 @@ export function dress(body: Fur, pelt: Fur, { tips = 1 }: DressOptions = {}): Fu
 		},
 	);
 	dressed.swing = body.swing;
+	dressed.weather = body.weather;
 	const { gloss, sharpness, backlight, environment, lampsPerFragment, multisampled } = body.material;
 	const look = { gloss, sharpness, backlight, environment, lampsPerFragment, multisampled };
 	Object.assign(dressed.material, look, { tipShare: tips });

@@ -3,6 +3,7 @@ import {
 	Color,
 	FileLoader,
 	LoaderUtils,
+	LoadingManager,
 	Material,
 	Mesh,
 	type MeshStandardMaterial,
@@ -12,11 +13,14 @@ import {
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 import { Fur } from './Fur.ts';
 import { EXTENSION, type Fin, type FurAsset, type Pelt, parseFur, VERSION } from './format.ts';
+import { decodePlanes, type Layout, type PlaneFile, type Role } from './levels.ts';
 import { checkLimits, type TextureLimits } from './limits.ts';
 import { ALPHA_CUT } from './lod.ts';
 import type { FurTextures } from './PeltMaterial.ts';
-import { decodePlane, type Extent, mipSteps, type Texels, textureArray, type View } from './planes.ts';
+import { type Cut, PeltStates } from './PeltStates.ts';
+import { textureArray } from './planes.ts';
 import { Skin } from './skin.ts';
+import { statesOf } from './states.ts';
 
 /**
  * Of the shells' planes. In close-ups of the bunny 2 is worth 1.4 dB against a supersampled picture, 4 and more 0.2 dB on
@@ -25,12 +29,30 @@ import { Skin } from './skin.ts';
  */
 const ANISOTROPY = 2;
 
+/** What a texture may have of layers on any GPU with WebGL2. */
+const LEAST_LAYERS = 256;
+
+/** Where a pelt, or its side view, says which images are its. */
+type Stored = Pick<Pelt, 'planes' | 'colour' | 'direction'>;
+
+/** An image's file as it is. */
+interface StoredImage {
+	name: string;
+	bytes: Uint8Array;
+}
+
 /** What a FurLoaderPlugin may be told. */
 export interface FurLoaderOptions {
 	/** What the GPU takes, by `limitsOf`: an asset that asks for more is refused before its planes are decoded. */
 	limits?: TextureLimits;
 	/** Most texels that are averaged along the slant in which a shell is seen, 1 to 16, where the GPU can; 2 by default. */
 	anisotropy?: number;
+	/**
+	 * Most states of a pelt, dry, wet and dirty, on the GPU at a time once they are wanted: all by default. Where a pelt has
+	 * more (or more layers than a texture takes) it is two, those around the wetness of its wearers, and which they are changes
+	 * with it; mud is then colour alone, without clumps of its own.
+	 */
+	states?: number;
 	/** Called where the fur is of a newer version than `VERSION`, so that the skin stays alone; without it, a warning on the console. */
 	newer?: (version: string) => void;
 	/** Called with the loaded scene once its skin can be shown, in its own colours, before any plane has come. */
@@ -75,11 +97,11 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 	async #grow(asset: FurAsset, scene: Object3D): Promise<Fur> {
 		const pelt = asset.pelts[0] as Pelt;
 		const withFins = asset.fins !== undefined && pelt.fin;
-		const [{ skin, surface, colour }, textures, quads, finTextures] = await Promise.all([
+		const [{ skin, surface, colour }, shells, quads, fins] = await Promise.all([
 			this.#body(asset, scene),
-			this.#peltTextures(asset, pelt),
+			this.#shellCut(asset, pelt),
 			withFins ? this.#mesh(asset.fins as number, 'fins') : undefined,
-			withFins ? this.#finTextures(withFins) : undefined,
+			withFins ? this.#finCut(asset, withFins) : undefined,
 		]);
 		const ground = {
 			skin,
@@ -90,10 +112,12 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 			quadPlacement: quads,
 			finHeights: asset.tiles ?? 1,
 		};
-		return new Fur(asset, textures, finTextures, ground, () => {
+		const cuts = [shells, fins].filter((cut) => cut !== undefined) as [Cut, Cut?];
+		const { states = Number.POSITIVE_INFINITY, limits = { layers: LEAST_LAYERS } } = this.#options;
+		const worn = new PeltStates(asset, cuts, states, limits.layers);
+		return new Fur(asset, worn, ground, () => {
 			skin.dispose();
-			for (const texture of Object.values({ ...textures })) texture?.dispose();
-			for (const texture of Object.values({ ...finTextures })) texture?.dispose();
+			worn.dispose();
 		});
 	}
 
@@ -133,52 +157,75 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		return object;
 	}
 
-	async #peltTextures({ size, layers, coefficients, height }: FurAsset, pelt: Pelt): Promise<FurTextures> {
+	async #shellCut(asset: FurAsset, pelt: Pelt): Promise<Cut> {
+		const { size, layers, coefficients, height } = asset;
 		const extent = { width: size, height: size, layers };
-		const textures = await this.#textures(pelt, extent, coefficients, { cut: ALPHA_CUT, rise: height });
-		for (const texture of Object.values(textures))
-			if (texture) texture.anisotropy = this.#options.anisotropy ?? ANISOTROPY;
-		return textures;
+		const layout = { extent, coefficients, view: { cut: ALPHA_CUT, rise: height } };
+		const cut = await this.#cut(asset, pelt, layout, (state) => state);
+		for (const texture of Object.values(cut.textures)) texture.anisotropy = this.#options.anisotropy ?? ANISOTROPY;
+		return cut;
 	}
 
 	/** Fins drop nothing by its coverage, and end at their tips. */
-	async #finTextures(fin: Fin): Promise<FurTextures> {
+	async #finCut(asset: FurAsset, fin: Fin): Promise<Cut> {
 		const { width, height } = fin;
-		const textures = await this.#textures(fin, { width, height, layers: 1 }, fin.scale.length, { cut: 0, rise: 0 });
-		for (const texture of Object.values(textures)) if (texture) texture.wrapT = ClampToEdgeWrapping;
-		return textures;
+		const extent = { width, height, layers: 1 };
+		const layout = { extent, coefficients: fin.scale.length, view: { cut: 0, rise: 0 } };
+		const cut = await this.#cut(asset, fin, layout, (state) => state.fin as Fin);
+		for (const texture of Object.values(cut.textures)) texture.wrapT = ClampToEdgeWrapping;
+		return cut;
 	}
 
-	async #textures(
-		{ planes: [plane0, plane1], colour, direction }: Pick<Pelt, 'planes' | 'colour' | 'direction'>,
-		extent: Extent,
-		coefficients: number,
-		view: View,
-	): Promise<FurTextures> {
-		// Those with coefficients first: the mip levels look for the coverage there.
-		const files = await Promise.all(
-			Object.entries({ plane0, plane1, colour, direction }).flatMap(([role, index]) =>
-				index === undefined ? [] : this.#image(index).then((file) => ({ role, ...file })),
-			),
-		);
-		// In order, whichever came first: of several bad planes the first is named.
-		const images: { role: string; name: string; texels: Texels }[] = [];
-		for (const { role, name, bytes } of files) {
-			await turn();
-			images.push({ role, name, texels: decodePlane(name, bytes, extent.width, extent.height * extent.layers) });
-		}
-		const planes = images.map(({ texels }) => texels);
-		const mips = await unhurried(mipSteps(planes, extent, coefficients, view));
+	/** @param of its part of a state */
+	async #cut(asset: FurAsset, worn: Stored, layout: Layout, of: (state: Pelt) => Stored): Promise<Cut> {
+		const planes = this.#planes(worn).map(({ role, index }) => this.#image(index).then((file) => ({ role, ...file })));
 		const textures: Record<string, Texture> = {};
-		for (const [p, { role, name }] of images.entries()) {
-			const levels = mips.flatMap((level) => level[p] ?? []);
-			textures[role] = textureArray(name, levels, extent, role === 'colour');
+		for (const { role, name, levels } of await decodePlanes(await Promise.all(planes), layout))
+			textures[role] = textureArray(name, levels, layout.extent, role === 'colour');
+		const { wet, dirty } = statesOf(asset);
+		const files = new Map<Pelt, () => Promise<PlaneFile>[]>();
+		for (const state of [...wet.slice(1), ...(dirty ? [dirty] : [])]) {
+			const { planes, colour } = of(state);
+			const stored = this.#planes({ planes, ...(!state.dirt && colour !== undefined && { colour }) });
+			const wanted = await Promise.all(
+				stored.map(async ({ role, index }) => {
+					const file = await this.#later(index);
+					return () => file().then((found) => ({ role, ...found }));
+				}),
+			);
+			files.set(state, () => wanted.map((file) => file()));
 		}
-		return textures as unknown as FurTextures;
+		const fetch = async (state: Pelt) => Promise.all(files.get(state)?.() ?? []);
+		return { textures: textures as unknown as FurTextures, layout, fetch };
+	}
+
+	/** Those with coefficients first: the mip levels look for the coverage there. */
+	#planes({ planes: [plane0, plane1], colour, direction }: Stored): { role: Role; index: number }[] {
+		const roles = { plane0, plane1, colour, direction };
+		return Object.entries(roles).flatMap(([role, index]) =>
+			index === undefined ? [] : [{ role: role as Role, index }],
+		);
+	}
+
+	/**
+	 * The file of an image that is wanted later, if at all: nothing is fetched over the net for it now. What is in memory, in a
+	 * .glb or at an address that its owner may take back, is kept.
+	 */
+	async #later(index: number): Promise<() => Promise<StoredImage>> {
+		const { json, options } = this.#parser;
+		const { uri } = json.images?.[index] ?? {};
+		try {
+			const url = uri && options.manager.resolveURL(LoaderUtils.resolveURL(uri, options.path));
+			if (url && !/^(blob|data):/i.test(url)) return () => this.#file(uri, url, new LoadingManager());
+			const image = await this.#image(index);
+			return async () => image;
+		} catch (error) {
+			return () => Promise.reject(error);
+		}
 	}
 
 	/** The file of an image as it is: what the loader would make of it has gone through the browser's own decoder. */
-	async #image(index: number): Promise<{ name: string; bytes: Uint8Array }> {
+	async #image(index: number): Promise<StoredImage> {
 		const { json, options } = this.#parser;
 		const definition = json.images?.[index];
 		if (!definition) throw new Error(`${EXTENSION}/pelts: image ${index} is not in the file`);
@@ -186,37 +233,21 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 			const bytes: ArrayBuffer = await this.#parser.getDependency('bufferView', definition.bufferView);
 			return { name: definition.name ?? `image ${index}`, bytes: new Uint8Array(bytes) };
 		}
-		const url = LoaderUtils.resolveURL(definition.uri, options.path);
-		const loader = new FileLoader(options.manager);
+		return this.#file(definition.uri, LoaderUtils.resolveURL(definition.uri, options.path), options.manager);
+	}
+
+	async #file(name: string, url: string, manager: LoadingManager): Promise<StoredImage> {
+		const { requestHeader, crossOrigin } = this.#parser.options;
+		const loader = new FileLoader(manager);
 		loader.setResponseType('arraybuffer');
-		loader.setRequestHeader(options.requestHeader);
-		loader.setWithCredentials(options.crossOrigin === 'use-credentials');
+		loader.setRequestHeader(requestHeader);
+		loader.setWithCredentials(crossOrigin === 'use-credentials');
 		try {
-			return { name: definition.uri, bytes: new Uint8Array((await loader.loadAsync(url)) as ArrayBuffer) };
+			return { name, bytes: new Uint8Array((await loader.loadAsync(url)) as ArrayBuffer) };
 		} catch (error) {
-			throw new Error(`${definition.uri}: could not be loaded (${(error as Error).message})`);
+			throw new Error(`${name}: could not be loaded (${(error as Error).message})`);
 		}
 	}
-}
-
-/** Runs what would take long in steps, so that the page around it can draw meanwhile. */
-async function unhurried<T>(steps: Generator<void, T>): Promise<T> {
-	for (let step = steps.next(); ; step = steps.next()) {
-		if (step.done) return step.value;
-		await turn();
-	}
-}
-
-/** Lets what else is waiting go first. Timers would be slowed down in a hidden page, messages are not. */
-function turn(): Promise<void> {
-	return new Promise((resolve) => {
-		const { port1, port2 } = new MessageChannel();
-		port1.onmessage = () => {
-			port1.close();
-			resolve();
-		};
-		port2.postMessage(undefined);
-	});
 }
 
 function isMesh(object: Object3D | undefined): object is Mesh {

@@ -1,15 +1,15 @@
 import { GLSL3, type IUniform, ShaderMaterial, type ShaderMaterialParameters } from 'three';
+import { hairChunks } from './chunks.ts';
 import type { FurMaterial } from './FurMaterial.ts';
-import { hairChunks } from './PeltMaterial.ts';
 import fragmentShader from './shaders/hull.frag.glsl?raw';
 import vertexShader from './shaders/hull.vert.glsl?raw';
 import { followParts } from './switches.ts';
 
 /** What hulls have from the shells that they stand for. */
-const SHARED = ['furLength', 'furTrim', 'swing'];
+const SHARED = ['furLength', 'furTrim', 'swing', 'stains', 'wetnesses', 'traits'];
 
 /** Parts of the shells' shaders that change a hull. */
-const PARTS = ['SWING', 'TRIMMED'];
+const PARTS = ['SWING', 'TRIMMED', 'WET'];
 
 /**
  * What fur casts a shadow with: its hull at half the hairs' length, without a hole. Where light gets between the hairs the

@@ -13,25 +13,15 @@ import {
 	Vector2,
 	ZeroFactor,
 } from 'three';
+import { hairChunks, lampChunks, texelChunks } from './chunks.ts';
 import { BODY_RADIUS, smoothSum } from './moments.ts';
-import bent from './shaders/bent.glsl?raw';
-import body from './shaders/body.glsl?raw';
 import colour from './shaders/colour.glsl?raw';
-import comb from './shaders/comb.glsl?raw';
-import density from './shaders/density.glsl?raw';
-import displacement from './shaders/displacement.glsl?raw';
-import follicle from './shaders/follicle.glsl?raw';
-import lamps from './shaders/lamps.glsl?raw';
 import lightIn from './shaders/light.frag.glsl?raw';
 import lightOut from './shaders/light.vert.glsl?raw';
-import moments from './shaders/moments.glsl?raw';
 import output from './shaders/output.glsl?raw';
 import ptm from './shaders/ptm.glsl?raw';
-import shadow from './shaders/shadow.glsl?raw';
 import sky from './shaders/sky.glsl?raw';
-import trim from './shaders/trim.glsl?raw';
-import trimmed from './shaders/trimmed.glsl?raw';
-import view from './shaders/view.glsl?raw';
+import { type Stained, stain, stainUniforms } from './stains.ts';
 import { switchPart } from './switches.ts';
 import { TrimLight } from './TrimLight.ts';
 import { decoder, momentUniforms, type Texels } from './texels.ts';
@@ -47,11 +37,6 @@ export interface FurTextures {
 	/** Mean tangent of the hairs, for renderers that don't light by coefficients; mips are means, shorter than 1. */
 	direction?: Texture | undefined;
 }
-
-/** Where hairs are: of all that draws some. */
-export const hairChunks = [body, follicle, comb, trim, displacement];
-
-const lampChunks = ['#include <common>', '#include <lights_pars_begin>', view, moments, trimmed, bent, shadow, lamps];
 
 /** What the materials of shells and fins have in common: texels of coefficients that meet light moments. */
 export class PeltMaterial extends ShaderMaterial {
@@ -94,6 +79,7 @@ export class PeltMaterial extends ShaderMaterial {
 				backlight: { value: 0 },
 				density: { value: 1 },
 				swing: { value: null },
+				...stainUniforms(),
 				furTrim: { value: 1 },
 				trimLight: { value: null },
 				...uniforms,
@@ -108,8 +94,8 @@ export class PeltMaterial extends ShaderMaterial {
 				SKY: '',
 				...defines,
 			},
-			vertexShader: [...lampChunks, ...hairChunks, sky, lightOut, colour, vertexShader].join('\n'),
-			fragmentShader: [...lampChunks, trim, lightIn, density, ptm, colour, output, fragmentShader].join('\n'),
+			vertexShader: [...hairChunks, ...lampChunks, sky, lightOut, colour, vertexShader].join('\n'),
+			fragmentShader: [...texelChunks, ...lampChunks, lightIn, ptm, colour, output, fragmentShader].join('\n'),
 			transparent: true,
 			blending: CustomBlending,
 			blendSrc: OneFactor,
@@ -221,7 +207,8 @@ export class PeltMaterial extends ShaderMaterial {
 	/** Made from the texels that the material was made with: other states of the fur have their light changed alike. */
 	#light(): TrimLight {
 		if (!this.#trimLight) {
-			this.#trimLight = new TrimLight(this.#planes, this.#texels, this.defines.LAYERS as number);
+			const { LAYERS, FIN } = this.defines as { LAYERS: number; FIN?: string };
+			this.#trimLight = new TrimLight(this.#planes, this.#texels, LAYERS, FIN === undefined ? LAYERS : 1);
 			(this.uniforms.trimLight as IUniform).value = this.#trimLight.texture;
 		}
 		return this.#trimLight;
@@ -271,12 +258,22 @@ export class PeltMaterial extends ShaderMaterial {
 		this.#switch(name.toUpperCase(), on);
 	}
 
-	/** Has a part of the shaders compiled in or left out, here and in what follows this material. */
 	#switch(define: string, on: boolean): void {
-		for (const material of [this, ...this.#followers]) switchPart(material, define, on);
+		this.#compile(define, on ? '' : undefined);
 	}
 
-	/** Other planes of the same shape, of another state of the fur say. */
+	/** Has a part of the shaders compiled in or left out, here and in what follows this material. */
+	#compile(define: string, value: string | number | undefined): void {
+		for (const material of [this, ...this.#followers]) switchPart(material, define, value);
+	}
+
+	/** Wet or dirty fur, as far as the textures hold it. Needs the attribute `follicle`. Undefined costs nothing. */
+	setStains(stained: Stained | undefined): void {
+		const parts = stain(this.uniforms, stained);
+		for (const [define, value] of Object.entries(parts)) this.#compile(define, value);
+	}
+
+	/** Other planes of the same shape, or of several states of the fur, one after the other. */
 	setTextures({ plane0, plane1, colour }: FurTextures): void {
 		for (const [name, value] of Object.entries({ plane0, plane1: plane1 ?? null, colourPlane: colour ?? null })) {
 			const uniform = this.uniforms[name];

@@ -8,9 +8,22 @@ export class TrimLight {
 	readonly #slabs: Slabs;
 	#means: SlabMeans | undefined;
 
-	/** @param planes of coefficients, the first levels of which have `layers` slabs one after the other */
-	constructor(planes: readonly Texture[], { scale, bias }: Pick<Slabs, 'scale' | 'bias'>, layers: number) {
-		const bytes = planes.map((plane) => (plane as CompressedArrayTexture).mipmaps[0]?.data as Uint8Array);
+	/**
+	 * @param planes of coefficients, the first levels of which have `layers` slabs one after the other; of several states the
+	 * first counts
+	 * @param depth layers of a state's texture
+	 */
+	constructor(
+		planes: readonly Texture[],
+		{ scale, bias }: Pick<Slabs, 'scale' | 'bias'>,
+		layers: number,
+		depth = layers,
+	) {
+		const bytes = planes.map((plane) => {
+			const { image, mipmaps } = plane as CompressedArrayTexture;
+			const data = mipmaps[0]?.data as Uint8Array;
+			return data.subarray(0, (data.length * depth) / image.depth);
+		});
 		this.#slabs = { planes: bytes, scale, bias, layers };
 		this.texture = new DataTexture(new Float32Array(16 * layers), 4, layers, RGBAFormat, FloatType);
 	}

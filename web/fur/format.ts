@@ -7,7 +7,7 @@ import schema from '../../baker/furbake/asset/schema/FUR_ptm_shells.schema.json'
 export const EXTENSION = 'FUR_ptm_shells';
 
 /** The newest version that this reader knows; a higher major version shows the skin alone. */
-export const VERSION = '1.0';
+export const VERSION = '1.1';
 
 /** What the coefficients multiply: the paper's eq. (2), or weights of the smooth functions, a row per coefficient. */
 export type Basis =
@@ -63,6 +63,18 @@ export interface Pelt {
 	bias: number[];
 	/** Its side view, where the asset has fins. */
 	fin?: Fin;
+	/** How wet this state of the fur is, 0 where absent, to 1: soaked. Of dirty ones 0. */
+	wetness?: number;
+	/** How dirty it is, 0 where absent, to 1. Its tint is then the share of mud in the texel's coverage. */
+	dirt?: number;
+	/** Length of the hairs in this state, share of the asset's length; 1 where absent. */
+	length?: number;
+	/** What the hairs' colour is multiplied by; 1 where absent. */
+	shade?: number;
+	/** What the strength of the highlights is multiplied by; 1 where absent. */
+	gloss?: number;
+	/** What their exponent is multiplied by; 1 where absent. */
+	sharpness?: number;
 }
 
 /** The extension's object in a glTF file: the fur of one body. */
@@ -104,8 +116,10 @@ export interface FurAsset {
 		/** The exponent. */
 		power: number;
 	};
-	/** One at least; the first is worn. */
+	/** One at least; the first, dry and clean, is worn. Others that are wet or dirty are states of the same hairs. */
 	pelts: Pelt[];
+	/** Linear colour of the dirt, where a state is dirty. */
+	mud?: RGB;
 }
 
 const validator = new Validator(schema as object, '2020-12', false);
@@ -140,7 +154,44 @@ export function parseFur(extension: unknown): FurAsset | undefined {
 		const odd = asset.basis.matrix.find((row) => row.length !== terms);
 		if (odd) throw new Error(`${EXTENSION}/basis.matrix: got a row of ${odd.length} weights, expected ${terms}`);
 	}
+	checkStates(asset);
 	return asset;
+}
+
+/** What states of one fur have in common, so that they can be mixed. */
+function checkStates({ pelts, coefficients, mud }: FurAsset): void {
+	const [first, ...others] = pelts as [Pelt, ...Pelt[]];
+	const refuse = (where: string, got: unknown, expected: string) => {
+		throw new Error(`${EXTENSION}/${where}: got ${got}, expected ${expected}`);
+	};
+	if (first.wetness || first.dirt)
+		refuse(
+			'pelts',
+			`${first.name} first, wet ${first.wetness ?? 0}, dirty ${first.dirt ?? 0}`,
+			'the dry and clean one',
+		);
+	for (const pelt of others.filter(({ wetness, dirt }) => wetness || dirt)) {
+		const { name, wetness, dirt, fin } = pelt;
+		const before = pelts.slice(0, pelts.indexOf(pelt));
+		if (wetness && dirt) refuse(name, `wetness ${wetness} with dirt ${dirt}`, 'one of the two');
+		if (wetness && before.some((other) => (other.wetness ?? 0) >= wetness))
+			refuse(`${name}.wetness`, wetness, 'more than of the pelts before it');
+		if (dirt && before.some((other) => other.dirt)) refuse(`${name}.dirt`, dirt, 'no second dirty pelt');
+		if (dirt && !mud) refuse('mud', 'none', 'the colour of dirt');
+		if (dirt && coefficients < 4) refuse('coefficients', coefficients, '4 or more of fur that is dirty');
+		for (const [where, got, wanted] of [
+			['scale', pelt.scale, first.scale],
+			['bias', pelt.bias, first.bias],
+			['fin.scale', fin?.scale, first.fin?.scale],
+			['fin.bias', fin?.bias, first.fin?.bias],
+			['fin.width', fin?.width, first.fin?.width],
+			['fin.height', fin?.height, first.fin?.height],
+			// What is under mud has no colour of its own.
+			...(dirt ? [] : [['colour', pelt.colour !== undefined, first.colour !== undefined] as const]),
+		] as const) {
+			if (`${got}` !== `${wanted}`) refuse(`${name}.${where}`, got, `${wanted} as of ${first.name}`);
+		}
+	}
 }
 
 /** What is counted, how many there are, how many there have to be. */

@@ -12,9 +12,10 @@ export {
 	visitEnvironment,
 } from './environment.ts';
 export { FinMaterial, type FinMaterialParameters } from './FinMaterial.ts';
-export { type DressOptions, dress, Fur } from './Fur.ts';
+export { type DressOptions, dress, Fur, type HasStates } from './Fur.ts';
 export { type FurLoaderOptions, FurLoaderPlugin } from './FurLoaderPlugin.ts';
 export { FurMaterial, type FurMaterialParameters } from './FurMaterial.ts';
+export { FurWeather, type WeatheredBody, type WeatherOptions } from './FurWeather.ts';
 export { FurFins } from './fins.ts';
 export { FOLLICLES_PER_ROW, Follicles } from './follicles.ts';
 export {
@@ -41,7 +42,8 @@ export {
 	relight,
 	smoothFunctions,
 } from './moments.ts';
-export { FurMotion, type MotionOptions } from './motion/FurMotion.ts';
+export { FurMotion } from './motion/FurMotion.ts';
+export type { MotionOptions } from './motion/options.ts';
 export type { WindSettings } from './motion/Wind.ts';
 export type { FurTextures } from './PeltMaterial.ts';
 export { fitShadow } from './shadow.ts';

@@ -81,3 +81,27 @@ export interface EnvironmentFigures {
 	shares: number[];
 	views: EnvironmentView[];
 }
+
+export interface MotionCost {
+	/** Fur that knows nothing of motion, that sleeps, or that is in the wind with its springs on the CPU or the GPU. */
+	mode: 'without' | 'asleep' | 'cpu' | 'gpu';
+	/** What the springs ran on; null: there are none. */
+	processor: 'cpu' | 'gpu' | null;
+	/** Median, milliseconds, springs included. */
+	frame: number;
+	/** Median over the rounds of its time over that without motion. */
+	ratio: number;
+	/** What of it is the springs' script: median and 95th percentile, milliseconds. */
+	script: number;
+	script95: number;
+}
+
+export interface MotionFigures {
+	width: number;
+	height: number;
+	shells: number;
+	/** Of the skin, where it is one mesh. */
+	faces: number;
+	follicles: number;
+	costs: MotionCost[];
+}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -24,8 +25,13 @@ from furbake.surface.mesh import Surface
 Record = dict[str, Any]
 
 EXTENSION = "FUR_ptm_shells"
-VERSION = "1.0"
+VERSION, VERSION_STATES = "1.0", "1.1"
+"""Of assets with one pelt, and of those that have several states of it."""
+
 QUANTIZATION = "KHR_mesh_quantization"
+
+STATE = ("wetness", "dirt", "length", "shade", "gloss", "sharpness")
+"""Numbers of a pelt's state."""
 
 
 def write_gltf(
@@ -38,14 +44,17 @@ def write_gltf(
     fins: Fins | None = None,
     base: Surface | None = None,
     features: tuple[Feature, ...] = (),
+    states: tuple[Pelt, ...] = (),
 ) -> Record:
     """Write model.gltf, model.bin and all images into `folder`; counts and file sizes for the record.
 
+    pelt, states : the dry fur, and further states of it
     length : longest fur, model units
     base : the surface that charts, fur and fins stand on where it is not the skin itself but a simpler copy
     features : further opaque meshes of the scene; where they stand on the skin they are put there
     """
-    looks = Looks(folder, _write_planes(folder, pelt))
+    pelts = (pelt, *states)
+    looks = Looks(folder, [name for each in pelts for name in _write_planes(folder, each, _prefix(each, pelt))])
     planes = list(looks.images)
     buffer = Buffer()
     ground = base or surface
@@ -78,7 +87,7 @@ def write_gltf(
         "accessors": buffer.accessors,
         "bufferViews": buffer.views,
         "buffers": [{"uri": "model.bin", "byteLength": len(buffer.data)}],
-        "extensions": {EXTENSION: extension(pelt, length, tiles, planes, names)},
+        "extensions": {EXTENSION: extension(pelts, length, tiles, planes, names)},
     }
     (folder / "model.bin").write_bytes(bytes(buffer.data))
     (folder / "model.gltf").write_text(dump(document), "utf-8", newline="\n")
@@ -92,40 +101,21 @@ def write_gltf(
     return counts | {"bytes": {name: (folder / name).stat().st_size for name in files}}
 
 
-def extension(pelt: Pelt, length: float, tiles: float, images: list[str], nodes: list[str]) -> Record:
+def extension(pelts: Sequence[Pelt], length: float, tiles: float, images: list[str], nodes: list[str]) -> Record:
     """The JSON object of the extension, for nodes (skin, shells and perhaps fins) and images in the order of writing.
 
+    pelts : the dry fur and further states of it, all with its basis, λ and Ω
     length : longest fur, model units; tiles : how many of them a texture coordinate of 1 stands for
     """
+    pelt = pelts[0]
     basis: Record = {"kind": pelt.kind}
     if pelt.kind == "eigen":
         if pelt.matrix is None or pelt.degree is None:
             raise ValueError("basis: got eigen without its matrix, expected a row of weights per coefficient")
         basis |= {"degree": pelt.degree, "matrix": [numbers(row) for row in pelt.matrix]}
-    state: Record = {
-        "name": "dry",
-        "planes": [i for i, uri in enumerate(images) if uri.startswith("plane")],
-        "scale": numbers(pelt.scale),
-        "bias": numbers(pelt.bias),
-    }
-    for role in ("colour", "direction"):
-        if f"{role}.png" in images:
-            state[role] = images.index(f"{role}.png")
-    if pelt.fin is not None:
-        height, width = pelt.fin.alpha.shape
-        state["fin"] = {
-            "width": width,
-            "height": height,
-            "planes": [images.index(f"fin{i}.png") for i in range(2)],
-            "scale": numbers(pelt.fin.scale),
-            "bias": numbers(pelt.fin.bias),
-            "basis": {"kind": "ptm"},
-            "environment": [numbers(row) for row in pelt.fin.environment],
-        }
-        if "fin-colour.png" in images:
-            state["fin"]["colour"] = images.index("fin-colour.png")
+    mud = next((each.state.mud for each in pelts if each.state.mud is not None), None)
     return {
-        "version": VERSION,
+        "version": VERSION if len(pelts) == 1 else VERSION_STATES,
         **{name: i for i, name in enumerate(nodes)},
         "layers": pelt.layers,
         "size": pelt.size,
@@ -142,8 +132,43 @@ def extension(pelt: Pelt, length: float, tiles: float, images: list[str], nodes:
             "tip2": numbers(np.array(pelt.ramp.tip2)),
             "power": float(pelt.ramp.power),
         },
-        "pelts": [state],
+        **({} if mud is None else {"mud": numbers(np.array(mud))}),
+        "pelts": [_state(each, images, _prefix(each, pelt), len(pelts) > 1) for each in pelts],
     }
+
+
+def _state(pelt: Pelt, images: list[str], prefix: str, several: bool) -> Record:
+    """The JSON object of one state, whose images begin with `prefix`. Where there is but one it is dry and clean."""
+    state: Record = {"name": pelt.state.name}
+    if several:
+        state |= {name: numbers(np.array([getattr(pelt.state, name)]))[0] for name in STATE}
+    state |= {
+        "planes": [i for i, uri in enumerate(images) if uri.startswith(f"{prefix}plane")],
+        "scale": numbers(pelt.scale),
+        "bias": numbers(pelt.bias),
+    }
+    for role in ("colour", "direction"):
+        if f"{prefix}{role}.png" in images:
+            state[role] = images.index(f"{prefix}{role}.png")
+    if pelt.fin is not None:
+        height, width = pelt.fin.alpha.shape
+        state["fin"] = {
+            "width": width,
+            "height": height,
+            "planes": [images.index(f"{prefix}fin{i}.png") for i in range(2)],
+            "scale": numbers(pelt.fin.scale),
+            "bias": numbers(pelt.fin.bias),
+            "basis": {"kind": "ptm"},
+            "environment": [numbers(row) for row in pelt.fin.environment],
+        }
+        if f"{prefix}fin-colour.png" in images:
+            state["fin"]["colour"] = images.index(f"{prefix}fin-colour.png")
+    return state
+
+
+def _prefix(pelt: Pelt, dry: Pelt) -> str:
+    """With what the names of a pelt's images begin."""
+    return "" if pelt is dry else f"{pelt.state.name}-"
 
 
 def dump(document: Any) -> str:
@@ -152,21 +177,21 @@ def dump(document: Any) -> str:
     return re.sub(r"\[\s*([^\[\]{}]*?)\s*\]", lambda match: f"[{' '.join(match[1].split())}]", text) + "\n"
 
 
-def _write_planes(folder: Path, pelt: Pelt) -> list[str]:
-    """Write the images of a pelt; their names in the order of `images`."""
+def _write_planes(folder: Path, pelt: Pelt, prefix: str = "") -> list[str]:
+    """Write the images of a pelt, whose names begin with `prefix`; their names in the order of `images`."""
     written: list[str] = []
-    for prefix, planes in (("", pack(pelt)), ("fin-", None if pelt.fin is None else pack_fin(pelt.fin))):
+    for part, planes in (("", pack(pelt)), ("fin-", None if pelt.fin is None else pack_fin(pelt.fin))):
         if planes is None:
             continue
-        stem = "fin" if prefix else "plane"
-        images = {f"{stem}{i}.png": pixels for i, pixels in enumerate(planes.coefficients)}
+        stem = "fin" if part else "plane"
+        images = {f"{prefix}{stem}{i}.png": pixels for i, pixels in enumerate(planes.coefficients)}
         for name, pixels in images.items():
             write_png(folder / name, pixels)
         written += images
         if planes.colour is not None:
-            written.append(f"{prefix}colour.png")
+            written.append(f"{prefix}{part}colour.png")
             write_png(folder / written[-1], planes.colour, srgb=True)
         if planes.direction is not None:
-            written.append(f"{prefix}direction.png")
+            written.append(f"{prefix}{part}direction.png")
             write_png(folder / written[-1], planes.direction)
     return written

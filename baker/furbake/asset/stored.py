@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from furbake.asset.gltf import STATE
 from furbake.asset.planes import PlaneError, Planes, unpack, unpack_fin
 from furbake.asset.read import Asset, AssetError
 from furbake.pelt.basis import smooth_terms
-from furbake.pelt.pelt import FinPelt, Pelt, Ramp
+from furbake.pelt.pelt import FinPelt, Pelt, Ramp, State
 
 Floats = NDArray[np.float64]
 RGB = tuple[float, float, float]
@@ -49,8 +50,8 @@ def skin_colour(asset: Asset) -> RGB:
         return 1.0, 1.0, 1.0
 
 
-def _pelt(fur: dict[str, Any], asset: Asset, state: int) -> Pelt:
-    stored, layers, size, count = fur["pelts"][state], fur["layers"], fur["size"], fur["coefficients"]
+def _pelt(fur: dict[str, Any], asset: Asset, index: int) -> Pelt:
+    stored, layers, size, count = fur["pelts"][index], fur["layers"], fur["size"], fur["coefficients"]
     images = _images(stored, asset)
     for image in (*images.coefficients, images.colour, images.direction):
         if image is not None and image.shape[:2] != (layers * size, size):
@@ -61,7 +62,7 @@ def _pelt(fur: dict[str, Any], asset: Asset, state: int) -> Pelt:
     if basis["kind"] not in ("ptm", "eigen"):
         raise AssetError(f"model.gltf: basis {basis['kind']!r}, expected ptm or eigen")
     eigen = basis["kind"] == "eigen"
-    ramp = fur["ramp"]
+    ramp, state = fur["ramp"], _state(stored, fur)
     return Pelt(
         codes=texels.codes,
         alpha=texels.alpha,
@@ -74,11 +75,19 @@ def _pelt(fur: dict[str, Any], asset: Asset, state: int) -> Pelt:
         matrix=_array(basis["matrix"], count, smooth_terms(int(basis["degree"]))) if eigen else None,
         environment=_array(fur["environment"], count, 9),
         drift=_array(fur["drift"], layers, 2),
-        height=float(fur["height"]),
+        height=float(fur["height"]) * state.length,
         ramp=Ramp(_rgb(ramp["root"]), _rgb(ramp["tip"]), _rgb(ramp["tip2"]), float(ramp["power"])),
         fin=_fin(stored["fin"], asset) if "fin" in stored else None,
         direction=texels.direction,
+        state=state,
     )
+
+
+def _state(stored: dict[str, Any], fur: dict[str, Any]) -> State:
+    """How wet and dirty a pelt is; what is missing is as in dry and clean fur."""
+    values: dict[str, Any] = {name: float(stored[name]) for name in STATE if name in stored}
+    mud = _rgb(fur["mud"]) if values.get("dirt") else None
+    return State(name=stored["name"], mud=mud, **values)
 
 
 def _fin(stored: dict[str, Any], asset: Asset) -> FinPelt:

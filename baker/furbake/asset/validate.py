@@ -16,7 +16,7 @@ from jsonschema import Draft202012Validator
 from furbake.asset.gltf import EXTENSION, QUANTIZATION
 from furbake.asset.planes import PlaneError
 from furbake.asset.read import Asset, AssetError, inside, read_asset
-from furbake.pelt.basis import smooth_terms
+from furbake.asset.validate_pelts import pelts, states
 
 REQUIRED = ("POSITION", "NORMAL", "TANGENT", "TEXCOORD_0")
 ATTRIBUTES = {
@@ -47,7 +47,7 @@ def validate(folder: Path) -> list[str]:
     problems = [f"{EXTENSION}: {_where(error)}{error.message}" for error in schema().iter_errors(fur)]
     if problems:  # the other checks lean on the schema
         return problems
-    for check in (_document, _nodes, _skin, _shells, _fins, _pelts, _record):
+    for check in (_document, _nodes, _skin, _shells, _fins, pelts, states, _record):
         try:
             problems.extend(check(asset))
         except (AssetError, PlaneError) as error:
@@ -217,71 +217,6 @@ def _weights(asset: Asset, primitive: dict[str, Any]) -> Iterator[str]:
     if wrong.any():
         got = total[wrong][0] / 255.0
         yield f"shells: weights of _FUR sum to {got:.3f} at {int(wrong.sum())} corners, expected 1"
-
-
-def _basis(basis: dict[str, Any], count: int) -> Iterator[str]:
-    if basis["kind"] == "ptm" and count != 6:
-        yield f"{EXTENSION}: {count} coefficients of the basis ptm, expected 6"
-    if basis["kind"] == "eigen":
-        terms = smooth_terms(basis["degree"])
-        for length in sorted({len(row) for row in basis["matrix"]} - {terms}):
-            yield f"{EXTENSION}: basis.matrix has a row of {length} weights, expected {terms}"
-
-
-def _pelts(asset: Asset) -> Iterator[str]:
-    fur = asset.fur
-    count, layers, size = fur["coefficients"], fur["layers"], fur["size"]
-    if size & (size - 1):
-        yield f"{EXTENSION}: size {size}, expected a power of two"
-    wrong = list(_basis(fur["basis"], count))
-    yield from wrong
-    lists = {"environment": (fur["environment"], count), "drift": (fur["drift"], layers)}
-    if fur["basis"]["kind"] == "eigen" and not wrong:
-        lists["basis.matrix"] = (fur["basis"]["matrix"], count)
-    for i, pelt in enumerate(fur["pelts"]):
-        lists |= {f"pelts[{i}].{key}": (pelt[key], count) for key in ("scale", "bias")}
-        lists[f"pelts[{i}].planes"] = (pelt["planes"], 1 if count == 3 else 2)
-        for index in pelt["planes"]:
-            yield from _image(asset, index, (layers * size, size, 4))
-        for role in ("colour", "direction"):
-            if role in pelt:
-                yield from _image(asset, pelt[role], (layers * size, size, 3))
-        if "fin" in pelt:
-            yield from _fin(asset, pelt["fin"])
-    for name, (values, expected) in lists.items():
-        if len(values) != expected:
-            yield f"{EXTENSION}: {name} has {len(values)} rows, expected {expected}"
-        elif not np.isfinite(np.array(values, dtype=np.float64)).all():
-            yield f"{EXTENSION}: {name} is not finite, expected numbers"
-
-
-def _fin(asset: Asset, fin: dict[str, Any]) -> Iterator[str]:
-    """The fur's side view: a polynomial of six coefficients in two planes."""
-    shape = (fin["height"], fin["width"])
-    for index in fin["planes"]:
-        yield from _image(asset, index, (*shape, 4))
-    if "colour" in fin:
-        yield from _image(asset, fin["colour"], (*shape, 3))
-    for key, expected in (("planes", 2), ("scale", 6), ("bias", 6), ("environment", 6)):
-        if len(fin[key]) != expected:
-            yield f"{EXTENSION}: fin.{key} has {len(fin[key])} rows, expected {expected}"
-        elif not np.isfinite(np.array(fin[key], dtype=np.float64)).all():
-            yield f"{EXTENSION}: fin.{key} is not finite, expected numbers"
-    if fin["basis"]["kind"] != "ptm":
-        yield f"{EXTENSION}: fin.basis is {fin['basis']['kind']}, expected ptm"
-
-
-def _image(asset: Asset, index: int, shape: tuple[int, int, int]) -> Iterator[str]:
-    images = asset.document.get("images", [])
-    if index >= len(images):
-        yield f"{EXTENSION}: a pelt uses image {index}, expected one of {len(images)}"
-        return
-    got = asset.image(index).shape
-    if got != shape:
-        yield (
-            f"{images[index]['uri']}: {got[1]} × {got[0]} texels with {got[2]} channels, "
-            f"expected {shape[1]} × {shape[0]} with {shape[2]}"
-        )
 
 
 def _record(asset: Asset) -> Iterator[str]:

@@ -31,11 +31,15 @@ from furbake.options import BakeOptions, OptionError, as_toml, override, preset,
 from furbake.report import STAGES as REPORT_STAGES
 from furbake.report import write as write_report
 from furbake.swatch import save
+from furbake.trim import Row as TrimRow
+from furbake.trim import table as trim_table
+from furbake.trim import trim
 from furbake.verify import lines, verify
 
 GIVEN = (
     "layers", "size", "lights", "basis", "coefficients", "length", "tile", "height", "seed", "flat", "guide",
     "length_by_thickness", "fins", "uv", "max_faces", "length_map", "mask", "comb", "features", "directions",
+    "states", "dirt",
 )  # fmt: skip
 """Options of the command that are options of the bake; one that is not given is the preset's."""
 
@@ -214,6 +218,22 @@ def run_compare(args: argparse.Namespace) -> int:
             rows += compare(options, args.lights, partial(progress, name))
             progress(name, 1.0)
     print(markdown(rows), end="")
+    return 0
+
+
+def run_trim(args: argparse.Namespace) -> int:
+    """Print a table of cut fur, lit in every way, against the same strands cut and baked anew."""
+    names = args.names or preset_names()
+    rows: list[TrimRow] = []
+    with shown(names, args.quiet) as progress:
+        for name in names:
+            options = preset(name)
+            if args.size is not None:
+                options = replace(options, size=args.size)
+                options.check()
+            rows += trim(options, tuple(args.lengths), args.lights, partial(progress, name))
+            progress(name, 1.0)
+    print(trim_table(rows), end="")
     return 0
 
 

@@ -9,7 +9,9 @@ from typing import Any, NoReturn
 
 from furbake.bend import AZIMUTHS, TIPS
 from furbake.cli import actions
+from furbake.pelt.states import WETNESS
 from furbake.swatch import FROM_THE_SIDE
+from furbake.trim import LENGTHS
 from furbake.verify import SAMPLES
 
 
@@ -20,7 +22,7 @@ class UsageError(ValueError):
 class _Parser(argparse.ArgumentParser):
     """Says what is wrong in the words of all other errors, instead of printing usage."""
 
-    shape = "furbake bake, inspect, validate, presets, report, swatch, lesson, verify, compare, bend or patches"
+    shape = "furbake bake, inspect, validate, presets, report, swatch, lesson, verify, compare, trim, bend or patches"
 
     def error(self, message: str) -> NoReturn:
         if match := re.fullmatch(r"the following arguments are required: (.*)", message, re.DOTALL):
@@ -56,6 +58,13 @@ def _number(text: str) -> float:
         raise argparse.ArgumentTypeError(f"got {text!r}, expected a number") from None
 
 
+def _share(text: str) -> float:
+    share = _number(text)
+    if not 0 < share <= 1:
+        raise argparse.ArgumentTypeError(f"got {text}, expected above 0 and at most 1")
+    return share
+
+
 def _setting(text: str) -> tuple[str, str]:
     name, equals, value = text.partition("=")
     if not (name.strip() and equals):
@@ -75,6 +84,10 @@ def _guide(text: str) -> str:
     if text not in ("nose-tail", "down") and not text.endswith(".json"):
         raise argparse.ArgumentTypeError(f"got {text!r}, expected nose-tail, down or a .json file of strokes")
     return text
+
+
+def _states(text: str) -> tuple[str, ...]:
+    return tuple(WETNESS) if text == "dry..wet" else tuple(name.strip() for name in text.split(","))
 
 
 def _path(text: str) -> str:
@@ -121,6 +134,14 @@ def parser() -> argparse.ArgumentParser:
     compare.add_argument("--lights", type=_lights, default=192, metavar="N", help="lights of the fit (default: 192)")
     compare.add_argument("--size", type=_whole, metavar="N", help="texels per side of a slab (default: the preset's)")
     compare.add_argument("--quiet", action="store_true", help="no progress")
+    trim = add("trim", actions.run_trim, "[NAME ...]", "table of fur that is cut at run time, as Markdown")
+    trim.add_argument("names", metavar="NAME", nargs="*", type=_path, help="presets or .toml files (default: all)")
+    trim.add_argument(
+        "--lengths", type=_share, nargs="+", default=LENGTHS, metavar="S", help="shares of the fur that are left"
+    )
+    trim.add_argument("--lights", type=_lights, default=64, metavar="N", help="lights of the fit (default: 64)")
+    trim.add_argument("--size", type=_whole, metavar="N", help="texels per side of a slab (default: the preset's)")
+    trim.add_argument("--quiet", action="store_true", help="no progress")
     bend = add("bend", actions.run_bend, "[NAME ...]", "table of how right the light on bent fur is, as Markdown")
     bend.add_argument("names", metavar="NAME", nargs="*", type=_path, help="presets or .toml files (default: all)")
     bend.add_argument(
@@ -167,6 +188,8 @@ def _bake_arguments(parser: _Parser) -> None:
     add("--no-fins", dest="fins", action="store_false", default=unset, help="no quads on the edges")
     add("--directions", action="store_true", default=unset, help="store the hairs' directions too, for other shaders")
     add("--flat", action="store_true", default=unset, help="a flat patch under a point at infinity, for checks")
+    add("--states", type=_states, default=unset, metavar="dry..wet|dry,NAME", help="wet states too: all five, or some")
+    add("--dirt", action="store_true", default=unset, help="a dirty state too")
     add("--samples", type=_path, metavar="FILE.npz", help="write the sampled physics too, for others to check")
     add("--force", action="store_true", help="replace DIR if it is a bake")
     add("--if-stale", action="store_true", help="only if DIR differs in options, input or version; implies --force")

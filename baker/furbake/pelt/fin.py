@@ -12,6 +12,7 @@ from above at the outline, too, and beside them the fin's own view would be half
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
@@ -19,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.pelt.basis import PTM, harmonics
+from furbake.pelt.dirt import Crumbs, soiled
 from furbake.pelt.fibre import cylinder, sine
 from furbake.pelt.fill import fill
 from furbake.pelt.fit import fit
@@ -73,19 +75,33 @@ def fin_shape(size: int, height: float) -> tuple[int, int]:
 
 
 def side_view(
-    strands: Strands, fine: Volume, layers: int, size: int, lights: Array, coat: Coat, *, flat: bool = False
+    strands: Strands,
+    fine: Volume,
+    layers: int,
+    size: int,
+    lights: Array,
+    coat: Coat,
+    *,
+    flat: bool = False,
+    height: float | None = None,
+    mud: Crumbs | None = None,
 ) -> SideView:
     """A row of the tile's tufts seen from w, in the light that the whole fur lets through.
 
     fine : the oversampled volume; layers, size : slabs and texels per side of what is stored of it
     lights : (n, 3) in the tile's frame
     coat : its opacity, albedo and skin count; flat : as of `transport.sample`
+    height : of the fur for which the texture has its rows, tile widths: that of the dry fur in all of its states
+    mud : on the strands; then `tint` is its share
     """
-    rows, columns = fin_shape(size, fine.height)
+    rows, columns = fin_shape(size, height or fine.height)
     medium = _Medium(fine, layers, size, coat, flat)
     slabs = medium.slabs * -(-rows // medium.slabs)
     width = size * (2 if slabs * (2 * size) ** 2 <= MOST_VOXELS else 1)
-    tufts = voxelise(row_of_tufts(strands), fine.height, slabs, width, coat.opacity)
+    row = in_the_row(strands)
+    tufts = voxelise(strands.some(row), fine.height, slabs, width, coat.opacity)
+    if mud is not None:
+        tufts = soiled(tufts, mud.on(row), coat.opacity)
     shares = seen_from_the_side(tufts)
     upright, along = overlap(len(shares), rows), overlap(shares.shape[1], columns)
 
@@ -98,11 +114,10 @@ def side_view(
     return SideView(alpha, tint, hue, medium.light(tufts, shares, lights, rows))
 
 
-def row_of_tufts(strands: Strands) -> Strands:
-    """The hairs that are rooted in a strip of the tile, whole: a cut through the volume would have chopped ones."""
+def in_the_row(strands: Strands) -> NDArray[np.bool_]:
+    """Which hairs are rooted in a strip of the tile, (S,). They are whole: a cut through the volume chops some."""
     off = np.abs(strands.points[:, 0, 0] % 1.0 - 0.5)
-    row = off <= max(THICKNESS / 2, float(off.min()))
-    return Strands(strands.points[row], strands.radius[row], strands.tint[row], strands.hue[row])
+    return np.asarray(off <= max(THICKNESS / 2, float(off.min())))
 
 
 def seen_from_the_side(volume: Volume) -> Array:
@@ -208,24 +223,27 @@ def between(count: int, wanted: int, periodic: bool = False) -> Array:
     return matrix
 
 
-def fit_fin(view: SideView, lights: Array, colour: Array | None = None) -> FinPelt:
-    """The texels' polynomials in (l·t, l·n) as bytes.
+def fit_fins(views: Sequence[SideView], lights: Array, colours: Sequence[Array | None]) -> list[FinPelt]:
+    """The texels' polynomials in (l·t, l·n) as bytes, of all states of a fur with one λ and Ω.
 
-    lights : (n, 3) of the view, in the tile's frame; colour : (H, W, 3) linear original colour, or None
+    lights : (n, 3) of the views, in the tile's frame; colours : (H, W, 3) linear original colours, or None
     """
     turned = lights[:, FIN_FRAME]
-    filled = fill_fin(fit(view.light, PTM, turned), view.alpha)
-    scale, bias = byte_range(filled, view.alpha)
+    filled = [fill_fin(fit(view.light, PTM, turned), view.alpha) for view in views]
+    scale, bias = byte_range(np.stack(filled), np.stack([view.alpha for view in views]))
     phi = PTM(turned)
-    return FinPelt(
-        codes=quantise(filled, scale, bias, phi.T @ phi / len(phi)),
-        alpha=unit_bytes(view.alpha),
-        tint=unit_bytes(fill_fin(view.tint[..., None], view.alpha)[..., 0]),
-        colour=None if colour is None else srgb_bytes(fill_fin(colour, view.alpha)),
-        scale=scale,
-        bias=bias,
-        environment=fin_environment(),
-    )
+    return [
+        FinPelt(
+            codes=quantise(coefficients, scale, bias, phi.T @ phi / len(phi)),
+            alpha=unit_bytes(view.alpha),
+            tint=unit_bytes(fill_fin(view.tint[..., None], view.alpha)[..., 0]),
+            colour=None if colour is None else srgb_bytes(fill_fin(colour, view.alpha)),
+            scale=scale,
+            bias=bias,
+            environment=fin_environment(),
+        )
+        for view, coefficients, colour in zip(views, filled, colours, strict=True)
+    ]
 
 
 def fill_fin(values: Array, alpha: Array) -> Array:

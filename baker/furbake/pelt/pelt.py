@@ -34,6 +34,25 @@ class Ramp:
 
 
 @dataclass(frozen=True)
+class State:
+    """How wet and how dirty a pelt is, 0..1 each, and what that does to its hairs.
+
+    length : of the fur over that of the dry one
+    shade : factor of the hairs' colour; gloss, sharpness : of the strength and the exponent of their highlights
+    mud : linear colour of what a dirty pelt's `tint` is the share of, None where it is clean
+    """
+
+    name: str = "dry"
+    wetness: float = 0.0
+    dirt: float = 0.0
+    length: float = 1.0
+    shade: float = 1.0
+    gloss: float = 1.0
+    sharpness: float = 1.0
+    mud: RGB | None = None
+
+
+@dataclass(frozen=True)
 class FinPelt:
     """The same fur cut from the side, W × H texels, row 0 at the roots, column 0 at u = 0; periodic along u.
 
@@ -67,6 +86,7 @@ class Pelt:
     height : of the fur, tile widths
     fin : its side view, or None
     direction : (K, N, N, 3) bytes of the hairs' mean tangent, or None
+    state : dry unless the fur has others; in a dirty one `tint` is the mud's share of the coverage, here and in the fin
     """
 
     codes: Bytes
@@ -84,6 +104,7 @@ class Pelt:
     ramp: Ramp
     fin: FinPelt | None = None
     direction: Bytes | None = None
+    state: State = State()
 
     @property
     def layers(self) -> int:

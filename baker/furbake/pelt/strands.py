@@ -109,6 +109,10 @@ class Strands:
     tint: Array
     hue: Array
 
+    def some(self, hairs: NDArray[np.bool_]) -> Strands:
+        """Some of the hairs, (S,)."""
+        return Strands(self.points[hairs], self.radius[hairs], self.tint[hairs], self.hue[hairs])
+
 
 POINTS = 25
 """Points per hair at least."""

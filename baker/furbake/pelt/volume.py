@@ -96,7 +96,7 @@ def voxelise(
         along = direction[hair, segment]
         along = along * np.where(along[:, 2:] < 0, -1.0, 1.0)
 
-        cover, voxel = _cross_sections(centre, thick, along, size)
+        cover, voxel = cross_sections(centre, thick, along, size)
         here = np.zeros(size * size)
         np.maximum.at(here, voxel.ravel(), cover.ravel())
         solid[slab] += here / PLANES
@@ -125,7 +125,7 @@ def voxelise(
     )
 
 
-def _cross_sections(centre: Array, thick: Array, along: Array, size: int) -> tuple[Array, NDArray[np.int64]]:
+def cross_sections(centre: Array, thick: Array, along: Array, size: int) -> tuple[Array, NDArray[np.int64]]:
     """Coverage of the voxels around n cut hairs: (n, w) coverage 0..1 and (n, w) flat voxel index, wrapped."""
     reach = int(np.ceil(min((thick / np.maximum(along[:, 2], 0.3)).max() * size, size / 2))) + 1
     offset = np.arange(-reach, reach + 1)

@@ -49,7 +49,7 @@ const BYTE_OPACITY = 8;
 
 /** What the maps depend on, beside the light's direction and the fur's transform: uniforms, textures, attributes. */
 const WATCHED = ['furLength', 'furTrim', 'shellCount', 'firstShell', 'tiles', 'density'] as const;
-const TEXTURES = ['plane0', 'plane1', 'swing'] as const;
+const TEXTURES = ['plane0', 'plane1', 'swing', 'stains'] as const;
 const MOVING = ['position', '_fur', '_comb'] as const;
 
 const AXES = ['x', 'y', 'z'] as const;

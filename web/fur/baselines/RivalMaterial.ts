@@ -8,16 +8,14 @@ import {
 	UniformsUtils,
 	type WebGLRenderer,
 } from 'three';
+import { hairChunks, texelChunks } from '../chunks.ts';
 import type { FurMaterial } from '../FurMaterial.ts';
-import { hairChunks } from '../PeltMaterial.ts';
 import colour from '../shaders/colour.glsl?raw';
-import density from '../shaders/density.glsl?raw';
 import hairIn from '../shaders/hair.frag.glsl?raw';
 import hairOut from '../shaders/hair.vert.glsl?raw';
 import opacity from '../shaders/opacity.glsl?raw';
 import output from '../shaders/output.glsl?raw';
 import shell from '../shaders/shell.glsl?raw';
-import trim from '../shaders/trim.glsl?raw';
 import view from '../shaders/view.glsl?raw';
 import { followParts, SHAPE } from '../switches.ts';
 import coverage from './coverage.glsl?raw';
@@ -26,6 +24,7 @@ import coverage from './coverage.glsl?raw';
  * The shells of a FurMaterial in another light: geometry, coverage, colour, blending and output are the same chunks with the
  * same uniforms, so that only the light differs, and what is set on either holds for both, what is compiled in for it included.
  * Switches of the FurMaterial's light, and its blending, are taken as they stand when the rival is made.
+ * Of wet and dirty fur they have lengths, coverage and colours; directions of the hairs are those of the dry.
  */
 export class RivalMaterial extends ShaderMaterial {
 	/**
@@ -43,8 +42,7 @@ export class RivalMaterial extends ShaderMaterial {
 			vertexShader: ['#include <common>', view, ...hairChunks, shell, colour, hairOut, vertexShader].join('\n'),
 			fragmentShader: [
 				'#include <common>',
-				trim,
-				density,
+				...texelChunks,
 				coverage,
 				opacity,
 				colour,

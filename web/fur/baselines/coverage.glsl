@@ -6,16 +6,19 @@ uniform sampler2DArray plane1; // (a3, a4, α, tint)
 uniform sampler2DArray plane0; // (a0, a1, a2, α)
 #endif
 
-#ifndef LOD_BIAS
-#define LOD_BIAS 0.0
-#endif
-
 // X = coverage of a slab of the baked thickness, seen from straight above; Y = tint.
 vec2 furCoverage(vec3 at) {
 #ifdef TWO_PLANES
-	vec2 hair = texture(plane1, at, LOD_BIAS).zw;
-	return vec2(denser(hair.x), hair.y);
+	vec2 hair = furBytes(plane1, at).zw;
+	hair.x = denser(hair.x);
 #else
-	return vec2(denser(texture(plane0, at, LOD_BIAS).w), 1.0);
+	vec2 hair = vec2(denser(furBytes(plane0, at).w), 1.0);
 #endif
+#ifdef MUD
+	vec2 dirty = dirtyBytes(plane1, at).zw;
+	hair.x = muddy(hair.x, dirty.y, denser(dirty.x));
+#elif defined(DIRTY)
+	mudShare = MUD_SHARE * vDirt;
+#endif
+	return hair;
 }

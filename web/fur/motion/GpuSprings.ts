@@ -54,8 +54,12 @@ export class GpuSprings implements Solver {
 	#version = -1;
 	/** Which of the targets is drawn to next. */
 	#next: 0 | 1 = 0;
-	/** Whether anything has been drawn: it may get lost. */
-	#drawn = false;
+	#lost = false;
+	/** What belongs to a lost context is let go of while it is lost: three would ask the next one to delete it. */
+	readonly #lose = () => {
+		this.#free();
+		this.#lost = true;
+	};
 
 	/** Whether a GPU can draw to such targets, and has room for all. */
 	static suits({ extensions, capabilities }: WebGLRenderer, { follicles }: Roots): boolean {
@@ -111,10 +115,11 @@ export class GpuSprings implements Solver {
 			after: { value: after },
 			share: { value: 1 },
 		});
-		const states2 = () => new WebGLRenderTarget(FOLLICLES_PER_ROW, rows, { ...options, count: 2 });
-		this.#targets = [states2(), states2()];
+		const target = () => new WebGLRenderTarget(FOLLICLES_PER_ROW, rows, { ...options, count: 2 });
+		this.#targets = [target(), target()];
 		this.#shown = new WebGLRenderTarget(FOLLICLES_PER_ROW, rows, options);
 		this.#shown.texture.name = 'swing';
+		renderer.domElement.addEventListener('webglcontextlost', this.#lose);
 	}
 
 	get swing(): Texture {
@@ -123,7 +128,7 @@ export class GpuSprings implements Solver {
 
 	/** Whether the states have gone with their context. */
 	get lost(): boolean {
-		return this.#drawn && !this.#renderer.properties.has(this.#shown.texture);
+		return this.#lost;
 	}
 
 	step(drive: Drive): void {
@@ -154,20 +159,31 @@ export class GpuSprings implements Solver {
 		this.#show.draw(this.#renderer, this.#shown);
 		// For what has to be drawn anew when it changes.
 		this.swing.version++;
-		this.#drawn = true;
+	}
+
+	/** Makes sub-steps from the states as they were given, waits for them, and forgets them. */
+	rehearse(drive: Drive, steps: number): void {
+		for (let i = 0; i < steps; i++) this.step(drive);
+		this.show(1);
+		this.#renderer.readRenderTargetPixels(this.#shown, 0, 0, 1, 1, new Float32Array(4));
+		this.#read(...this.#given);
 	}
 
 	rest(): void {
-		const [before, after, velocities] = this.#given;
 		for (const texture of this.#given) {
 			(texture.image.data as Float32Array).fill(0);
 			texture.needsUpdate = true;
 		}
-		this.#drawn = false;
-		this.#read(before, after, velocities);
+		this.#lost = false;
+		this.#read(...this.#given);
 	}
 
 	dispose(): void {
+		this.#renderer.domElement.removeEventListener('webglcontextlost', this.#lose);
+		this.#free();
+	}
+
+	#free(): void {
 		for (const pass of [this.#step, this.#show]) pass.dispose();
 		for (const target of [...this.#targets, this.#shown]) target.dispose();
 		for (const table of [...this.#tables, ...this.#given, this.#offsets]) table.dispose();

@@ -48,8 +48,9 @@ export class TexelPass {
 		this.#scene.add(triangle);
 	}
 
-	/** Leaves the renderer as it was: target, viewport and scissor with it. */
+	/** Leaves the renderer as it was: target, viewport and scissor with it. While its context is lost nothing is drawn. */
 	draw(renderer: WebGLRenderer, target: WebGLRenderTarget): void {
+		if (renderer.getContext().isContextLost()) return;
 		const before = renderer.getRenderTarget();
 		const face = renderer.getActiveCubeFace();
 		const level = renderer.getActiveMipmapLevel();

@@ -2,18 +2,18 @@ import { Vector3 } from 'three';
 import { type Drive, WAVES } from './drive.ts';
 import type { Turn } from './Turn.ts';
 
-/** Where a storm takes the tips of the longest fur, share of the length. */
+/** Where a storm takes the tips of the longest fur that it meets from ahead, share of the length. */
 const LAY = 0.7;
 
 /** Of each wave, turns per radius of the body; the last one turns the wind, the others strengthen it. */
-const TURNS = [0.6, 1.05, 2.1, 0.5] as const;
+const TURNS = [0.9, 1.4, 2.6, 0.6] as const;
 /** How far they may stray from the wind's direction, radians. */
 const STRAY = [0.25, 0.7, 0.5, 0.6] as const;
 /** How fast they run, shares of the gusts' speed. */
 const SPEED = [1, 0.85, 1.2, 0.9] as const;
 /** Gusts' speed in a breath of wind, and what a storm has more, radii of the body per second. */
-const BREATH = 0.7;
-const STORM = 1.8;
+const BREATH = 0.5;
+const STORM = 1.4;
 
 /** The wind as an app sets it. It blows everywhere alike, but for its gusts, which run over the fur. */
 export interface WindSettings {
@@ -21,7 +21,7 @@ export interface WindSettings {
 	readonly direction: Vector3;
 	/** 0 is none, 1 a storm that lays the fur. */
 	strength: number;
-	/** 0 is steady, 1 from nearly calm to nearly twice the strength. */
+	/** 0 is steady; 1 swells and slackens by two thirds, and turns a little. */
 	gusts: number;
 }
 

@@ -43,7 +43,7 @@ export function calm(): Drive {
 /** How much the first waves strengthen the wind, of what gusts do. */
 export const STRENGTHS = [0.5, 0.3, 0.2] as const;
 /** How much gusts strengthen or weaken the wind at most, share of it. */
-export const GUST = 0.75;
+export const GUST = 0.65;
 /** How far gusts turn it at most, share of it to the side. */
 export const VEER = 0.35;
 /** What is missing of it on the body's far side, share of it. */

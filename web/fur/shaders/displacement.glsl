@@ -9,5 +9,8 @@ float furRise(vec3 comb) {
 }
 
 vec3 furPoint(vec3 root, vec3 outward, vec3 comb, float lengthShare, float s) {
+#ifdef WET
+	lengthShare *= furTraits.x;
+#endif
 	return root + (furRise(comb) * outward + s * comb) * (furLength / furTrim * lengthShare * s);
 }

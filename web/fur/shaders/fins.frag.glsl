@@ -15,7 +15,7 @@ void main() {
 	if (alpha < 0.01) discard;
 	vec3 colour = furRamp(vSkin.a, clamp(vAt.y, 0.0, 1.0)) * texel.tint;
 #ifdef COLOUR_PLANE
-	colour = mix(texture(colourPlane, at).rgb, colour, vSkin.a);
+	colour = mix(furBytes(colourPlane, at).rgb, colour, vSkin.a);
 #endif
-	fragColour = furOutput(furRadiance(texel, vSkin.rgb * colour, receivedLamps(), receivedSky()), alpha);
+	fragColour = furOutput(furRadiance(texel, soiled(vSkin.rgb * colour), receivedLamps(), receivedSky()), alpha);
 }

@@ -20,6 +20,7 @@ float finFade(vec2 facing, float broadside) {
 }
 
 void main() {
+	feelWeather();
 	vec3 n = normalize(normal);
 	vec3 edge = normalize(tangent.xyz);
 	vec3 across = normalize(cross(edge, n));
@@ -40,6 +41,9 @@ void main() {
 	vec3 pointVS = (placement * vec4(furPoint(position, n, comb, _fur.y * finLength, s), 1.0)).xyz;
 	gl_Position = projectionMatrix * vec4(pointVS, 1.0);
 	vSkin = vec4(skinColour * color.rgb, tipShare * _fur.w);
+#ifdef WET
+	vSkin.rgb *= furTraits.y;
+#endif
 	if (vFade > 0.0) {
 		vec3 tip = position + n * (furLength * _fur.y);
 		passLight(FurPoint(turn * frame, comb * frame, pointVS, (bodyModel() * vec4(tip, 1.0)).xyz, s), _fur.z);

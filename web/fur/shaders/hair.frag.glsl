@@ -12,8 +12,8 @@ in float vHeight;
 
 vec3 hairColour(vec3 at, float tint) {
 #ifdef COLOUR_PLANE
-	return vColour * mix(texture(colourPlane, at).rgb, furRamp(1.0, vHeight) * tint, vTip2);
+	return soiled(vColour * mix(furBytes(colourPlane, at).rgb, furRamp(1.0, vHeight) * tint, vTip2));
 #else
-	return vColour * tint;
+	return soiled(vColour * tint);
 #endif
 }

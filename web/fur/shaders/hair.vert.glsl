@@ -8,6 +8,9 @@ out float vHeight; // 0 at the skin, 1 at the tip
 
 void passColour(ShellPoint shell) {
 	vColour = skinColour * color.rgb;
+#ifdef WET
+	vColour *= furTraits.y;
+#endif
 #ifdef COLOUR_PLANE
 	vTip2 = tipShare * _fur.w;
 	vHeight = shell.s;

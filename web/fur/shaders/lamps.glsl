@@ -8,7 +8,16 @@ struct Lamps {
 	Moments moments;
 	vec3 back; // light that comes through the hairs from behind
 	vec2 lobes; // highlights: white, of the hair's colour; times the lamps' light on the texel
+#ifdef WET
+	float power; // irradiance
+#endif
 };
+
+#ifdef WET
+#define DARKNESS Lamps(Moments(mat3(0.0), mat3(0.0)), vec3(0.0), vec2(0.0), 0.0)
+#else
+#define DARKNESS Lamps(Moments(mat3(0.0), mat3(0.0)), vec3(0.0), vec2(0.0))
+#endif
 
 // Unit vector along the hairs.
 vec3 strandVS(FurPoint point) {
@@ -27,7 +36,12 @@ vec2 highlights(vec3 strand, vec3 normalVS, vec3 light, vec3 viewer) {
 	vec3 halfway = normalize(light + viewer);
 	vec2 along = vec2(dot(normalize(strand - 0.1 * normalVS), halfway), dot(normalize(strand + 0.2 * normalVS), halfway));
 	vec2 across = sqrt(max(1.0 - along * along, 0.0));
-	return smoothstep(-1.0, 0.0, along) * vec2(pow(across.x, sharpness), pow(across.y, 0.25 * sharpness));
+#ifdef WET
+	float exponent = sharpness * furTraits.w;
+#else
+	float exponent = sharpness;
+#endif
+	return smoothstep(-1.0, 0.0, along) * vec2(pow(across.x, exponent), pow(across.y, 0.25 * exponent));
 #else
 	return vec2(0.0);
 #endif
@@ -51,7 +65,7 @@ void addLamp(inout Lamps lamps, inout float power, FurPoint point, vec3 lightVS,
 }
 
 Lamps lampsAt(FurPoint point) {
-	Lamps lamps = Lamps(Moments(mat3(0.0), mat3(0.0)), vec3(0.0), vec2(0.0));
+	Lamps lamps = DARKNESS;
 	IncidentLight light;
 	float power = 0.0;
 #if NUM_DIR_LIGHTS > 0
@@ -83,6 +97,10 @@ Lamps lampsAt(FurPoint point) {
 	#pragma unroll_loop_end
 #endif
 	lamps.lobes /= max(power, 1e-6);
+#ifdef WET
+	lamps.lobes *= furTraits.z;
+	lamps.power = power;
+#endif
 #ifdef TRIMMED
 	lamps.lobes *= furTrim; // stubble is seen from its ends more than from its sides
 	lamps.moments = trimmed(lamps.moments, point.s);

@@ -24,6 +24,9 @@ in vec3 vBack;
 #ifdef GLOSS
 in float vLobe;
 in float vTintedLobe;
+#ifdef WET
+in float vPower;
+#endif
 #endif
 #endif
 
@@ -33,7 +36,8 @@ Lamps receivedLamps() {
 	comb[3 - UPRIGHT] = vCombY;
 	return lampsAt(FurPoint(vFrame, comb, vPoint, vTip, vS));
 #else
-	Lamps lamps = Lamps(Moments(vLampLow, mat3(0.0)), vec3(0.0), vec2(0.0));
+	Lamps lamps = DARKNESS;
+	lamps.moments.low = vLampLow;
 #ifdef TWO_PLANES
 	lamps.moments.high = vLampHigh;
 #endif
@@ -42,6 +46,9 @@ Lamps receivedLamps() {
 #endif
 #ifdef GLOSS
 	lamps.lobes = vec2(vLobe, vTintedLobe);
+#ifdef WET
+	lamps.power = vPower;
+#endif
 #endif
 	return lamps;
 #endif

@@ -1,5 +1,5 @@
 // What of the light goes from vertex to fragment: moments, summed here; or, where lamps are summed per fragment, the point.
-// WebGL2 promises no more than 15 vectors: of a shell four matrices and three vec3, with scalars in their gaps.
+// WebGL2 promises no more than 15 vectors: of a shell four matrices and three vec3, with eleven scalars in their gaps.
 
 #ifdef SKY
 out mat3 vSkyLow;
@@ -26,6 +26,9 @@ out vec3 vBack;
 #ifdef GLOSS
 out float vLobe; // white highlight
 out float vTintedLobe;
+#ifdef WET
+out float vPower; // irradiance
+#endif
 #endif
 #endif
 
@@ -57,6 +60,9 @@ void passLight(FurPoint point, float openness) {
 #ifdef GLOSS
 	vLobe = lamps.lobes.x;
 	vTintedLobe = lamps.lobes.y;
+#ifdef WET
+	vPower = lamps.power;
+#endif
 #endif
 #endif
 }
@@ -83,6 +89,9 @@ void passDarkness() {
 #endif
 #ifdef GLOSS
 	vLobe = vTintedLobe = 0.0;
+#ifdef WET
+	vPower = 0.0;
+#endif
 #endif
 #endif
 }

@@ -11,9 +11,7 @@ uniform vec2 offset1; // −λ·Ω of a3, a4
 uniform float gloss; // of both highlights
 uniform float backlight; // of the light that comes through from behind
 
-#ifndef LOD_BIAS
-#define LOD_BIAS 0.0
-#endif
+#define CREST 2.2 // L of what shines in full where fur is wet
 
 struct FurTexel {
 	float alpha; // coverage of a slab of the baked thickness, seen from straight above
@@ -24,17 +22,28 @@ struct FurTexel {
 
 FurTexel furTexel(vec3 at) {
 	FurTexel texel;
-	vec4 byte0 = texture(plane0, at, LOD_BIAS);
+	vec4 byte0 = furBytes(plane0, at);
 	vec4 a = byte0 * scale0 + offset0;
 	texel.low = a.xyz;
 #ifdef TWO_PLANES
-	vec4 byte1 = texture(plane1, at, LOD_BIAS);
+	vec4 byte1 = furBytes(plane1, at);
 	texel.high = vec3(byte1.xy * scale1 + offset1, a.w);
 	texel.alpha = denser(byte1.z);
 	texel.tint = byte1.w;
 #else
 	texel.alpha = denser(byte0.w);
 	texel.tint = 1.0;
+#endif
+#ifdef MUD
+	// Wet mud runs off between the hairs: their light is theirs again where there is none.
+	vec4 dirty0 = dirtyBytes(plane0, at), dirty1 = dirtyBytes(plane1, at);
+	vec4 dirtyA = dirty0 * scale0 + offset0;
+	float lit = vDirt * mix(1.0, dirty1.w, furWetness);
+	texel.low = mix(texel.low, dirtyA.xyz, lit);
+	texel.high = mix(texel.high, vec3(dirty1.xy * scale1 + offset1, dirtyA.w), lit);
+	texel.alpha = muddy(texel.alpha, dirty1.w, denser(dirty1.z));
+#elif defined(DIRTY)
+	mudShare = MUD_SHARE * vDirt;
 #endif
 	return texel;
 }
@@ -61,7 +70,16 @@ vec3 furRadiance(FurTexel texel, vec3 colour, Lamps lamps, Moments sky) {
 #endif
 #ifdef GLOSS
 	// The lamps' light on the texel is the highlights' shadow.
-	return colour * (light + lamp * (gloss * lamps.lobes.y)) + lamp * (gloss * texel.tint * lamps.lobes.x);
+	vec2 shine = gloss * vec2(texel.tint, 1.0) * lamps.lobes;
+#ifdef WET
+	// A film of water is a mirror where it is round, on the clumps' crests: there the lamps' light is strongest.
+	float lit = min(dot(lamp, vec3(0.2126, 0.7152, 0.0722)) / max(CREST * lamps.power, 1e-6), 1.0);
+	shine *= mix(1.0, lit * lit * lit, furWetness);
+#endif
+#ifdef DIRTY
+	shine.x *= 1.0 - mudShare;
+#endif
+	return colour * (light + lamp * shine.y) + lamp * shine.x;
 #else
 	return colour * light;
 #endif

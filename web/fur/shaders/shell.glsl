@@ -78,6 +78,7 @@ float sharesOf(int slab, float count) {
 
 // Places the vertex and writes what every fragment of a shell needs, whatever it is lit by.
 ShellPoint shellPoint() {
+	feelWeather();
 	ShellPoint point;
 #ifdef BODIES
 	float i = float(firstShell + gl_InstanceID % int(ceil(shellCount))), count = bodyDetail.x;

@@ -1,7 +1,7 @@
 /** Bodies that move in tests, without a GPU. */
 
 import { readFileSync } from 'node:fs';
-import { BufferAttribute, BufferGeometry, Group, Mesh, type Texture } from 'three';
+import { BufferAttribute, BufferGeometry, type DataTexture, Group, Mesh, type Texture } from 'three';
 import type { Fur } from '../../web/fur/Fur.ts';
 import { Follicles } from '../../web/fur/follicles.ts';
 
@@ -62,6 +62,6 @@ export function load(name: string): Body {
 /** Three numbers of each follicle. */
 export function swingOf({ fur }: Body): Float32Array {
 	const { count } = fur.follicles;
-	const texels = fur.swing?.image.data as Float32Array | undefined;
+	const texels = (fur.swing as DataTexture | undefined)?.image.data;
 	return Float32Array.from({ length: 3 * count }, (_, i) => texels?.[4 * Math.floor(i / 3) + (i % 3)] ?? 0);
 }

@@ -1,0 +1,102 @@
+"""Are the pelts of a baked folder what the extension says they are? Every problem in one sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from furbake.asset.gltf import EXTENSION
+from furbake.asset.read import Asset
+from furbake.pelt.basis import smooth_terms
+
+
+def _basis(basis: dict[str, Any], count: int) -> Iterator[str]:
+    if basis["kind"] == "ptm" and count != 6:
+        yield f"{EXTENSION}: {count} coefficients of the basis ptm, expected 6"
+    if basis["kind"] == "eigen":
+        terms = smooth_terms(basis["degree"])
+        for length in sorted({len(row) for row in basis["matrix"]} - {terms}):
+            yield f"{EXTENSION}: basis.matrix has a row of {length} weights, expected {terms}"
+
+
+def pelts(asset: Asset) -> Iterator[str]:
+    """Images of the sizes that the extension says, and as many numbers as there are coefficients and slabs."""
+    fur = asset.fur
+    count, layers, size = fur["coefficients"], fur["layers"], fur["size"]
+    if size & (size - 1):
+        yield f"{EXTENSION}: size {size}, expected a power of two"
+    wrong = list(_basis(fur["basis"], count))
+    yield from wrong
+    lists = {"environment": (fur["environment"], count), "drift": (fur["drift"], layers)}
+    if fur["basis"]["kind"] == "eigen" and not wrong:
+        lists["basis.matrix"] = (fur["basis"]["matrix"], count)
+    for i, pelt in enumerate(fur["pelts"]):
+        lists |= {f"pelts[{i}].{key}": (pelt[key], count) for key in ("scale", "bias")}
+        lists[f"pelts[{i}].planes"] = (pelt["planes"], 1 if count == 3 else 2)
+        for index in pelt["planes"]:
+            yield from _image(asset, index, (layers * size, size, 4))
+        for role in ("colour", "direction"):
+            if role in pelt:
+                yield from _image(asset, pelt[role], (layers * size, size, 3))
+        if "fin" in pelt:
+            yield from _fin(asset, pelt["fin"])
+    for name, (values, expected) in lists.items():
+        if len(values) != expected:
+            yield f"{EXTENSION}: {name} has {len(values)} rows, expected {expected}"
+        elif not np.isfinite(np.array(values, dtype=np.float64)).all():
+            yield f"{EXTENSION}: {name} is not finite, expected numbers"
+
+
+def states(asset: Asset) -> Iterator[str]:
+    """Several states: dry first, each with a name of its own, all to be mixed texel by texel."""
+    fur = asset.fur
+    found = fur["pelts"]
+    if found[0].get("wetness", 0) or found[0].get("dirt", 0):
+        yield f"{EXTENSION}: pelts[0] is not dry and clean, expected what a reader of one pelt shows"
+    names = [pelt["name"] for pelt in found]
+    if len(set(names)) < len(names):
+        yield f"{EXTENSION}: pelts are called {', '.join(names)}, expected names that differ"
+    dirty = [pelt for pelt in found if pelt.get("dirt", 0)]
+    if dirty and "mud" not in fur:
+        yield f"{EXTENSION}: pelt {dirty[0]['name']} is dirty but there is no mud, expected its colour"
+    if dirty and fur["coefficients"] == 3:
+        yield f"{EXTENSION}: pelt {dirty[0]['name']} is dirty with 3 coefficients, expected 4 to 6"
+    for i, pelt in enumerate(found[1:], 1):
+        for key in ("scale", "bias"):
+            if pelt[key] != found[0][key]:
+                yield f"{EXTENSION}: pelts[{i}].{key} differs, expected that of pelts[0]"
+        if "fin" in pelt and "fin" in found[0]:
+            for key in ("width", "height", "scale", "bias"):
+                if pelt["fin"][key] != found[0]["fin"][key]:
+                    yield f"{EXTENSION}: pelts[{i}].fin.{key} differs, expected that of pelts[0]"
+
+
+def _fin(asset: Asset, fin: dict[str, Any]) -> Iterator[str]:
+    """The fur's side view: a polynomial of six coefficients in two planes."""
+    shape = (fin["height"], fin["width"])
+    for index in fin["planes"]:
+        yield from _image(asset, index, (*shape, 4))
+    if "colour" in fin:
+        yield from _image(asset, fin["colour"], (*shape, 3))
+    for key, expected in (("planes", 2), ("scale", 6), ("bias", 6), ("environment", 6)):
+        if len(fin[key]) != expected:
+            yield f"{EXTENSION}: fin.{key} has {len(fin[key])} rows, expected {expected}"
+        elif not np.isfinite(np.array(fin[key], dtype=np.float64)).all():
+            yield f"{EXTENSION}: fin.{key} is not finite, expected numbers"
+    if fin["basis"]["kind"] != "ptm":
+        yield f"{EXTENSION}: fin.basis is {fin['basis']['kind']}, expected ptm"
+
+
+def _image(asset: Asset, index: int, shape: tuple[int, int, int]) -> Iterator[str]:
+    images = asset.document.get("images", [])
+    if index >= len(images):
+        yield f"{EXTENSION}: a pelt uses image {index}, expected one of {len(images)}"
+        return
+    got = asset.image(index).shape
+    if got != shape:
+        yield (
+            f"{images[index]['uri']}: {got[1]} × {got[0]} texels with {got[2]} channels, "
+            f"expected {shape[1]} × {shape[0]} with {shape[2]}"
+        )

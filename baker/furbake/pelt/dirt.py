@@ -1,0 +1,102 @@
+"""Dirt in the fur: crumbs of mud that stick to the hairs, the more the nearer the tips, lit with them as one volume."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from furbake.pelt.pelt import RGB
+from furbake.pelt.strands import Strands
+from furbake.pelt.tiling import tile_noise
+from furbake.pelt.volume import PLANES, SOLID_SLAB, Volume, cross_sections
+
+Array = NDArray[np.float64]
+
+MUD: RGB = (0.115, 0.078, 0.048)
+"""Colour of the mud, linear Rec. 709."""
+
+SIZES = (0.02, 0.075)
+"""Radius of the smallest and the largest crumb, shares of the fur's height."""
+
+COVER = 1.1
+"""Sum of the crumbs' cross-sections over the tile's area."""
+
+TOWARDS_TIPS = 2.0
+"""Crumbs at a share s of a hair are as many as s to this power."""
+
+MOST = 20_000
+
+PATCHES, PATCHINESS = 3, 0.6
+"""Dirtier places along a side of the tile, and how much dirtier: spread of the logarithm."""
+
+
+@dataclass(frozen=True)
+class Crumbs:
+    """Balls of mud, each on a hair.
+
+    centre : (n, 3), radius : (n,) tile widths; hair : (n,) index of the hair
+    tangent : (n, 3) unit direction of the fibre as which it scatters: one that lies down, each its own way, so that
+        together they scatter as balls do, near enough
+    """
+
+    centre: Array
+    radius: Array
+    hair: NDArray[np.intp]
+    tangent: Array
+
+    def on(self, hairs: NDArray[np.bool_]) -> Crumbs:
+        """Those on some of the hairs, (S,)."""
+        kept = hairs[self.hair]
+        return Crumbs(self.centre[kept], self.radius[kept], self.hair[kept], self.tangent[kept])
+
+
+def crumbs(strands: Strands, height: float, seed: int) -> Crumbs:
+    """Crumbs on the hairs of fur of that height, tile widths: small ones many, large ones few."""
+    rng = np.random.default_rng([seed, 2])
+    size = height * SIZES[0] * (SIZES[1] / SIZES[0]) ** rng.random(MOST) ** 2
+    size = size[: 1 + int(np.searchsorted(np.cumsum(np.pi * size**2), COVER))]
+    root = strands.points[:, 0, :2]
+    likely = np.exp(PATCHINESS * tile_noise(root, PATCHES, rng))
+    hair = rng.choice(len(root), len(size), p=likely / likely.sum())
+    at = rng.random(len(size)) ** (1 / (1 + TOWARDS_TIPS)) * (strands.points.shape[1] - 1)
+    low = np.minimum(at.astype(np.int64), strands.points.shape[1] - 2)
+    part = (at - low)[:, None]
+    centre = (1 - part) * strands.points[hair, low] + part * strands.points[hair, low + 1]
+    angle = rng.uniform(0.0, 2 * np.pi, len(size))
+    lying = np.stack([np.cos(angle), np.sin(angle), np.zeros(len(size))], -1)
+    return Crumbs(centre, size, hair, lying)
+
+
+def soiled(clean: Volume, mud: Crumbs, opacity: float) -> Volume:
+    """The volume with mud in it, which takes the place of the hairs. Its `tint` is the share of the mud in a voxel's σ.
+
+    opacity : of solid mud, as `Coat.opacity` of hair
+    """
+    layers, size, _ = clean.sigma.shape
+    fill = np.zeros((layers, size * size))
+    across = np.zeros((layers, 3, size * size))
+    for plane in range(layers * PLANES):
+        z = (plane + 0.5) / (layers * PLANES) * clean.height
+        square = mud.radius**2 - (mud.centre[:, 2] - z) ** 2
+        cut = square > 0
+        if not cut.any():
+            continue
+        upright = np.tile([0.0, 0.0, 1.0], (int(cut.sum()), 1))
+        cover, voxel = cross_sections(mud.centre[cut, :2], np.sqrt(square[cut]), upright, size)
+        here = np.zeros(size * size)
+        np.maximum.at(here, voxel.ravel(), cover.ravel())
+        slab = plane // PLANES
+        fill[slab] += here / PLANES
+        for axis in range(3):
+            along = cover * mud.tangent[cut, axis, None]
+            across[slab, axis] += np.bincount(voxel.ravel(), along.ravel(), size * size)
+    fill = fill.reshape(clean.sigma.shape)
+    lying = np.moveaxis(across.reshape(layers, 3, size, size), 1, -1)
+    lying /= np.maximum(np.linalg.norm(lying, axis=-1, keepdims=True), 1e-9)
+    hair, mixed = clean.sigma * (1 - fill), fill * opacity / (clean.height * SOLID_SLAB)
+    share = mixed / np.maximum(hair + mixed, 1e-12)
+    tangent = (1 - share)[..., None] * clean.tangent + share[..., None] * lying
+    tangent /= np.maximum(np.linalg.norm(tangent, axis=-1, keepdims=True), 1e-9)
+    return replace(clean, sigma=hair + mixed, tangent=tangent, tint=share)

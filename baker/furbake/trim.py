@@ -1,0 +1,172 @@
+"""Cut fur: how much of the light of strands that were cut and baked anew the texels of whole fur give at run time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from furbake.bake import Lighting, fit_pelt, light, under
+from furbake.options import BakeOptions
+from furbake.pelt.basis import Basis
+from furbake.pelt.fit import Judge, decibels, fit, relight
+from furbake.pelt.quantise import dequantise
+from furbake.pelt.strands import grow
+from furbake.pelt.volume import Volume, coarsen, fine_shape, voxelise
+from furbake.verify import correlation
+
+Array = NDArray[np.float64]
+Single = NDArray[np.float32]
+
+LENGTHS = (0.2, 0.4, 0.6, 0.8)
+"""Shares of the fur that are left."""
+
+HELD_OUT = 64
+"""Lights that judge."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """One way to light fur of which `kept` of `layers` slabs are left, against the same strands cut and sampled.
+
+    psnr, psnr_composite : dB, of the slabs and of the tile seen from above
+    r : correlation of the tile seen from above, mean over the lights; level : its brightness over the truth's
+    """
+
+    preset: str
+    kept: int
+    layers: int
+    way: str
+    psnr: float
+    psnr_composite: float
+    r: float
+    level: float
+
+
+def cut(whole: Volume, share: float) -> Volume:
+    """The lowest share of the slabs, which are those that strands clipped there are drawn into."""
+    left = max(1, round(share * len(whole.sigma)))
+    return Volume(
+        sigma=whole.sigma[:left],
+        tangent=whole.tangent[:left],
+        tint=whole.tint[:left],
+        hue=whole.hue[:left],
+        drift=whole.drift[:left],
+        height=whole.height * left / len(whole.sigma),
+    )
+
+
+def share_above(alpha: Array) -> Array:
+    """Of each slab the share of all that is seen from straight above that lies above its middle, (K, N, N) → (K,)."""
+    clear = np.cumprod((1 - alpha)[::-1], axis=0)[::-1]
+    over = np.concatenate([clear[1:], np.ones_like(clear[:1])])
+    seen = (over * alpha).mean((1, 2))
+    below = np.cumsum(seen)
+    return np.asarray(1 - (below - seen / 2) / below[-1])
+
+
+def stand_ins(alpha: Array, kept: int) -> Array:
+    """Of each slab that is left the place in whole fur above which as much of all that is seen lies, slabs, (kept,).
+
+    Light does not get far into fur: what comes back, comes back from where the eye looks. Short fur sends back as much
+    of it as long fur, so its slabs take the light of those whose place before the eye they take.
+    """
+    whole, short = share_above(alpha), share_above(alpha[:kept])
+    return np.asarray(np.interp(short, whole[::-1], np.arange(len(whole))[::-1]))
+
+
+def reweighted(coefficients: Array, alpha: Array, kept: int) -> Array:
+    """Coefficients of the slabs that are left as moments change them at run time: (K, N, N, C) → (kept, N, N, C).
+
+    A texel's light changes by as much as its slab's mean does: a' = a + (x·a)·(mean' − mean), with x·a as near 1 over
+    the slab's texels as a vector x can make it. On moments that is m' = m + x·((mean' − mean)·m).
+    """
+    weight = alpha[..., None]
+    mean = (coefficients * weight).sum((1, 2)) / np.maximum(weight.sum((1, 2)), 1e-9)
+    square = np.einsum("krc,krci,krcj->kij", alpha, coefficients, coefficients)
+    square /= np.maximum(alpha.sum((1, 2)), 1e-9)[:, None, None]
+    ridge = 1e-6 * np.trace(square, axis1=1, axis2=2)[:, None, None] + 1e-12
+    pull = np.linalg.solve(square + ridge * np.eye(mean.shape[1]), mean[..., None])[..., 0]
+    places = stand_ins(alpha, kept)
+    wanted = np.stack([np.interp(places, np.arange(len(mean)), column) for column in mean.T], -1)
+    one = np.einsum("krci,ki->krc", coefficients[:kept], pull[:kept])
+    return np.asarray(coefficients[:kept] + one[..., None] * (wanted - mean[:kept])[:, None, None])
+
+
+def trim(
+    options: BakeOptions,
+    lengths: tuple[float, ...] = LENGTHS,
+    lights: int = 64,
+    step: Callable[[float], None] = lambda fraction: None,
+) -> Iterator[Row]:
+    """Bake one fur whole, cut its strands at every length and sample them anew, and light what is left in every way."""
+    height = options.height if options.height is not None else options.height_share
+    strands = grow(options.coat, height, options.seed)
+    fine = voxelise(strands, height, *fine_shape(options.layers, options.size, height), options.coat.opacity)
+    volume = coarsen(fine, options.layers, options.size)
+    runs = len(lengths) + 1
+
+    def part(number: int) -> Callable[[float], None]:
+        return lambda fraction: step((number + fraction) / runs)
+
+    options = replace(options, lights=lights)
+    lighting = light(fine, options, part(0), held_out=HELD_OUT)
+    pelt, _ = fit_pelt(volume, lighting, options)
+    basis = Basis(pelt.kind, pelt.degree, pelt.matrix)
+    coefficients = dequantise(pelt.codes, pelt.scale, pelt.bias)
+    alpha, layers = volume.coverage, options.layers
+    unseen = lighting.lights[lighting.held_out]
+    whole = relight(coefficients, basis, unseen)
+    for number, share in enumerate(lengths):
+        kept = max(1, round(share * layers))
+        short = under(lighting.lights, cut(fine, kept / layers), replace(options, layers=kept), part(number + 1))
+        judge = Judge(short[lighting.held_out], alpha[:kept], volume.tint[:kept])
+        above = Judge(whole, alpha, volume.tint).composite(whole)
+        flat = whole[:, ((np.arange(kept) + 0.5) * layers / kept).astype(int)]
+        ways = {
+            "flattened": (flat, above),
+            "cut": (whole[:, :kept], None),
+            "cut, re-weighted": (relight(reweighted(coefficients, alpha, kept), basis, unseen), None),
+            "baked anew": (_anew(short, lighting, basis), None),
+        }
+        for way, (slabs, seen) in ways.items():
+            yield _row(judge, slabs, judge.composite(slabs) if seen is None else seen, (options.preset, layers, way))
+
+
+def _anew(samples: Single, lighting: Lighting, basis: Basis) -> Single:
+    """What the same basis makes of the cut strands' own samples, which it need not guess."""
+    fitted = ~lighting.held_out
+    return relight(fit(samples[fitted], basis, lighting.lights[fitted]), basis, lighting.lights[lighting.held_out])
+
+
+def _row(judge: Judge, slabs: Single, seen: NDArray[np.floating], of: tuple[str, int, str]) -> Row:
+    preset, layers, way = of
+    errors, weights = judge.layer_errors(slabs)
+    truth = judge.composite(judge.truth)
+    each = [correlation(ours.astype(float), theirs.astype(float)) for ours, theirs in zip(seen, truth, strict=True)]
+    return Row(
+        preset=preset,
+        kept=len(judge.alpha),
+        layers=layers,
+        way=way,
+        psnr=decibels(float(errors.sum() / weights.sum())),
+        psnr_composite=decibels(float((((seen - truth) / judge.peak) ** 2).mean())),
+        r=float(np.mean(each)),
+        level=float(seen.mean() / truth.mean()),
+    )
+
+
+def table(rows: list[Row]) -> str:
+    """A Markdown table: for each way PSNR of the slabs and from above in dB, r and brightness from above."""
+    ways = list(dict.fromkeys(row.way for row in rows))
+    lines = [
+        "| fur | slabs left | " + " | ".join(f"{way}: slabs, from above, r, level" for way in ways) + " |",
+        "|---" * (2 + len(ways)) + "|",
+    ]
+    for preset, kept, layers in dict.fromkeys((row.preset, row.kept, row.layers) for row in rows):
+        here = {row.way: row for row in rows if (row.preset, row.kept) == (preset, kept)}
+        cells = (f"{r.psnr:.1f}, {r.psnr_composite:.1f}, {r.r:.2f}, {r.level:.2f}" for r in (here[way] for way in ways))
+        lines.append(f"| {preset} | {kept} of {layers} | " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
