@@ -29,6 +29,7 @@ FLOORS = {
     "compare": {"pelt", "options", "bake"},
     "halfway": {"pelt", "options", "bake", "verify"},
     "trim": {"pelt", "options", "bake", "verify"},
+    "bend": {"pelt", "knobs", "options", "bake"},
     "lesson": {"asset", "pelt", "options", "identity", "bake"},
     "cli": {
         "asset",
@@ -45,6 +46,7 @@ FLOORS = {
         "compare",
         "halfway",
         "trim",
+        "bend",
         "lesson",
         "cli",
     },

@@ -1,8 +1,13 @@
 /** What frames cost besides drawing: nothing is uploaded, nothing is allocated; and none of them leaps. */
 
+import type { Page } from '@playwright/test';
+import { openModule } from '../../web/tools/browser.mjs';
 import { shrinkPicture, watchGpu } from './gpu.ts';
-import { expect, open, test } from './harness.ts';
+import { expect, open, site, test } from './harness.ts';
+import { served } from './library.ts';
 import { calm, frames, hasten, psnr, shot } from './robust.ts';
+
+declare const loaded: typeof import('./breeze.ts');
 
 test.use({ viewport: { width: 200, height: 160 } });
 
@@ -14,30 +19,11 @@ interface Allocations {
 
 /** Bytes that the page's and the library's own files have asked for. */
 const own = ({ callFrame, selfSize, children }: Allocations): number =>
-	(/\/(demo|fur|page)\/\w+\.ts/.test(callFrame.url) ? selfSize : 0) +
+	(/\/(demo|fur|page)\/(\w+\/)*\w+\.ts/.test(callFrame.url) ? selfSize : 0) +
 	children.reduce((sum, child) => sum + own(child), 0);
 
-test('a moving light uploads neither texture nor buffer', async ({ page }) => {
-	await watchGpu(page);
-	await open(page, calm.replace('ui=0', 'ui=1'));
-	const before = await shot(page);
-	await page.evaluate(() => {
-		window.gpu.uploads = {};
-	});
-	for (let i = 0; i < 40; i++) {
-		await page.keyboard.press('Shift+ArrowRight');
-		await frames(page, 1);
-	}
-	expect(psnr(before, await shot(page))).toBeLessThan(40);
-	expect(await page.evaluate(() => window.gpu.uploads)).toEqual({});
-});
-
-test('steady frames under a moving light allocate nothing', async ({ page }) => {
-	test.setTimeout(200_000);
-	await shrinkPicture(page, 48, 36);
-	await hasten(page);
-	// From its sources, whose names tell the page's own allocations from three's.
-	await open(page, 'sources.html?model=torus-512&shells=2');
+/** Frames as the page draws them keep nothing, and throw nothing away. */
+async function expectNoBytes(page: Page): Promise<void> {
 	const devtools = await page.context().newCDPSession(page);
 	await devtools.send('HeapProfiler.enable');
 	const heap = async () => {
@@ -64,6 +50,38 @@ test('steady frames under a moving light allocate nothing', async ({ page }) => 
 	// Fewer bytes per frame than the smallest object; and in the page's own files a few fractions, no more.
 	expect(kept, 'bytes kept per frame').toBeLessThan(40);
 	expect(thrown, 'bytes thrown away per frame').toBeLessThan(1000);
+}
+
+test('a moving light uploads neither texture nor buffer', async ({ page }) => {
+	await watchGpu(page);
+	await open(page, calm.replace('ui=0', 'ui=1'));
+	const before = await shot(page);
+	await page.evaluate(() => {
+		window.gpu.uploads = {};
+	});
+	for (let i = 0; i < 40; i++) {
+		await page.keyboard.press('Shift+ArrowRight');
+		await frames(page, 1);
+	}
+	expect(psnr(before, await shot(page))).toBeLessThan(40);
+	expect(await page.evaluate(() => window.gpu.uploads)).toEqual({});
+});
+
+test('steady frames under a moving light allocate nothing', async ({ page }) => {
+	test.setTimeout(200_000);
+	await shrinkPicture(page, 48, 36);
+	await hasten(page);
+	// From its sources, whose names tell the page's own allocations from three's.
+	await open(page, 'sources.html?model=torus-512&shells=2');
+	await expectNoBytes(page);
+});
+
+test('frames of fur in the wind allocate nothing', async ({ page }) => {
+	test.setTimeout(200_000);
+	await hasten(page);
+	await openModule(page, site, served('tests/browser/breeze.ts'));
+	await page.evaluate((url) => loaded.blow(url), served('public/models/torus-512/model.gltf'));
+	await expectNoBytes(page);
 });
 
 test('the light does not jump after a hidden tab', async ({ page }) => {

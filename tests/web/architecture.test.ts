@@ -40,7 +40,7 @@ const floors = [
 	['level'],
 	['instances'],
 	// The room of what moves.
-	['spring', 'drive', 'Turn', 'TexelPass', 'Stopwatch'],
+	['spring', 'drive', 'options', 'Turn', 'TexelPass', 'Stopwatch'],
 	['solver', 'roots', 'Wind', 'Carriage', 'Strokes'],
 	['CpuSprings', 'GpuSprings'],
 	['FurMotion'],

@@ -1,7 +1,7 @@
 import { type BufferGeometry, Euler, Float32BufferAttribute, SphereGeometry, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
 import { FurMotion } from '../../web/fur/motion/FurMotion.ts';
-import { type Body, bodyOf, load, swingOf } from './bodies.ts';
+import { type Body, bodyOf, load, swingOf } from './furs.ts';
 
 const RADIUS = 1;
 

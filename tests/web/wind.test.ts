@@ -1,7 +1,8 @@
 import { BufferGeometry, Float32BufferAttribute, SphereGeometry, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
-import { FurMotion, type MotionOptions } from '../../web/fur/motion/FurMotion.ts';
-import { type Body, bodyOf, swingOf } from './bodies.ts';
+import { FurMotion } from '../../web/fur/motion/FurMotion.ts';
+import type { MotionOptions } from '../../web/fur/motion/options.ts';
+import { type Body, bodyOf, swingOf } from './furs.ts';
 
 /** A ball of long fur, or a lawn of hairs that point up. */
 const ball = () => bodyOf(new SphereGeometry(1, 24, 16), 0.1);

@@ -39,11 +39,6 @@ export class Living {
 		return wettest > wetness + step || dirtiest > dirt + step;
 	}
 
-	/** Where the hairs are moved, and how many milliseconds that took the last time; undefined where nothing moves. */
-	get motion(): FurMotion | undefined {
-		return this.#motion;
-	}
-
 	/** Fetches what the fur is like when it is wet and dirty; where that fails, says why and takes it out of the view. */
 	async load(view: View): Promise<void> {
 		try {
@@ -57,7 +52,7 @@ export class Living {
 	/** Has wind, wetness, dirt and turntable be as the view says. Each is made when it is first needed. */
 	style({ wind: [strength, direction] = [0, 0], wet = 0, dirt = 0, turn, crowd = 1 }: View): void {
 		const alone = crowd <= 1;
-		if (!alone) this.sway.reset();
+		if (!alone) this.#stand();
 		this.sway.turning = Boolean(turn) && alone && !this.#calm;
 		if (strength > 0 || this.#motion) this.#blow(strength, MathUtils.degToRad(direction));
 		if (wet > 0 || dirt > 0 || this.#weather) this.#wet(wet, dirt);
@@ -117,9 +112,14 @@ export class Living {
 	/** As baked, and at rest. */
 	reset(): void {
 		this.clean();
-		this.sway.reset();
-		this.#stage.place(this.sway.offset, 0);
+		this.#stand();
 		this.#motion?.reset();
+	}
+
+	/** Has the body in its place at once. */
+	#stand(): void {
+		this.sway.reset();
+		this.#stage.place(this.sway.offset, this.sway.yaw);
 	}
 
 	/**

@@ -115,8 +115,10 @@ export async function availableOutfits(view: View, menu: readonly MenuEntry[], w
 	try {
 		return await outfitsOf(view, menu, wearer);
 	} catch (error) {
-		const name = view.preset ?? words.methods.eigen;
-		notice(words.presetNotShown(words.titles[name] ?? name, (error as Error).message), 'error');
+		const eigen = view.method === 'eigen' || view.split?.method === 'eigen';
+		const name = view.preset ?? (eigen ? words.methods.eigen : undefined);
+		const { message } = error as Error;
+		notice(name ? words.presetNotShown(words.titles[name] ?? name, message) : words.statesNotShown(message), 'error');
 		Object.assign(view, { preset: undefined, method: undefined, split: undefined, wet: undefined, dirt: undefined });
 		return outfitsOf(view, menu, { ...wearer, soiled: false });
 	}

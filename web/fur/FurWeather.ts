@@ -232,7 +232,8 @@ export class FurWeather {
 		];
 		for (let i = 0; i < count; i++) {
 			const distance = away(i) / reach;
-			if (distance >= 1) continue;
+			// Nor where the brush has no size.
+			if (!(distance < 1)) continue;
 			const alike =
 				(normal[3 * i] as number) * nx + (normal[3 * i + 1] as number) * ny + (normal[3 * i + 2] as number) * nz;
 			const facing = Math.min(Math.max((alike - ASIDE) / (FACING - ASIDE), 0), 1);

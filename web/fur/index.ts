@@ -42,7 +42,8 @@ export {
 	relight,
 	smoothFunctions,
 } from './moments.ts';
-export { FurMotion, type MotionOptions } from './motion/FurMotion.ts';
+export { FurMotion } from './motion/FurMotion.ts';
+export type { MotionOptions } from './motion/options.ts';
 export { type Spring, springOf } from './motion/spring.ts';
 export type { WindSettings } from './motion/Wind.ts';
 export type { FurTextures } from './PeltMaterial.ts';

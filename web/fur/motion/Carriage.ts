@@ -1,4 +1,4 @@
-import { Matrix4, type Object3D, type Sphere, Vector3 } from 'three';
+import { BufferAttribute, BufferGeometry, Matrix4, type Object3D, Sphere, Vector3 } from 'three';
 import type { Drive } from './drive.ts';
 import { Turn } from './Turn.ts';
 
@@ -24,8 +24,9 @@ const down = new Vector3(0, -1, 0);
 export class Carriage {
 	/** As the body is turned at the moment. */
 	readonly turn = new Turn();
+	/** Around the body, its mesh's units. */
+	readonly sphere: Sphere;
 	readonly #mesh: Object3D;
-	readonly #sphere: Sphere;
 	readonly #furLength: number;
 	readonly #fastest: number;
 	/** Of the pose that was baked, the mesh's axes. */
@@ -45,14 +46,16 @@ export class Carriage {
 
 	/**
 	 * @param mesh whose own placement is how it was baked
-	 * @param sphere around it, its own units
+	 * @param position of its vertices, three numbers each
 	 * @param furLength longest fur as it was baked, the mesh's own units
 	 * @param pace ω of the fur
 	 */
-	constructor(mesh: Object3D, sphere: Sphere, furLength: number, pace: number) {
+	constructor(mesh: Object3D, position: Float32Array, furLength: number, pace: number) {
 		this.#mesh = mesh;
 		this.#upright.copy(down).applyQuaternion(mesh.quaternion.clone().conjugate());
-		this.#sphere = sphere;
+		const points = new BufferGeometry().setAttribute('position', new BufferAttribute(position, 3));
+		points.computeBoundingSphere();
+		this.sphere = points.boundingSphere ?? new Sphere();
 		this.#furLength = furLength;
 		this.#fastest = FASTEST * pace;
 	}
@@ -65,21 +68,23 @@ export class Carriage {
 	 */
 	look(seconds: number): boolean {
 		this.#skin.fill(0);
-		const { matrixWorld } = this.#mesh;
-		this.#mesh.updateWorldMatrix(true, false);
 		this.#from.copy(this.#to);
-		// What is nowhere stays where it was.
-		if (!(Math.abs(matrixWorld.determinant()) > 0)) return false;
-		const moved = this.#placed && !this.#to.equals(matrixWorld);
-		this.#to.copy(matrixWorld);
+		this.#find();
+		const moved = this.#placed && !this.#to.equals(this.#from);
 		if (!this.#placed || (moved && !this.#measure(seconds))) this.place();
 		return moved;
 	}
 
+	/** What is nowhere, by a scale of zero say, stays where it was. */
+	#find(): void {
+		const { matrixWorld } = this.#mesh;
+		this.#mesh.updateWorldMatrix(true, false);
+		if (Math.abs(matrixWorld.determinant()) > 0) this.#to.copy(matrixWorld);
+	}
+
 	/** Where it is, it has always been. */
 	place(): void {
-		this.#mesh.updateWorldMatrix(true, false);
-		this.#to.copy(this.#mesh.matrixWorld);
+		this.#find();
 		this.#from.copy(this.#to);
 		this.#last.copy(this.#to);
 		this.turn.between(this.#to, this.#to);
@@ -97,14 +102,14 @@ export class Carriage {
 		for (let i = 0; i < 16; i++) this.#skin[i] = ((to[i] as number) - (from[i] as number)) / (seconds * unit);
 		const speed = this.#speed(this.#skin);
 		// Farther than through itself, or turned by more than a quarter.
-		if (!(speed * seconds * this.#furLength < 2 * this.#sphere.radius)) return false;
+		if (!(speed * seconds * this.#furLength < 2 * this.sphere.radius)) return false;
 		for (let i = 0; i < 16; i++) this.#skin[i] = (this.#skin[i] as number) / (1 + speed / this.#fastest);
 		return true;
 	}
 
 	/** How fast the body's centre goes, and what turns about it, lengths of the fur per second. */
 	#speed(velocity: Float64Array): number {
-		const { center, radius } = this.#sphere;
+		const { center, radius } = this.sphere;
 		let [travel, turn] = [0, 0];
 		for (let row = 0; row < 3; row++) {
 			const x = velocity[row] as number;

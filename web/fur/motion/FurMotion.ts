@@ -1,17 +1,10 @@
-import {
-	BufferAttribute,
-	BufferGeometry,
-	Matrix4,
-	Sphere,
-	type Texture,
-	type Vector3,
-	type WebGLRenderer,
-} from 'three';
+import { Matrix4, type Texture, type Vector3, type WebGLRenderer } from 'three';
 import type { Fur } from '../Fur.ts';
 import { Carriage } from './Carriage.ts';
 import { CpuSprings } from './CpuSprings.ts';
 import { calm } from './drive.ts';
 import { GpuSprings } from './GpuSprings.ts';
+import { completed, type MotionOptions } from './options.ts';
 import { type Roots, rootsOf } from './roots.ts';
 import { Stopwatch } from './Stopwatch.ts';
 import { Strokes } from './Strokes.ts';
@@ -28,26 +21,6 @@ const NOTHING = 1e-3;
 
 /** Gravities that count. */
 const MOST_GRAVITY = 100;
-
-/** What a FurMotion may be told. */
-export interface MotionOptions {
-	/** How fast the fur swings to and fro, Hz; 0.2 to 20. */
-	frequency?: number;
-	/** How soon it is still: ζ, share of the critical damping, 0.05 to 0.95. */
-	damping?: number;
-	/** How much hairs go along with their neighbours: 0 not at all, 1 as if they stuck together. */
-	coupling?: number;
-	/** Seconds in which a stroked lane loses all but 1/e. */
-	relaxation?: number;
-	/** {@inheritDoc FurMotion.gravity} */
-	gravity?: number;
-	/** Of the wind's gusts. */
-	seed?: number;
-	/** Whose GPU takes over what is too much for the CPU; without it nothing does. */
-	renderer?: WebGLRenderer;
-	/** Milliseconds by which the CPU's time is taken. */
-	clock?: () => number;
-}
 
 /**
  * Fur that moves: hairs are damped springs which gravity, wind, their body's motion and fingers pull at.
@@ -76,7 +49,6 @@ export class FurMotion {
 	readonly #strokes: Strokes;
 	readonly #stopwatch: Stopwatch;
 	readonly #drive = calm();
-	readonly #sphere: Sphere;
 	readonly #meshFromWorld = new Matrix4();
 	#solver: Solver;
 	/** Seconds since the end of the last sub-step. */
@@ -88,35 +60,22 @@ export class FurMotion {
 	/** Whether hairs are bent although they are still. */
 	#bent = false;
 	#asleep = true;
+	/** Whether CPU and GPU have been compared: a software renderer's GPU is the CPU, and slower. */
+	#compared = false;
 
 	/** @param body whose shells move, and whose axes its hairs move in; not one that `dress` made */
-	constructor(
-		body: Fur,
-		{
-			frequency = 2.4,
-			damping = 0.22,
-			coupling = 0.3,
-			relaxation = 1.6,
-			gravity = 1,
-			seed = 1,
-			renderer,
-			clock = () => performance.now(),
-		}: MotionOptions = {},
-	) {
-		checkRange('frequency', frequency, 0.2, 20);
-		checkRange('damping', damping, 0.05, 0.95);
-		checkRange('coupling', coupling, 0, 1);
-		checkRange('relaxation', relaxation, 0.01, 3600);
+	constructor(body: Fur, options: MotionOptions = {}) {
+		const { frequency, damping, coupling, relaxation, gravity, seed, clock } = completed(options);
 		const { shells, asset, follicles } = body;
 		this.#body = body;
-		this.#renderer = renderer;
+		this.#renderer = options.renderer;
 		this.gravity = gravity;
 		this.#roots = rootsOf(follicles, coupling);
 		this.#spring = springOf(frequency, damping);
 		this.wind = this.#wind = new Wind(seed);
 		this.#strokes = new Strokes(follicles, relaxation);
-		this.#sphere = sphereOf(follicles.position);
-		this.#carriage = new Carriage(shells, this.#sphere, asset.length / shells.scale.x, this.#spring.pace);
+		const furLength = asset.length / shells.scale.x;
+		this.#carriage = new Carriage(shells, follicles.position, furLength, this.#spring.pace);
 		this.#stopwatch = new Stopwatch(BUDGET, clock);
 		this.#solver = new CpuSprings(this.#roots, this.#spring, this.#strokes);
 	}
@@ -131,7 +90,10 @@ export class FurMotion {
 		return this.#asleep;
 	}
 
-	/** Which of them moves the hairs. It begins on the CPU, and the GPU takes over what takes too long there. */
+	/**
+	 * Which of them moves the hairs. It begins on the CPU; when that takes more than 2 ms a frame, the GPU is tried once, and
+	 * goes on if it takes less.
+	 */
 	get processor(): 'cpu' | 'gpu' {
 		return this.#solver instanceof GpuSprings ? 'gpu' : 'cpu';
 	}
@@ -148,9 +110,9 @@ export class FurMotion {
 		if (this.#driven(moved)) this.#wake();
 		if (this.#asleep) return false;
 		this.#stopwatch.start();
-		const stepped = this.#advance(Math.min(seconds, LONGEST));
+		const steps = this.#advance(Math.min(seconds, LONGEST));
 		this.#solver.show(this.#behind / STEP);
-		if (stepped && this.processor === 'cpu' && this.#stopwatch.stop()) this.#unburden();
+		if (steps > 0 && this.#renderer) this.#compare(this.#renderer, steps);
 		if (this.#unrest < NOTHING && this.#strokes.widest === 0) this.#sleep();
 		this.#body.swing = this.swing;
 		return true;
@@ -238,8 +200,9 @@ export class FurMotion {
 		if (!this.#bent) this.#solver.rest();
 	}
 
-	/** @returns whether there was a sub-step */
-	#advance(frame: number): boolean {
+	/** @returns how many sub-steps there were */
+	#advance(frame: number): number {
+		let steps = 0;
 		let left = frame;
 		let before = 0;
 		while (this.#behind + left >= STEP) {
@@ -254,17 +217,18 @@ export class FurMotion {
 			this.#solver.step(this.#drive);
 			this.#unrest *= this.#spring.decay;
 			before = now;
+			steps++;
 		}
 		this.#carriage.advance(left);
 		this.#behind += left;
 		this.#strokes.endFrame();
-		return before > 0;
+		return steps;
 	}
 
 	/** Writes what pulls in a sub-step. @param share of the frame at its end */
 	#pull(share: number, steady: boolean): void {
 		const drive = this.#drive;
-		const { center, radius } = this.#sphere;
+		const { center, radius } = this.#carriage.sphere;
 		this.#carriage.write(drive, share, this.#gravity);
 		this.#wind.write(drive, this.#carriage.turn, center, radius, steady);
 		drive.fade = this.#strokes.fade;
@@ -275,24 +239,22 @@ export class FurMotion {
 		return Math.ceil(Math.log(NOTHING / this.#spring.widest) / Math.log(this.#spring.decay));
 	}
 
-	/** The GPU goes on where the CPU was. */
-	#unburden(): void {
-		const [renderer, solver] = [this.#renderer, this.#solver];
-		if (!renderer || !(solver instanceof CpuSprings) || !GpuSprings.suits(renderer, this.#roots)) return;
-		this.#solver = new GpuSprings(renderer, this.#roots, this.#spring, this.#strokes, solver);
-		this.#solver.show(this.#behind / STEP);
-		solver.dispose();
+	/** Where the CPU takes too long, and the GPU less, the GPU goes on. @param steps of this frame */
+	#compare(renderer: WebGLRenderer, steps: number): void {
+		const solver = this.#solver;
+		if (this.#compared || !(solver instanceof CpuSprings)) return;
+		const time = this.#stopwatch.stop();
+		if (time === 0) return;
+		this.#compared = true;
+		if (!GpuSprings.suits(renderer, this.#roots)) return;
+		const other = new GpuSprings(renderer, this.#roots, this.#spring, this.#strokes, solver);
+		// What is compiled for it does not count.
+		other.rehearse(this.#drive, 1);
+		this.#stopwatch.start();
+		other.rehearse(this.#drive, steps);
+		const faster = this.#stopwatch.lap() < time;
+		other.show(this.#behind / STEP);
+		this.#solver = faster ? other : solver;
+		(faster ? solver : other).dispose();
 	}
-}
-
-function checkRange(name: string, value: number, least: number, most: number): void {
-	if (value >= least && value <= most) return;
-	throw new Error(`FurMotion/${name}: got ${value}, expected ${least} to ${most}`);
-}
-
-/** Around all follicles. */
-function sphereOf(position: Float32Array): Sphere {
-	const geometry = new BufferGeometry().setAttribute('position', new BufferAttribute(position, 3));
-	geometry.computeBoundingSphere();
-	return geometry.boundingSphere ?? new Sphere();
 }

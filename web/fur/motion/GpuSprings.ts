@@ -161,14 +161,21 @@ export class GpuSprings implements Solver {
 		this.swing.version++;
 	}
 
+	/** Makes sub-steps from the states as they were given, waits for them, and forgets them. */
+	rehearse(drive: Drive, steps: number): void {
+		for (let i = 0; i < steps; i++) this.step(drive);
+		this.show(1);
+		this.#renderer.readRenderTargetPixels(this.#shown, 0, 0, 1, 1, new Float32Array(4));
+		this.#read(...this.#given);
+	}
+
 	rest(): void {
-		const [before, after, velocities] = this.#given;
 		for (const texture of this.#given) {
 			(texture.image.data as Float32Array).fill(0);
 			texture.needsUpdate = true;
 		}
 		this.#lost = false;
-		this.#read(before, after, velocities);
+		this.#read(...this.#given);
 	}
 
 	dispose(): void {

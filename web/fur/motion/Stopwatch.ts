@@ -23,12 +23,18 @@ export class Stopwatch {
 		this.#started = this.#clock();
 	}
 
-	/** It has ended. @returns whether it takes too long, told once for many frames */
-	stop(): boolean {
-		this.#times[this.#count++] = this.#clock() - this.#started;
-		if (this.#count < FRAMES) return false;
+	/** It has ended. @returns milliseconds that it takes where that is too long, told once for many frames; else 0 */
+	stop(): number {
+		this.#times[this.#count++] = this.lap();
+		if (this.#count < FRAMES) return 0;
 		this.#count = 0;
 		this.#times.sort();
-		return (this.#times[FRAMES >> 1] as number) > this.#budget;
+		const median = this.#times[FRAMES >> 1] as number;
+		return median > this.#budget ? median : 0;
+	}
+
+	/** Milliseconds since it was started. */
+	lap(): number {
+		return this.#clock() - this.#started;
 	}
 }

@@ -8,6 +8,7 @@ import { FurPatch, tiled } from '../patch.ts';
 import { View, type WindowOptions } from '../view.ts';
 import { mixtureOf } from '../wet/mixture.ts';
 
+const PELT = 'pelt-fox';
 const TILES = 3;
 /** Of the mesh: the lights' moments vary little on a plane. */
 const CELLS = 6;
@@ -15,19 +16,23 @@ const CELLS = 6;
 const FIRST_WETNESS = 0.625;
 /** Dry, how glossy it is, and how much light comes through. */
 const LOOK = { gloss: 0.12, backlight: 2 };
+/** Three pictures are drawn at a time: each with fewer shells than look best. */
+const COARSE = 1.5;
 
 export const mount: Mount = async (place, lesson) => {
 	const words = lesson.words.wet;
-	const { fur: pelt } = await loadFurry('pelt-fox', lesson);
+	const { fur: pelt } = await loadFurry(PELT, lesson);
 	// What is drawn, and the states before and after it.
 	const patches = [0, 1, 2].map(() => new FurPatch(pelt, TILES, tiled(TILES, CELLS)));
 	const weathers = patches.map(({ fur, shells }) => {
 		Object.assign(shells.material, LOOK);
+		shells.coarseness = COARSE;
 		return new FurWeather(fur);
 	});
 	await Promise.all(patches.map(({ fur }) => fur.loadStates()));
 	const states = pelt.asset.pelts.filter(({ dirt }) => !dirt);
 	const wetnesses = states.map(({ wetness }) => wetness ?? 0);
+	if (wetnesses.length < 2) throw new Error(`models/${PELT}: got ${wetnesses.length} state, expected dry to soaked`);
 
 	const [main] = patches as [FurPatch];
 	const [weather, ...others] = weathers as [FurWeather, ...FurWeather[]];

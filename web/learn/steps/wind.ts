@@ -19,12 +19,15 @@ const TOUCHED = 0.7;
 const STROKE_STEPS = 16;
 /** To and fro: how far, tile widths; how often; seconds of all of it. */
 const [SHAKE, SHAKES, SHAKEN] = [0.25, 3, 1.2];
+/** In motion fewer shells than look best are enough. */
+const COARSE = 1.5;
 
 export const mount: Mount = async (place, lesson) => {
 	const words = lesson.words.wind;
 	const { fur } = await loadFurry('pelt-fox', lesson);
 	const patch = new FurPatch(fur, TILES, tiled(TILES, CELLS));
 	Object.assign(patch.shells.material, { gloss: 0.1, backlight: 2 });
+	patch.shells.coarseness = COARSE;
 	const motion = new FurMotion(patch.fur);
 	motion.wind.gusts = lesson.calm ? 0 : 1;
 
