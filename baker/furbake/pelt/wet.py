@@ -31,7 +31,7 @@ ALBEDO = 0.6 / 0.85
 SHADE = 0.55
 """Colour of soaked hairs over that of dry ones."""
 
-GLOSS, SHARPNESS = 2.5, 4.0
+GLOSS, SHARPNESS = 1.5, 4.0
 """Strength and exponent of the highlights of soaked hairs over those of dry ones: a film of water is smooth."""
 
 HEIGHTS = 33
