@@ -28,6 +28,7 @@ FLOORS = {
     "verify": {"asset", "pelt", "options", "bake", "pathtrace"},
     "compare": {"pelt", "options", "bake"},
     "trim": {"pelt", "options", "bake", "verify"},
+    "bend": {"pelt", "knobs", "options", "bake"},
     "lesson": {"asset", "pelt", "options", "identity", "bake"},
     "cli": {
         "asset",
@@ -43,6 +44,7 @@ FLOORS = {
         "pathtrace",
         "compare",
         "trim",
+        "bend",
         "lesson",
         "cli",
     },

@@ -221,11 +221,15 @@ BAD_COMMANDS = {
     ("compare", "cat"): "preset: got 'cat', expected one of",
     ("compare", "paper", "--lights", "3"): "lights: got 3, expected 8 to 1024",
     ("compare", "paper", "--size", "60"): "size: got 60, expected a power of two",
+    ("bend", "cat"): "preset: got 'cat', expected one of",
+    ("bend", "paper", "--tips", "0.9"): "tips: got 0.9, expected 0 to 0.8",
+    ("bend", "paper", "--azimuths", "0"): "azimuths: got 0, expected 1 to 64",
+    ("bend", "paper", "--size", "60"): "size: got 60, expected a power of two",
     ("inspect", "nope"): "nope: no such folder, expected a folder that furbake wrote",
     ("inspect", "folder"): "model.gltf: no such file or directory, expected JSON",
     ("validate", "nope"): "nope: no such folder, expected a folder that furbake wrote",
-    ("fry",): "command: got 'fry', expected bake, inspect, validate, presets, report, swatch, lesson, verify, compare",
-    (): "COMMAND: missing, expected furbake bake, inspect, validate, presets, report, swatch, lesson, verify, compare ",
+    ("fry",): "command: got 'fry', expected bake, inspect, validate, presets, report, swatch, lesson, verify, compare,",
+    (): "COMMAND: missing, expected furbake bake, inspect, validate, presets, report, swatch, lesson, verify, compare,",
 }
 
 

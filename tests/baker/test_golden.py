@@ -12,6 +12,7 @@ from furbake.asset.planes import Planes, read_png, unpack
 from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt
 from furbake.asset.validate import validate
+from furbake.bend import law, relit
 from furbake.pelt.basis import PTM, Basis
 from furbake.pelt.fit import relight
 from furbake.pelt.quantise import dequantise
@@ -56,3 +57,14 @@ def test_stored_bytes_of_the_fin_give_the_expected_light() -> None:
     np.testing.assert_allclose(light, expected[n >= 0], atol=1e-4)
     assert expected.max() > 1
     assert (fin.alpha[:, 0] == np.arange(255, 0, -32)).all()
+
+
+def test_stored_bytes_give_the_expected_light_of_bent_fur() -> None:
+    folder = GOLDEN / "ptm-6"
+    pelt = read_pelt(read_asset(folder))
+    given = json.loads((folder / "bent.json").read_text("utf-8"))
+    expected = np.fromfile(folder / "bent.f32", "<f4").reshape(-1, pelt.size, pelt.size)
+    lean = pelt.drift[-1] / pelt.height
+    for tip, light in zip(given["bends"], expected, strict=True):
+        found = relit(pelt, np.array([given["light"]]), np.array(tip), lean, law)
+        np.testing.assert_allclose(found[0, -1], light, atol=1e-4)

@@ -4,6 +4,9 @@ import { DirectionalLight, PerspectiveCamera, Scene, WebGLRenderer } from 'three
 import { FurMotion } from '../../web/fur/index.ts';
 import { loadFur } from '../../web/measure/studio.ts';
 
+/** Frames after which the other springs have their turn. */
+const TURN = 150;
+
 /** Draws fur in gusty wind from now on, its springs on the CPU and on the GPU in turn. */
 export async function blow(url: string): Promise<void> {
 	const renderer = new WebGLRenderer({ antialias: false });
@@ -17,15 +20,20 @@ export async function blow(url: string): Promise<void> {
 	const camera = new PerspectiveCamera(20, 48 / 36, 0.1, 100);
 	camera.position.set(0, 1, 8);
 	camera.lookAt(0, 0, 0);
-	// One's clock says that the CPU takes too long, every time it is asked.
-	let late = 0;
-	const motions = [new FurMotion(fur), new FurMotion(fur, { renderer, clock: () => (late += 1000) })];
+	// One's clock says that the CPU takes too long, and the GPU less.
+	let [late, asked] = [0, 0];
+	const clock = () => {
+		late += 1000 / ++asked;
+		return late;
+	};
+	const motions = [new FurMotion(fur), new FurMotion(fur, { renderer, clock })];
 	for (const { wind } of motions) Object.assign(wind, { strength: 0.5, gusts: 0.7 });
 	let count = 0;
 	const frame = () => {
 		requestAnimationFrame(frame);
-		for (const motion of motions) motion.update(1 / 60);
-		fur.swing = motions[count++ & 1]?.swing;
+		const motion = motions[Math.floor(count++ / TURN) % 2] as FurMotion;
+		motion.update(1 / 60);
+		fur.swing = motion.swing;
 		renderer.render(scene, camera);
 	};
 	frame();

@@ -1,6 +1,13 @@
 /** Runs inside the page: wet and dirty fur, on a golden asset and on a body that wears it. Answers to `weather.spec.ts`. */
 
-import { DirectionalLight, LoadingManager, PerspectiveCamera, type Texture, Vector3 } from 'three';
+import {
+	type CompressedArrayTexture,
+	DirectionalLight,
+	LoadingManager,
+	PerspectiveCamera,
+	type Texture,
+	Vector3,
+} from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { dress, type Fur, FurInstances, FurLoaderPlugin, FurWeather, furMethod } from '../../web/fur/index.ts';
 import { loadFur, Studio } from '../../web/measure/studio.ts';
@@ -57,7 +64,7 @@ class Wet {
 	}
 }
 
-const depthOf = (texture: Texture | undefined) => (texture?.image as { depth: number }).depth;
+const depthOf = (texture: Texture | undefined): number => (texture as CompressedArrayTexture).image.depth;
 
 const worst = (a: Float32Array, b: Float32Array) =>
 	a.reduce((most, value, i) => Math.max(most, Math.abs(value - (b[i] ?? Number.NaN))), 0);

@@ -12,7 +12,8 @@ dirt; `weather.f32` has, for each of these, the red part of radiance · 4π of e
 [weather, light, layer, row, column]. The skin is white, so that is L times the hairs' shade, or the mud's.
 
 `ptm-6` has fins, too: a quad on every edge and a side view of 16 × 8 random texels. `fin.f32` holds its L under the
-same 64 vectors taken in the fin's frame as (l·t, l·w, l·n): [light, row, column].
+same 64 vectors taken in the fin's frame as (l·t, l·w, l·n): [light, row, column]. `bent.f32` holds L of the top layer
+where hairs are bent by each of `BENDS` (tips along T and B, shares of the length) under one light: [bend, row, column].
 """
 
 from __future__ import annotations
@@ -36,6 +37,9 @@ from furbake.surface.shapes import builtin
 HERE = Path(__file__).parent
 LAYERS, SIZE = 4, 8
 BODY_RADIUS = 4.0
+TEXEL = 16 / 49  # a tip that moves so far moves the top layer by a texel
+BENDS = [[TEXEL, 0.0], [0.0, TEXEL], [-TEXEL, TEXEL], [2 * TEXEL, 0.0]]
+BENT_LIGHT = [0.48, 0.6, 0.64]
 VARIANTS = {"ptm-6": ("ptm", 6), "eigen-6": ("eigen", 6), "eigen-3": ("eigen", 3)}
 STATES = (
     State("moist", wetness=0.5, length=0.95, shade=0.8, gloss=1.5, sharpness=2.0),
@@ -71,6 +75,23 @@ def expected(pelt: Pelt, lights: np.ndarray) -> np.ndarray:
                 seen = np.array([*(light[:2] / np.hypot(*light[:2])), 0.0])
             out[n, k] = np.maximum(coefficients[k] @ phi(pelt.kind, pelt.matrix, seen) * fade, 0)
     return out
+
+
+def expected_bent(pelt: Pelt) -> np.ndarray:
+    """L of the top layer, (bends, N, N), by the law of `furbake bend`."""
+    texels = (pelt.scale * (pelt.codes.astype(float) - pelt.bias))[-1]
+    s = (LAYERS - 0.5) / LAYERS
+    lean_u, lean_v = pelt.drift[-1] / pelt.height
+    u, v, up = BENT_LIGHT
+    out = []
+    for x, y in BENDS:
+        square, along = x * x + y * y, u * x + v * y
+        rise = np.sqrt(1 - square)
+        way = np.array([u - (1 + s) / rise * up * x, v - (1 + s) / rise * up * y, up / rise])
+        factor = 1 - 0.5 * (x * lean_u + y * lean_v) + s * (square * (2.7 * up - 1.5) - 1.8 * along * up)
+        light = texels @ phi(pelt.kind, pelt.matrix, way / np.sqrt(way @ way))
+        out.append(np.maximum(light * max(factor, 0.1), 0))
+    return np.array(out)
 
 
 def expected_fin(fin: FinPelt, lights: np.ndarray) -> np.ndarray:
@@ -182,6 +203,8 @@ def main() -> None:
             pelt = replace(pelt, fin=golden_fin())
             fins = build_fins(surface, laid(charts, surface.normals), 1.0, 0.2)
             expected_fin(pelt.fin, lights).astype("<f4").tofile(folder / "fin.f32")
+            expected_bent(pelt).astype("<f4").tofile(folder / "bent.f32")
+            (folder / "bent.json").write_text(json.dumps({"bends": BENDS, "light": BENT_LIGHT}) + "\n", "utf-8")
         write_gltf(folder, surface, charts, fur, pelt, 0.5, fins)
         (folder / "lights.json").write_text(json.dumps(lights.tolist()) + "\n", "utf-8")
         expected(pelt, lights).astype("<f4").tofile(folder / "light.f32")

@@ -1,5 +1,6 @@
 import { BufferAttribute, BufferGeometry, Color, Mesh, MeshStandardMaterial } from 'three';
 import { describe, expect, it } from 'vitest';
+import { Follicles } from '../../web/fur/follicles.ts';
 import type { FurAsset, RGB } from '../../web/fur/format.ts';
 import { furCover, ShadedPiece, Skin } from '../../web/fur/skin.ts';
 
@@ -71,6 +72,47 @@ describe('a piece of the skin', () => {
 			[0.1, 0.2, 0.3, 0.5, 1, 1, 0.275, 0.6, 0.65].map((c) => expect.closeTo(c)),
 		);
 		expect(piece.material.vertexColors).toBe(true);
+	});
+});
+
+describe('the skin under wet fur', () => {
+	const places = [
+		[0, 0, 0],
+		[1, 0, 0],
+		[0, 1, 0],
+	];
+	const triangle = () =>
+		new BufferGeometry()
+			.setAttribute('position', attribute(3, places))
+			.setAttribute(
+				'normal',
+				attribute(3, [
+					[0, 0, 1],
+					[0, 0, 1],
+					[0, 0, 1],
+				]),
+			)
+			.setIndex([0, 1, 2]);
+	const fur = { ramp: { root: [1, 1, 1] } } as FurAsset;
+
+	it('is darker where that is wet, and as before when it has dried', () => {
+		const geometry = triangle();
+		const body = new Mesh(geometry, new MeshStandardMaterial({ color: new Color(1, 0.5, 1) }));
+		const skin = new Skin(body, [body], triangle());
+		const material = () => body.material as MeshStandardMaterial;
+		skin.cover(fur);
+		const dry = material().color.toArray();
+		const { version } = material();
+		skin.soak(fur, undefined);
+		expect(material().version).toBe(version);
+		skin.soak(fur, { follicles: Follicles.of(triangle()), at: (follicle) => [0, 0.5, 1][follicle] ?? Number.NaN });
+		expect(material().color.toArray()).toEqual([1, 0.5, 1]);
+		expect(material().vertexColors).toBe(true);
+		const red = Array.from({ length: 3 }, (_, v) => geometry.getAttribute('color').getX(v));
+		expect(red).toEqual([0.35, 0.35 * 0.75, 0.35 * 0.5].map((c) => expect.closeTo(c)));
+		skin.soak(fur, undefined);
+		expect(material().vertexColors).toBe(false);
+		expect(material().color.toArray()).toEqual(dry);
 	});
 });
 

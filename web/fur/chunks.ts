@@ -1,5 +1,6 @@
 /** Pieces of GLSL that several materials begin with. */
 
+import bent from './shaders/bent.glsl?raw';
 import body from './shaders/body.glsl?raw';
 import comb from './shaders/comb.glsl?raw';
 import density from './shaders/density.glsl?raw';
@@ -22,4 +23,13 @@ export const hairChunks = [body, follicle, comb, weather, weatherOut, trim, disp
 export const texelChunks = [trim, density, weather, weatherIn];
 
 /** How lamps light a point of the fur. */
-export const lampChunks = ['#include <common>', '#include <lights_pars_begin>', view, moments, trimmed, shadow, lamps];
+export const lampChunks = [
+	'#include <common>',
+	'#include <lights_pars_begin>',
+	view,
+	moments,
+	trimmed,
+	bent,
+	shadow,
+	lamps,
+];

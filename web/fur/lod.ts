@@ -33,6 +33,6 @@ export function cutFor(pixels: number): number {
  * @param distance from the camera, world units
  */
 export function pixelsPerUnit(camera: Camera, height: number, distance: number): number {
-	const [, , , , , scale = 1, , , , , , perspective = 0] = camera.projectionMatrix.elements;
-	return (0.5 * height * scale) / (perspective < 0 ? distance : 1);
+	const { elements } = camera.projectionMatrix;
+	return (0.5 * height * (elements[5] as number)) / ((elements[11] as number) < 0 ? distance : 1);
 }

@@ -5,7 +5,6 @@ import {
 	BufferAttribute,
 	BufferGeometry,
 	Color,
-	type InterleavedBufferAttribute,
 	type Mesh,
 	type MeshStandardMaterial,
 	type Object3D,
@@ -13,8 +12,6 @@ import {
 } from 'three';
 import type { Follicles } from './follicles.ts';
 import type { FurAsset } from './format.ts';
-
-type Attribute = BufferAttribute | InterleavedBufferAttribute;
 
 /** Fur shorter than this share of the longest begins to let the skin's own colour through. */
 const SHORT = 1 / 8;
@@ -57,6 +54,13 @@ export interface Wetness {
 	at(follicle: number): number;
 }
 
+/** Of every vertex its own colour, the cover, and what both make. */
+interface Vertices {
+	own: Float32Array;
+	cover: Float32Array;
+	shaded: BufferAttribute;
+}
+
 /** A piece of the skin, in a copy of its material that can be darkened where fur stands on it. */
 export class ShadedPiece {
 	readonly material: MeshStandardMaterial;
@@ -65,13 +69,12 @@ export class ShadedPiece {
 	/** Mean cover. */
 	readonly #covered: number;
 	readonly #piece: Mesh;
+	/** Whether its vertices have colours of their own. */
 	readonly #coloured: boolean;
-	/** Of every vertex where it is not all under fur, or where that is wet: its own colour, the cover, and what both make. */
-	#vertices:
-		| { own: Float32Array; cover: Float32Array; shaded: BufferAttribute; before: Attribute | undefined }
-		| undefined;
-	/** Whether these are there for the wetness alone. */
-	#forWetness = false;
+	/** Whether some of it is bare. */
+	readonly #bare: boolean;
+	/** Where some are bare, or were wet. */
+	#vertices: Vertices | undefined;
 	/** The follicle at each vertex. */
 	#follicle: ArrayLike<number> | undefined;
 
@@ -84,31 +87,21 @@ export class ShadedPiece {
 		this.#roughness = own.roughness;
 		this.#covered = cover ? cover.reduce((sum, share) => sum + share, 0) / cover.length : 1;
 		this.#coloured = own.vertexColors;
+		this.#bare = cover !== undefined;
 		if (cover) this.#colour(cover);
 		piece.material = this.material;
 	}
 
-	/** Gives each vertex a colour. */
+	/** Gives each vertex a colour; it keeps it, seen or not. */
 	#colour(cover: Float32Array): void {
 		const { geometry } = this.#piece;
-		const before = geometry.getAttribute('color');
-		const colours = Float32Array.from({ length: cover.length * 3 }, (_, i) =>
-			this.#coloured ? before.getComponent(Math.floor(i / 3), i % 3) : 1,
+		const before = this.#coloured ? geometry.getAttribute('color') : undefined;
+		const own = Float32Array.from(
+			{ length: cover.length * 3 },
+			(_, i) => before?.getComponent(Math.floor(i / 3), i % 3) ?? 1,
 		);
-		this.#vertices = { own: colours, cover, shaded: new BufferAttribute(colours.slice(), 3), before };
+		this.#vertices = { own, cover, shaded: new BufferAttribute(own.slice(), 3) };
 		geometry.setAttribute('color', this.#vertices.shaded);
-		this.material.vertexColors = true;
-		this.material.needsUpdate = true;
-	}
-
-	/** Takes the vertices' colours away again. */
-	#uncolour(): void {
-		const before = this.#vertices?.before;
-		if (before) this.#piece.geometry.setAttribute('color', before);
-		else this.#piece.geometry.deleteAttribute('color');
-		this.#vertices = undefined;
-		this.material.vertexColors = this.#coloured;
-		this.material.needsUpdate = true;
 	}
 
 	/**
@@ -116,23 +109,24 @@ export class ShadedPiece {
 	 * @param wetness of that fur, undefined: dry
 	 */
 	shade(fur: Color | undefined, wetness?: Wetness): void {
-		if (wetness && !this.#vertices) {
-			this.#forWetness = true;
-			this.#colour(new Float32Array(this.#piece.geometry.getAttribute('position').count).fill(1));
-			if (this.#own) this.material.color.copy(this.#own);
-		} else if (!wetness && this.#forWetness) {
-			this.#forWetness = false;
-			this.#uncolour();
-		}
 		// What lies below fur does not shine through it.
 		if (this.#roughness !== undefined)
 			this.material.roughness = this.#roughness + (fur ? (1 - this.#roughness) * this.#covered : 0);
 		const shade = fur ?? WHITE;
-		if (!this.#vertices) {
-			if (this.#own) this.material.color.copy(this.#own).multiply(shade);
-			return;
+		const each = this.#bare || wetness !== undefined;
+		if (each && !this.#vertices)
+			this.#colour(new Float32Array(this.#piece.geometry.getAttribute('position').count).fill(1));
+		const coloured = each || this.#coloured;
+		if (this.material.vertexColors !== coloured) {
+			this.material.vertexColors = coloured;
+			this.material.needsUpdate = true;
 		}
-		const { own, cover, shaded } = this.#vertices;
+		if (this.#own) this.material.color.copy(this.#own).multiply(each ? WHITE : shade);
+		if (this.#vertices) this.#paint(this.#vertices, each ? shade : WHITE, wetness);
+	}
+
+	#paint(vertices: Vertices, shade: Color, wetness: Wetness | undefined): void {
+		const { own, cover, shaded } = vertices;
 		const at = wetness && this.#follicles(wetness.follicles);
 		for (let v = 0; v < cover.length; v++) {
 			const wet = wetness && at ? 1 + (SOAKED - 1) * wetness.at(at[v] as number) : 1;

@@ -34,12 +34,16 @@ export async function measureMotion(
 	const renderer = new WebGLRenderer({ antialias: false });
 	const studio = new Studio(renderer, fur, width, height);
 	studio.wear(shells, fur.fins !== undefined);
-	// By a clock that says that the CPU takes too long, or without a renderer, one of them has all of it.
-	let late = 0;
+	// The CPU has all of it where there is no renderer, the GPU by a clock that says that the CPU takes longer.
+	let [late, asked] = [0, 0];
+	const clock = () => {
+		late += 1000 / ++asked;
+		return late;
+	};
 	const motions: Partial<Record<Mode, FurMotion>> = {
 		asleep: new FurMotion(fur),
 		cpu: new FurMotion(fur),
-		gpu: new FurMotion(fur, { renderer, clock: () => (late += 1000) }),
+		gpu: new FurMotion(fur, { renderer, clock }),
 	};
 	for (const mode of ['cpu', 'gpu'] as const) {
 		const motion = motions[mode] as FurMotion;

@@ -16,6 +16,10 @@ from furbake.asset.inspect import summary
 from furbake.asset.read import AssetError, read_asset
 from furbake.asset.validate import validate
 from furbake.bake import STAGES, bake
+from furbake.bend import Row as Bent
+from furbake.bend import bend
+from furbake.bend import check as check_bends
+from furbake.bend import markdown as bends_table
 from furbake.body import patch_figures
 from furbake.cli.progress import shown
 from furbake.compare import Row, compare, markdown
@@ -207,11 +211,7 @@ def run_verify(args: argparse.Namespace) -> int:
 
 def run_compare(args: argparse.Namespace) -> int:
     """Print a table of presets and bases, all measured anew."""
-    names = args.names or preset_names()
-    coats = [preset(name) for name in names]
-    if args.size is not None:
-        coats = [replace(options, size=args.size) for options in coats]
-        coats[0].check()
+    names, coats = _coats(args)
     rows: list[Row] = []
     with shown(names, args.quiet) as progress:
         for name, options in zip(names, coats, strict=True):
@@ -235,6 +235,29 @@ def run_trim(args: argparse.Namespace) -> int:
             progress(name, 1.0)
     print(trim_table(rows), end="")
     return 0
+
+
+def run_bend(args: argparse.Namespace) -> int:
+    """Print a table of presets and bends, all measured anew."""
+    check_bends(args.tips, args.azimuths)
+    names, coats = _coats(args)
+    rows: list[Bent] = []
+    with shown(names, args.quiet) as progress:
+        for name, options in zip(names, coats, strict=True):
+            rows += bend(options, args.tips, args.azimuths, partial(progress, name))
+            progress(name, 1.0)
+    print(bends_table(rows), end="")
+    return 0
+
+
+def _coats(args: argparse.Namespace) -> tuple[list[str], list[BakeOptions]]:
+    """Presets that are named, or all, at the size that is asked for."""
+    names = args.names or preset_names()
+    coats = [preset(name) for name in names]
+    if args.size is not None:
+        coats = [replace(options, size=args.size) for options in coats]
+        coats[0].check()
+    return names, coats
 
 
 def run_patches(args: argparse.Namespace) -> int:

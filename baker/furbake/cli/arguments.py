@@ -7,6 +7,7 @@ import re
 from importlib.metadata import version
 from typing import Any, NoReturn
 
+from furbake.bend import AZIMUTHS, TIPS
 from furbake.cli import actions
 from furbake.pelt.states import WETNESS
 from furbake.swatch import FROM_THE_SIDE
@@ -21,7 +22,7 @@ class UsageError(ValueError):
 class _Parser(argparse.ArgumentParser):
     """Says what is wrong in the words of all other errors, instead of printing usage."""
 
-    shape = "furbake bake, inspect, validate, presets, report, swatch, lesson, verify, compare, trim or patches"
+    shape = "furbake bake, inspect, validate, presets, report, swatch, lesson, verify, compare, trim, bend or patches"
 
     def error(self, message: str) -> NoReturn:
         if match := re.fullmatch(r"the following arguments are required: (.*)", message, re.DOTALL):
@@ -141,6 +142,18 @@ def parser() -> argparse.ArgumentParser:
     trim.add_argument("--lights", type=_lights, default=64, metavar="N", help="lights of the fit (default: 64)")
     trim.add_argument("--size", type=_whole, metavar="N", help="texels per side of a slab (default: the preset's)")
     trim.add_argument("--quiet", action="store_true", help="no progress")
+    bend = add("bend", actions.run_bend, "[NAME ...]", "table of how right the light on bent fur is, as Markdown")
+    bend.add_argument("names", metavar="NAME", nargs="*", type=_path, help="presets or .toml files (default: all)")
+    bend.add_argument(
+        "--tips", type=_number, nargs="+", default=list(TIPS), metavar="H",
+        help="how far tips are displaced, shares of the height (default: 0.3 0.5)",
+    )  # fmt: skip
+    bend.add_argument(
+        "--azimuths", type=_whole, default=AZIMUTHS, metavar="N",
+        help=f"in how many directions, the first along the lean (default: {AZIMUTHS})",
+    )  # fmt: skip
+    bend.add_argument("--size", type=_whole, metavar="N", help="texels per side of a slab (default: the preset's)")
+    bend.add_argument("--quiet", action="store_true", help="no progress")
     patches = add("patches", actions.run_patches, "MODEL ...", "table of how lapped patches cover models, as Markdown")
     patches.add_argument("models", metavar="MODEL", nargs="+", type=_path)
     patches.add_argument(

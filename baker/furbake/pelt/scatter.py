@@ -59,6 +59,7 @@ def scatter(
     *,
     albedo: float,
     skin: float,
+    aside: Array | None = None,
 ) -> Single:
     """M: light scattered at least twice, the last time to the eye straight above, (n, K, N, N), for n lights.
 
@@ -68,6 +69,7 @@ def scatter(
     reaching, caught : (n, K, N, N) share of each light that reaches a voxel's hairs unscattered, and that times sin θ
     floor : (n, N, N) irradiance of the skin by unscattered light
     albedo, skin : shares of the light that a hair and the skin scatter, the skin evenly
+    aside : as of `Volume`
 
     Lights from neighbouring directions come in much the same: the sources are written in as few of their principal
     components as `LOST` allows, and only those are scattered.
@@ -84,7 +86,7 @@ def scatter(
         flux=np.moveaxis(parts[:, layers:-1].reshape(-1, 3, layers, size, size), 0, 2),
         floor=parts[:, -1],
     )
-    medium = _Medium(sigma, slab, tangent, skin)
+    medium = _Medium(sigma, slab, tangent, skin, aside)
     escape = medium.escape()[:, None]
     arriving = Arriving(arriving.phi / escape, arriving.flux / escape, arriving.floor)
     scattered = np.moveaxis(medium.all_orders(arriving, albedo), 0, 1)
@@ -95,8 +97,9 @@ def scatter(
 class _Medium:
     """Periodic slabs of hair over a skin that reflects evenly, and the directions in which light crosses them."""
 
-    def __init__(self, sigma: Single, slab: float, tangent: Single, skin: float) -> None:
+    def __init__(self, sigma: Single, slab: float, tangent: Single, skin: float, aside: Array | None = None) -> None:
         self.sigma, self.slab, self.tangent, self.skin = sigma, slab, tangent, skin
+        self.aside = np.zeros((len(sigma), 2)) if aside is None else aside * sigma.shape[1]
         self.directions, self.solid_angles = hemisphere_rule()
 
     def escape(self) -> Single:
@@ -169,19 +172,17 @@ class _Medium:
         source += np.float32(4 / np.pi) * phi
         source *= share
         passes: Single = np.exp(self.sigma * width * np.float32(-self.slab / abs(way[2])))
-        # The light at x comes from x + shift in the slab before.
+        # The light at x comes from x + shift in the slab before; half of it at the skin and above all slabs.
         shift = -way[:2] / abs(way[2]) * self.slab * size
-        columns, rows = (_shift_matrix(part, size) for part in shift)
-        half_columns, half_rows = (_shift_matrix(part / 2, size) for part in shift)
         arriving = np.empty_like(source)
-        light = np.asarray(half_rows @ light @ half_columns.T)
-        order = range(layers) if way[2] > 0 else range(layers - 1, -1, -1)
-        for step, k in enumerate(order):
-            if step:
-                light = np.asarray(rows @ light @ columns.T)
+        upward = way[2] > 0
+        before = np.zeros(2) if upward else self.aside[-1]
+        for step, k in enumerate(range(layers) if upward else range(layers - 1, -1, -1)):
+            light = _shifted(light, shift * (1.0 if step else 0.5) + self.aside[k] - before)
+            before = self.aside[k]
             arriving[k] = light
             light = source[k] + (light - source[k]) * passes[k]
-        return arriving, np.asarray(half_rows @ light @ half_columns.T)
+        return arriving, _shifted(light, shift / 2 if upward else shift / 2 - before)
 
 
 def hemisphere_rule() -> tuple[Array, Array]:
@@ -196,6 +197,12 @@ def hemisphere_rule() -> tuple[Array, Array]:
     across = np.sqrt(1 - z * z)
     directions = np.stack([across * np.cos(azimuth), across * np.sin(azimuth), z], -1)
     return directions, np.repeat(weight, AZIMUTHS) * np.pi / AZIMUTHS
+
+
+def _shifted(light: Single, shift: Array) -> Single:
+    """Periodic fields (..., N, N) read at x + shift."""
+    columns, rows = (_shift_matrix(part, light.shape[-1]) for part in shift)
+    return np.asarray(rows @ light @ columns.T)
 
 
 def _shift_matrix(shift: float, size: int) -> Single:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from furbake.pelt.fibre import cylinder, sine
 from furbake.pelt.scatter import scatter
-from furbake.pelt.volume import Volume, average_down, doubled, pool
+from furbake.pelt.volume import Volume, average_down, doubled, pool, slab_means
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
@@ -65,11 +65,14 @@ class OpticalDepth:
     look-up is the mean over a voxel's square of a ray through constant voxels.
     """
 
-    def __init__(self, sigma: NDArray[np.floating], slab: float) -> None:
-        """sigma : (K, N, N) per tile width; slab : thickness of a slab, tile widths."""
+    def __init__(self, sigma: NDArray[np.floating], slab: float, aside: Array | None = None) -> None:
+        """sigma : (K, N, N) per tile width; slab : thickness of a slab, tile widths; aside : as of `Volume`."""
         self.layers, self.size, _ = sigma.shape
         self.slab = slab
         self.spectrum = scipy.fft.rfft2(np.asarray(sigma, np.float32))
+        self.back = None if aside is None else _moved(-aside, self.size)
+        if self.back is not None:
+            self.spectrum *= self.back.conj()
 
     def _segment(self, shift: Array, start: float, end: float) -> Single:
         """Weights, (N, N), of the stretch of ray between heights `start` and `end` (slabs above the voxel)."""
@@ -110,8 +113,18 @@ class OpticalDepth:
         return light[:2] / lz * self.slab * self.size, self.slab / lz
 
     def _in_space(self, spectrum: NDArray[np.complexfloating], path: float) -> Single:
+        if self.back is not None:
+            spectrum = spectrum * self.back
         depth: Single = np.maximum(scipy.fft.irfft2(spectrum, s=(self.size, self.size)) * np.float32(path), 0)
         return depth
+
+
+def _moved(aside: Array, size: int) -> NDArray[np.complexfloating]:
+    """What moves the spectra of K slabs aside by (K, 2) tile widths, (K, size, size / 2 + 1)."""
+    along = np.arange(size // 2 + 1)
+    across = np.fft.fftfreq(size, 1 / size)
+    turns = aside[:, 1, None, None] * across[:, None] + aside[:, 0, None, None] * along
+    return np.exp(-2j * np.pi * turns).astype(np.complex64)
 
 
 def passing(depth: Single) -> Single:
@@ -163,7 +176,11 @@ def sample(
     tangent[..., 2] += 1e-9  # upright where there is no hair
     tangent /= np.linalg.norm(tangent, axis=-1, keepdims=True)
     slab, sigma = fine.height / layers, beam.stored(beam.sigma)
-    multiple = scatter(sigma, slab, tangent, lights, caught, reaching, floor, albedo=albedo, skin=0.0 if flat else skin)
+    aside = None if fine.aside is None else slab_means(fine.aside, layers)
+    multiple = scatter(
+        sigma, slab, tangent, lights, caught, reaching, floor,
+        albedo=albedo, skin=0.0 if flat else skin, aside=aside,
+    )  # fmt: skip
     progress(1.0)
     return single + doubled(multiple)
 
@@ -173,6 +190,7 @@ class _Beam:
 
     def __init__(self, fine: Volume, layers: int, size: int, flat: bool) -> None:
         self.flat, self.layers, self.size, self.half, self.slab = flat, layers, size, size // 2, fine.slab
+        self.aside = fine.aside
         coverage = fine.coverage.astype(np.float32)
         clear = np.cumprod(1 - coverage[::-1], axis=0, dtype=np.float32)[::-1]
         above = np.concatenate([clear[1:], np.ones_like(clear[:1])])
@@ -192,7 +210,7 @@ class _Beam:
         through above.
         """
         width = sine(self.tangent, light)
-        depth = OpticalDepth(self.sigma * width, self.slab)
+        depth = OpticalDepth(self.sigma * width, self.slab, self.aside)
         rays = light[None] if self.flat else lamp_cone(light, float(number))
         passed = np.zeros_like(self.sigma)
         skin = np.zeros_like(self.sigma[0])

@@ -35,6 +35,7 @@ class Volume:
     tint, hue : (K, N, N) means over the hairs, 0..1
     drift : (K, 2) mean displacement of the hairs from their roots, tile widths
     height : tile widths
+    aside : (K, 2) how far a slab's voxels lie beside the skin's, tile widths; None: nowhere
     """
 
     sigma: Array
@@ -43,6 +44,7 @@ class Volume:
     hue: Array
     drift: Array
     height: float
+    aside: Array | None = None
 
     @property
     def slab(self) -> float:
@@ -61,13 +63,15 @@ def fine_shape(layers: int, size: int, height: float) -> tuple[int, int]:
     return layers * max(FINER, min(even, -(-FINE_SLABS // layers))), size * FINER
 
 
-def voxelise(strands: Strands, height: float, layers: int, size: int, opacity: float) -> Volume:
+def voxelise(
+    strands: Strands, height: float, layers: int, size: int, opacity: float, aside: Array | None = None
+) -> Volume:
     """Draw strands into `layers` slabs of `size` × `size` voxels.
 
     Each slab is cut by `PLANES` horizontal planes; where a hair crosses a plane, its cross-section (an ellipse, the
     longer the more the hair lies down) is drawn with an antialiased rim.
 
-    `opacity` is the optical depth of 1/16 of the height filled with hair.
+    `opacity` is the optical depth of 1/16 of the height filled with hair, `aside` as of `Volume`.
     """
     points, radius = strands.points, strands.radius
     low, high = points[:, :-1, 2], points[:, 1:, 2]
@@ -78,6 +82,7 @@ def voxelise(strands: Strands, height: float, layers: int, size: int, opacity: f
     weight = np.zeros((layers, size * size))
     sums = np.zeros((layers, 5, size * size))  # tangent x, y, z, tint, hue
     drift = np.zeros((layers, 3))
+    beside = np.zeros((layers, 2)) if aside is None else aside
 
     for plane in range(layers * PLANES):
         slab = plane // PLANES
@@ -86,7 +91,7 @@ def voxelise(strands: Strands, height: float, layers: int, size: int, opacity: f
         if not len(hair):
             continue
         t = (z - low[hair, segment]) / step[hair, segment, 2]
-        centre = points[hair, segment, :2] + t[:, None] * step[hair, segment, :2]
+        centre = points[hair, segment, :2] + t[:, None] * step[hair, segment, :2] - beside[slab]
         thick = radius[hair, segment] * (1 - t) + radius[hair, segment + 1] * t
         along = direction[hair, segment]
         along = along * np.where(along[:, 2:] < 0, -1.0, 1.0)
@@ -114,8 +119,9 @@ def voxelise(strands: Strands, height: float, layers: int, size: int, opacity: f
         tangent=tangent,
         tint=np.where(empty, strands.tint.mean(), means[:, 3]),
         hue=np.where(empty, strands.hue.mean(), means[:, 4]),
-        drift=drift[:, :2] / np.maximum(drift[:, 2:], 1e-12),
+        drift=drift[:, :2] / np.maximum(drift[:, 2:], 1e-12) + beside,
         height=height,
+        aside=aside,
     )
 
 
@@ -176,6 +182,11 @@ def average_down(fine: NDArray[Real], shares: NDArray[Real], size: int) -> NDArr
     return mean
 
 
+def slab_means(fine: Array, layers: int) -> Array:
+    """Means of two numbers per fine slab over the stored slabs, (K·f, 2) → (K, 2)."""
+    return np.asarray(fine.reshape(layers, -1, 2).mean(1))
+
+
 def coarsen(fine: Volume, layers: int, size: int) -> Volume:
     """The stored slabs from the fine ones: coverage is kept exactly, all else is weighted by what the eye sees."""
     shares = seen_from_above(fine.coverage, layers)
@@ -186,6 +197,7 @@ def coarsen(fine: Volume, layers: int, size: int) -> Volume:
         tangent=tangent / np.maximum(np.linalg.norm(tangent, axis=-1, keepdims=True), 1e-9),
         tint=average_down(fine.tint, shares, size),
         hue=average_down(fine.hue, shares, size),
-        drift=fine.drift.reshape(layers, -1, 2).mean(1),
+        drift=slab_means(fine.drift, layers),
         height=fine.height,
+        aside=None if fine.aside is None else slab_means(fine.aside, layers),
     )

@@ -45,14 +45,24 @@ vec3 skyIrradiance(vec3 normalVS) {
 	return irradiance;
 }
 
+// The frame bends with the hair: the smallest rotation that takes the normal onto the curve's tangent at s.
+mat3 bentVS(ShellPoint shell) {
+	vec3 along = normalize(vec3(2.0 * shell.s * shell.comb.xy, furRise(shell.comb)));
+	vec3 both = vec3(along.xy, along.z + 1.0);
+	mat3 bend = mat3(1.0) - outerProduct(both, both) / both.z;
+	bend[2] += 2.0 * along;
+	return shell.frameVS * bend;
+}
+
 // A lamp whose light on the hairs' mean direction is found per vertex.
-void addSoft(ShellPoint shell, vec3 normalVS, vec3 strand, IncidentLight light) {
+void addSoft(ShellPoint shell, mat3 frameVS, vec3 normalVS, vec3 strand, IncidentLight light) {
 	float share = lampShare(normalVS, light.direction, shell.s);
-	vSoft += light.color * (diffuse * share * kajiyaKayDiffuse(strand, light.direction * shell.frameVS));
+	vSoft += light.color * (diffuse * share * kajiyaKayDiffuse(strand, light.direction * frameVS));
 }
 
 // openness: to the sky, 0..1. shaded: whether the first lamp's shadows are found elsewhere.
 void passLocalLight(ShellPoint shell, float openness, bool shaded) {
+	mat3 frameVS = bentVS(shell);
 	vec3 strand = normalize(vec3(2.0 * shell.s * lean, 1.0));
 	vec3 normalVS = normalize(shell.turn * shell.normal);
 	vSoft = skyIrradiance(normalVS) * (skyDiffuse * openness * darkened(shell.s).y);
@@ -60,32 +70,32 @@ void passLocalLight(ShellPoint shell, float openness, bool shaded) {
 	vStrand = strand;
 #endif
 #ifdef HIGHLIGHT
-	vViewer = viewerVS(shell.pointVS) * shell.frameVS;
+	vViewer = viewerVS(shell.pointVS) * frameVS;
 #endif
 	IncidentLight light;
 #if LAMPS > 0
 	for (int i = 0; i < LAMPS; i++) {
 		getDirectionalLightInfo(directionalLights[i], light);
 		float share = shaded && i == 0 ? 1.0 : lampShare(normalVS, light.direction, shell.s);
-		vLamp[i] = vec4(light.direction * shell.frameVS, diffuse * share);
+		vLamp[i] = vec4(light.direction * frameVS, diffuse * share);
 	}
 #endif
 #if NUM_DIR_LIGHTS > LAMPS
 	for (int i = LAMPS; i < NUM_DIR_LIGHTS; i++) {
 		getDirectionalLightInfo(directionalLights[i], light);
-		addSoft(shell, normalVS, strand, light);
+		addSoft(shell, frameVS, normalVS, strand, light);
 	}
 #endif
 #if NUM_POINT_LIGHTS > 0
 	for (int i = 0; i < NUM_POINT_LIGHTS; i++) {
 		getPointLightInfo(pointLights[i], shell.pointVS, light);
-		addSoft(shell, normalVS, strand, light);
+		addSoft(shell, frameVS, normalVS, strand, light);
 	}
 #endif
 #if NUM_SPOT_LIGHTS > 0
 	for (int i = 0; i < NUM_SPOT_LIGHTS; i++) {
 		getSpotLightInfo(spotLights[i], shell.pointVS, light);
-		addSoft(shell, normalVS, strand, light);
+		addSoft(shell, frameVS, normalVS, strand, light);
 	}
 #endif
 }

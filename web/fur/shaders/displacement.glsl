@@ -14,10 +14,3 @@ vec3 furPoint(vec3 root, vec3 outward, vec3 comb, float lengthShare, float s) {
 #endif
 	return root + (furRise(comb) * outward + s * comb) * (furLength / furTrim * lengthShare * s);
 }
-
-// The frame of light bends with the hair: the smallest rotation that takes the normal onto the curve's tangent at s.
-mat3 furBend(vec3 outward, vec3 comb, float s) {
-	vec3 along = normalize(furRise(comb) * outward + 2.0 * s * comb);
-	vec3 both = outward + along;
-	return mat3(1.0) - outerProduct(both, both) / (1.0 + dot(outward, along)) + 2.0 * outerProduct(along, outward);
-}

@@ -46,7 +46,7 @@ void main() {
 #endif
 	if (vFade > 0.0) {
 		vec3 tip = position + n * (furLength * _fur.y);
-		passLight(FurPoint(turn * furBend(n, comb, s) * frame, pointVS, (bodyModel() * vec4(tip, 1.0)).xyz, s), _fur.z);
+		passLight(FurPoint(turn * frame, comb * frame, pointVS, (bodyModel() * vec4(tip, 1.0)).xyz, s), _fur.z);
 	} else {
 		passDarkness();
 	}

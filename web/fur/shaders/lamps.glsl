@@ -1,6 +1,5 @@
 // Light of lamps at a point of the fur: three's directional, point and spot lights, with their shadow maps.
 
-uniform vec2 lean; // mean displacement of the tips inside the tile, share of the length along (T, B)
 #ifdef GLOSS
 uniform float sharpness; // exponent of the white highlight; the coloured one's is a quarter of it
 #endif
@@ -22,11 +21,12 @@ struct Lamps {
 
 // Unit vector along the hairs.
 vec3 strandVS(FurPoint point) {
-#ifdef FIN
-	return point.frameVS[1];
-#else
-	return point.frameVS * normalize(vec3(2.0 * point.s * lean, 1.0));
+	vec3 along = 2.0 * point.s * point.comb;
+	along.UP = sqrt(max(1.0 - dot(point.comb, point.comb), 0.0));
+#ifndef FIN
+	along.xy += 2.0 * point.s * lean;
 #endif
+	return point.frameVS * normalize(along);
 }
 
 // Kajiya and Kay 1989 with the half vector; two lobes leaned to the tip and to the root (Marschner et al. 2003), since
@@ -50,10 +50,10 @@ vec2 highlights(vec3 strand, vec3 normalVS, vec3 light, vec3 viewer) {
 void addLamp(inout Lamps lamps, inout float power, FurPoint point, vec3 lightVS, vec3 irradiance) {
 	vec3 lightTS = lightVS * point.frameVS;
 	irradiance *= horizon(lightTS, point.s);
-	vec3 low, high;
+	vec3 low, high, bent = irradiance * bentLight(lightTS, point.comb, point.s);
 	basis(lightTS, low, high);
-	lamps.moments.low += outerProduct(irradiance, low);
-	lamps.moments.high += outerProduct(irradiance, high);
+	lamps.moments.low += outerProduct(bent, low);
+	lamps.moments.high += outerProduct(bent, high);
 #if defined(GLOSS) || defined(BACKLIGHT)
 	vec3 strand = strandVS(point), viewer = viewerVS(point.pointVS);
 	float share = dot(irradiance, vec3(0.2126, 0.7152, 0.0722));

@@ -11,6 +11,8 @@ in mat3 vFrame;
 in vec3 vPoint;
 in vec3 vTip;
 in float vS;
+in float vCombX;
+in float vCombY;
 #else
 in mat3 vLampLow;
 #ifdef TWO_PLANES
@@ -30,7 +32,9 @@ in float vPower;
 
 Lamps receivedLamps() {
 #ifdef LAMPS_PER_FRAGMENT
-	return lampsAt(FurPoint(vFrame, vPoint, vTip, vS));
+	vec3 comb = vec3(vCombX, 0.0, 0.0);
+	comb[3 - UPRIGHT] = vCombY;
+	return lampsAt(FurPoint(vFrame, comb, vPoint, vTip, vS));
 #else
 	Lamps lamps = DARKNESS;
 	lamps.moments.low = vLampLow;

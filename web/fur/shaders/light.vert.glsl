@@ -12,6 +12,8 @@ out mat3 vFrame;
 out vec3 vPoint;
 out vec3 vTip;
 out float vS;
+out float vCombX; // along the first axis of the frame
+out float vCombY; // along the other level one
 #else
 // Light moments of coefficients 0..2 (low) and 3..5 (high), a column each.
 out mat3 vLampLow;
@@ -41,6 +43,8 @@ void passLight(FurPoint point, float openness) {
 #endif
 #ifdef LAMPS_PER_FRAGMENT
 	vFrame = point.frameVS;
+	vCombX = point.comb.x;
+	vCombY = point.comb[3 - UPRIGHT];
 	vPoint = point.pointVS;
 	vTip = point.tipWS;
 	vS = point.s;
@@ -74,7 +78,7 @@ void passDarkness() {
 #ifdef LAMPS_PER_FRAGMENT
 	vFrame = mat3(1.0);
 	vPoint = vTip = vec3(0.0);
-	vS = 0.0;
+	vS = vCombX = vCombY = 0.0;
 #else
 	vLampLow = mat3(0.0);
 #ifdef TWO_PLANES

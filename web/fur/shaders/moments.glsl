@@ -20,7 +20,8 @@ struct Moments {
 
 // A point of the fur that is lit.
 struct FurPoint {
-	mat3 frameVS; // (T, B, N), bent with the hair; of a fin (along the edge, N, across it)
+	mat3 frameVS; // (T, B, N) of the skin; of a fin (along the edge, N, across it)
+	vec3 comb; // displacement of the tip in that frame, share of the length
 	vec3 pointVS;
 	vec3 tipWS; // the hair's end, where shadows of others are caught
 	float s; // 0 at the skin, 1 at the tip

@@ -36,7 +36,8 @@ struct ShellPoint {
 	float s; // 0 at the skin, 1 at the tip
 	vec3 normal; // of the skin, the mesh's own axes
 	mat3 turn; // the mesh's own axes → view space, without scale
-	mat3 frameVS; // (T, B, N), bent with the hair
+	mat3 frameVS; // (T, B, N)
+	vec3 comb; // displacement of the tip in that frame, share of the length
 	vec3 pointVS;
 };
 
@@ -96,7 +97,9 @@ ShellPoint shellPoint() {
 	point.normal = n;
 	point.turn = mat3(placement) / length(placement[0].xyz);
 	vec3 comb = furComb(_comb);
-	point.frameVS = point.turn * furBend(n, comb, point.s) * mat3(t, tangent.w * cross(n, t), n);
+	mat3 frame = mat3(t, tangent.w * cross(n, t), n);
+	point.frameVS = point.turn * frame;
+	point.comb = comb * frame;
 	point.pointVS = (placement * vec4(furPoint(position, n, comb, _fur.y, point.s), 1.0)).xyz;
 
 	// A shell between two slabs' middles shows its slab sheared by how far the hairs have drifted since, so that they run
