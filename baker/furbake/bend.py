@@ -1,23 +1,22 @@
 """Is the light right on bent fur? Stored texels under the shader's law for bent hairs, beside fresh samples of those.
 
-Hairs bend as shells do: what is at a height s, 0 at the skin and 1 at the tip, moves by d·H·s², and the whole sinks to
-c·H, c² = 1 − |d|². The fresh samples follow them: a slab's texels lie where the shader draws that slab. The fur keeps its
-density; the eye and the horizon stay the skin's.
+Hairs bend as shells do: what is at a height s, 0 at the skin and 1 at the tip, moves by d·H·s², and the whole sinks
+to c·H, c² = 1 − |d|². The fresh samples follow them: a slab's texels lie where the shader draws that slab. The fur
+keeps its density; the eye and the horizon stay the skin's.
 
 The law (`law`, and bent.glsl) for a lamp at l, with up = l·n, on fur that leans by m as it was baked:
 
 - Transmittance. Between s and the tip the hairs are sheared by (1 + s)·d on the whole and pressed together to c. Thin
-  hairs take from a ray what they took before from the ray that this makes of it, whatever its slant: texels are looked
-  up for the direction of (l − (1 + s)/c·up·d, up/c).
-- What the eye sees of it. Hairs that lie show their upper side. That has much of the light from above, which ran along
-  them before, and little of light from the side: s·|d|²·(2.7·up − 1.5); more if they lean away from it: −1.8·s·up·l·d. Fur
-  bent the way it leans covers its roots, the other way it opens: −0.5·d·m. The four numbers are least squares over all
-  seven presets at 32 texels a side; each preset's own are within a third of them and gain 0.01.
+  hairs take from a ray what they took before from the ray that this makes of it, whatever its slant: texels are
+  looked up for the direction of (l − (1 + s)/c·up·d, up/c).
+- What the eye sees of it. Hairs that lie show their upper side. That has much of the light from above, which ran
+  along them before, and little of light from the side: s·|d|²·(2.7·up − 1.5); more if they lean away from it:
+  −1.8·s·up·l·d. Fur bent the way it leans covers its roots, the other way it opens: −0.5·d·m. The four numbers are
+  least squares over all seven presets at 32 texels a side; each preset's own are much the same and gain 0.01.
 
-Mean ratio over all presets at 32 texels: light as if unbent 1.53, a frame that turns with the hairs (as it was) 1.97, the
-sheared direction alone 1.62, the law 1.22. What is left is most where hairs are bent against their lean; a gain that knew
-the truth of every slab and light would leave 0.92, as bent fur is easier to fit. Light of the sky needs no law: under an
-even one the unbent frame is 8 % off, a turned one 9 %, the law's factors 8 %.
+Mean ratio over all presets at 32 texels, bent along the lean, against it and across: light as if unbent 1.53, a frame
+that turns with the hairs 1.97, the sheared direction alone 1.62, the law 1.22. What is left is most where hairs are
+bent against their lean. The sky's light needs no law: under an even one the unbent frame is 8 % off, a turned one 9 %.
 """
 
 from __future__ import annotations

@@ -93,16 +93,17 @@ test("a fin's L equals numpy's in the frame of edge and normal, below the horizo
 	expect(alphas).toEqual(alphas.map((_, row) => expect.closeTo((0.9 * (255 - 32 * row)) / 255, 4)));
 });
 
-test('combed hairs move along T and B, and their light is numpy\'s', async ({ page }) => {
+test('combed hairs move along T and B, lit as numpy says', async ({ page }) => {
 	await openStage(page);
 	const { bends, light: lamp } = JSON.parse(await readFile(`${repository}${golden}/bent.json`, 'utf8'));
 	const expected = await readFloats(`${golden}/bent.f32`);
-	for (const [i, [right, up, length]] of [
+	const cases = [
 		[1, 0, 1],
 		[0, 1, 1],
 		[-1, 1, 1],
 		[1, 0, 0.5], // hairs half as long, combed twice as far
-	].entries()) {
+	] as const;
+	for (const [i, [right, up, length]] of cases.entries()) {
 		const attributes = { _comb: bends[i], _fur: [1, length, 1, 0] };
 		const drawn = await page.evaluate(([url, a, l]) => stage.vertices(url, 3, a, { lamp: l }), [
 			served(`${golden}/model.gltf`),

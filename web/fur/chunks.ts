@@ -24,12 +24,6 @@ export const texelChunks = [trim, density, weather, weatherIn];
 
 /** How lamps light a point of the fur. */
 export const lampChunks = [
-	'#include <common>',
-	'#include <lights_pars_begin>',
-	view,
-	moments,
-	trimmed,
-	bent,
-	shadow,
-	lamps,
+	...['#include <common>', '#include <lights_pars_begin>'],
+	...[view, moments, trimmed, bent, shadow, lamps],
 ];

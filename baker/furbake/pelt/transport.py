@@ -124,7 +124,7 @@ def _moved(aside: Array, size: int) -> NDArray[np.complexfloating]:
     along = np.arange(size // 2 + 1)
     across = np.fft.fftfreq(size, 1 / size)
     turns = aside[:, 1, None, None] * across[:, None] + aside[:, 0, None, None] * along
-    return np.exp(-2j * np.pi * turns).astype(np.complex64)
+    return np.asarray(np.exp(-2j * np.pi * turns), np.complex64)
 
 
 def passing(depth: Single) -> Single:
