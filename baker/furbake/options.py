@@ -120,10 +120,9 @@ class BakeOptions:
                 "length: got length, tile and height, expected at most two of them (length = height × tile)"
             )
         known = list(WETNESS)
-        if self.states[:1] != ("dry",) or len({*self.states} & {*known}) < len(self.states):
-            raise OptionError(
-                f"states: got {','.join(self.states)}, expected dry..wet, or dry and some of {', '.join(known[1:])}"
-            )
+        if self.states[:1] != ("dry",) or self.states != tuple(name for name in known if name in self.states):
+            expected = f"dry..wet, or dry and then some of {', '.join(known[1:])}"
+            raise OptionError(f"states: got {','.join(self.states)}, expected {expected}")
         if self.dirt and self.coefficients < 4:
             raise OptionError("dirt: got 3 coefficients, which leave no room for the share of mud, expected 4 to 6")
         hairs = self.coat.guard.count + self.coat.under.count

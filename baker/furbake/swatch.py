@@ -63,19 +63,26 @@ def render(
     size: int = 512,
     shells_per_slab: int = SHELLS_PER_SLAB,
     scene: Scene = PAGE,
+    state: str | None = None,
 ) -> Bytes:
     """The pelt of a baked folder, (size, size, 3) sRGB bytes.
 
     light : towards the lamp in the tile's frame (u, v, normal), of any length
     tiles : repeats of the tile along a side, 1 to 16
     size : of the picture, pixels, 16 to 4096
+    state : name of one of its states, the first by default
 
     Raises AssetError, or OptionError for an argument out of range.
     """
     asset = read_asset(folder)
+    names = [pelt["name"] for pelt in asset.fur["pelts"]]
+    if state is not None and state not in names:
+        raise OptionError(f"state: got {state!r}, expected one of {', '.join(names)}")
+    pelt = read_pelt(asset, 0 if state is None else names.index(state))
     return picture(
-        read_pelt(asset),
+        pelt,
         light,
+        hairs=read_pelt(asset) if pelt.state.mud else None,
         tiles=tiles,
         size=size,
         shells_per_slab=shells_per_slab,
@@ -85,10 +92,17 @@ def render(
 
 
 def save(
-    folder: Path, out: Path, light: Direction = FROM_THE_SIDE, *, tiles: int = 3, size: int = 512, scene: Scene = PAGE
+    folder: Path,
+    out: Path,
+    light: Direction = FROM_THE_SIDE,
+    *,
+    tiles: int = 3,
+    size: int = 512,
+    scene: Scene = PAGE,
+    state: str | None = None,
 ) -> None:
     """Write `render` as a PNG. Raises AssetError, OptionError or PlaneError."""
-    write_png(out, render(folder, light, tiles=tiles, size=size, scene=scene), srgb=True)
+    write_png(out, render(folder, light, tiles=tiles, size=size, scene=scene, state=state), srgb=True)
 
 
 def picture(
@@ -100,9 +114,14 @@ def picture(
     shells_per_slab: int = SHELLS_PER_SLAB,
     scene: Scene = PAGE,
     skin: RGB = (1.0, 1.0, 1.0),
+    hairs: Pelt | None = None,
 ) -> Bytes:
-    """A pelt that need not be in a folder; otherwise as `render`. skin : linear, multiplies the fur's colours."""
-    (image,) = pictures(pelt, [light], tiles=tiles, size=size, shells_per_slab=shells_per_slab, scene=scene, skin=skin)
+    """A pelt that need not be in a folder; otherwise as `render`.
+
+    skin : linear, multiplies the fur's colours; hairs : of a dirty pelt, the clean one that has its hairs' colours
+    """
+    look = {"tiles": tiles, "size": size, "shells_per_slab": shells_per_slab}
+    (image,) = pictures(pelt, [light], **look, scene=scene, skin=skin, hairs=hairs)
     return image
 
 
@@ -115,6 +134,7 @@ def pictures(
     shells_per_slab: int = SHELLS_PER_SLAB,
     scene: Scene = PAGE,
     skin: RGB = (1.0, 1.0, 1.0),
+    hairs: Pelt | None = None,
 ) -> list[Bytes]:
     """As `picture`, under several lights, which costs little more than one."""
     _within("tiles", tiles, 1, 16)
@@ -122,7 +142,7 @@ def pictures(
     _within("shells_per_slab", shells_per_slab, 1, 8)
     directions = np.stack([unit(light) for light in lights])
     found = []
-    for tile in radiance(pelt, directions, -(-size // tiles), shells_per_slab, scene, skin):
+    for tile in radiance(pelt, directions, -(-size // tiles), shells_per_slab, scene, skin, hairs):
         whole = np.tile(srgb_bytes(neutral(tile)), (tiles, tiles, 1))
         found.append(np.ascontiguousarray(whole[:size, :size][::-1]))
     return found
@@ -135,6 +155,7 @@ def radiance(
     shells_per_slab: int = SHELLS_PER_SLAB,
     scene: Scene = PAGE,
     skin: RGB = (1.0, 1.0, 1.0),
+    hairs: Pelt | None = None,
 ) -> Array:
     """One tile seen from straight above under each of n lights, row 0 at v = 0: (n, pixels, pixels, 3) linear.
 
@@ -142,12 +163,14 @@ def radiance(
     """
     basis = Basis(pelt.kind, pelt.degree, pelt.matrix)
     coefficients = dequantise(pelt.codes, pelt.scale, pelt.bias)
-    colours = None if pelt.colour is None else from_srgb(pelt.colour)
+    hairs = hairs or pelt
+    colours = None if hairs.colour is None else from_srgb(hairs.colour)
+    mud = None if pelt.state.mud is None else np.array(pelt.state.mud)
     sky_moments = pelt.environment @ sky_harmonics(scene)
     count = pelt.layers * shells_per_slab
     heights = (np.arange(count) + 0.5) / count
     shear = drift_at(heights, pelt.drift) - np.repeat(pelt.drift, shells_per_slab, axis=0)
-    base, lamp = np.array(skin), np.array(scene.lamp)
+    base, lamp = pelt.state.shade * np.array(skin), np.array(scene.lamp)
     root, tip = np.array(pelt.ramp.root), np.array(pelt.ramp.tip)
 
     def lit(at: Array, s: float) -> Iterator[Array]:
@@ -162,11 +185,13 @@ def radiance(
     images: Array = np.stack([SKIN * base * root * light for light in lit(bare, 0.0)])
     for i, s in enumerate(heights):
         k = i // shells_per_slab
-        pigments = pelt.tint[k, ..., None] / 255.0 if colours is None else colours[k]
-        layer = np.concatenate([coefficients[k], pelt.alpha[k, ..., None] / 255.0, pigments], axis=-1)
-        at = resample(layer, pixels, (shear[i, 0], shear[i, 1]))
-        a, alpha, pigment = np.split(at, [pelt.coefficients, pelt.coefficients + 1], axis=-1)
+        pigments = hairs.tint[k, ..., None] / 255.0 if colours is None else colours[k]
+        cover, share = (part[k, ..., None] / 255.0 for part in (pelt.alpha, pelt.tint))
+        at = resample(np.concatenate([coefficients[k], cover, share, pigments], -1), pixels, (shear[i, 0], shear[i, 1]))
+        a, alpha, share, pigment = np.split(at, np.cumsum([pelt.coefficients, 1, 1]), axis=-1)
         colour = base * pigment * (1.0 if colours is not None else root + (tip - root) * s**pelt.ramp.power)
+        if mud is not None:
+            colour = colour + share * (mud - colour)
         opacity = 1 - (1 - np.minimum(alpha, 0.996)) ** (1 / shells_per_slab)
         for n, light in enumerate(lit(a, float(s))):
             images[n] += opacity * (colour * light - images[n])

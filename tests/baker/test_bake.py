@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -9,14 +10,19 @@ import numpy as np
 import pytest
 
 from furbake import BakeOptions, bake, validate
+from furbake.asset.gltf import STATE
+from furbake.asset.inspect import summary
 from furbake.asset.planes import Planes, read_png, unpack
 from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt
 from furbake.bake import STAGES
+from furbake.options import OptionError
 from furbake.pelt.basis import Basis
 from furbake.pelt.fill import SOLID
 from furbake.pelt.fit import Judge, relight
 from furbake.pelt.quantise import dequantise, from_signed_bytes
+from furbake.pelt.states import WETNESS
+from furbake.pelt.states import chosen as states_of
 
 SMALL = replace(BakeOptions(), layers=6, size=32, lights=32)
 
@@ -120,3 +126,89 @@ def test_fins_can_be_left_out_and_creases_have_none(tmp_path: Path, write_obj: A
         assert "fins" not in result.record["asset"]
         assert not list(result.folder.glob("fin*"))
         assert validate(result.folder) == []
+
+
+@pytest.fixture(scope="module")
+def living(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """All states of a small fur."""
+    folder = tmp_path_factory.mktemp("living") / "out"
+    options = replace(SMALL, size=16, lights=16, states=tuple(WETNESS), dirt=True)
+    bake("plane:1x1", folder, options)
+    return folder
+
+
+def test_states_share_their_numbers_and_differ_in_their_texels(living: Path) -> None:
+    assert validate(living) == []
+    asset = read_asset(living)
+    assert asset.fur["version"] == "1.1"
+    pelts = [read_pelt(asset, i) for i in range(6)]
+    for pelt, state in zip(pelts, states_of(tuple(WETNESS), True), strict=True):
+        assert (pelt.state.name, pelt.state.mud) == (state.name, state.mud)
+        for name in STATE:
+            assert getattr(pelt.state, name) == pytest.approx(getattr(state, name), rel=1e-6)
+    dry = pelts[0]
+    for pelt in pelts[1:]:
+        np.testing.assert_array_equal(pelt.scale, dry.scale)
+        np.testing.assert_array_equal(pelt.bias, dry.bias)
+        assert (pelt.codes != dry.codes).mean() > 0.3
+        assert pelt.height == pytest.approx(dry.height * pelt.state.length)
+        assert pelt.fin is not None
+        assert dry.fin is not None
+        assert pelt.fin.codes.shape == dry.fin.codes.shape
+        np.testing.assert_array_equal(pelt.fin.scale, dry.fin.scale)
+        assert (pelt.fin.codes != dry.fin.codes).any()
+    assert [pelt.colour is None for pelt in pelts] == [False] * 5 + [True]
+    seen = [1 - np.prod(1 - pelt.alpha / 255, axis=0) for pelt in pelts]
+    cover = [float(image.mean()) for image in seen]
+    assert cover[4] < cover[0] - 0.01  # skin between the clumps
+    assert cover[5] > cover[0]
+
+
+def test_record_has_every_state(living: Path) -> None:
+    record = read_asset(living).record
+    assert [state["name"] for state in record["states"]] == [*WETNESS, "dirty"]
+    assert [(state["wetness"], state["dirt"]) for state in record["states"]][-2:] == [(1.0, 0.0), (0.0, 1.0)]
+    assert record["states"][0]["fit"] == record["fit"]
+    for state in record["states"]:
+        assert state["fit"]["psnr"] > 15
+        assert state["fit"]["psnr_quantisation"] > 40
+        assert state["fit"]["fin"]["r2"] > 0.3
+    assert summary(read_asset(living))["states"].keys() == {*WETNESS, "dirty"}
+    assert BakeOptions.from_record(record["options"]).states == tuple(WETNESS)
+
+
+def test_dry_fur_is_the_same_hairs_with_and_without_states(living: Path, tmp_path: Path) -> None:
+    alone = bake("plane:1x1", tmp_path / "out", replace(SMALL, size=16, lights=16)).record
+    assert "states" not in alone
+    assert not {"states", "dirt"} & set(alone["options"])
+    one, other = (read_pelt(read_asset(folder)) for folder in (tmp_path / "out", living))
+    np.testing.assert_array_equal(one.alpha, other.alpha)
+    np.testing.assert_array_equal(one.tint, other.tint)
+    assert read_asset(tmp_path / "out").fur["version"] == "1.0"
+    assert one.state == other.state
+    light = [dequantise(pelt.codes, pelt.scale, pelt.bias)[one.alpha > 25] for pelt in (one, other)]
+    assert np.percentile(np.abs(light[0] - light[1]), 99) < 2 * other.scale.max()
+
+
+def test_eigen_states_share_their_curves(tmp_path: Path) -> None:
+    options = replace(SMALL, size=8, lights=16, basis="eigen", coefficients=4, states=("dry", "soaked"), fins=False)
+    bake("plane:1x1", tmp_path / "out", options)
+    asset = read_asset(tmp_path / "out")
+    assert [pelt["name"] for pelt in asset.fur["pelts"]] == ["dry", "soaked"]
+    np.testing.assert_array_equal(read_pelt(asset, 0).matrix, read_pelt(asset, 1).matrix)
+
+
+@pytest.mark.parametrize(
+    ("changes", "what"),
+    [
+        ({"states": ("soaked",)}, "states: got soaked, expected dry..wet, or dry and then some of damp"),
+        ({"states": ("dry", "dry")}, "states: got dry,dry"),
+        ({"states": ("dry", "soaked", "damp")}, "states: got dry,soaked,damp"),
+        ({"states": ("dry", "frozen")}, "states: got dry,frozen"),
+        ({"states": ()}, "states: got , expected"),
+        ({"dirt": True, "basis": "eigen", "coefficients": 3}, "dirt: got 3 coefficients"),
+    ],
+)
+def test_states_that_there_are_not(changes: dict[str, Any], what: str) -> None:
+    with pytest.raises(OptionError, match=re.escape(what)):
+        replace(SMALL, **changes).check()

@@ -125,6 +125,27 @@ def test_directions_make_a_bake_without_them_stale(run: Callable[..., Any]) -> N
     assert ["direction.png" in record["asset"]["bytes"] for record in told] == [False, True, True, False]
 
 
+def test_states_make_a_bake_without_them_stale(run: Callable[..., Any]) -> None:
+    more = ((), ("--states", "dry,soaked", "--dirt"), ("--states", "dry, soaked", "--dirt"), ())
+    told = [json.loads(run("bake", "plane", "-o", "out", *TINY, "--if-stale", "--json", *part).out) for part in more]
+    assert [record["baked"] for record in told] == [True, True, False, True]
+    assert ["states" in record for record in told] == [False, True, True, False]
+    assert [state["name"] for state in told[1]["states"]] == ["dry", "soaked", "dirty"]
+
+
+def test_states_by_their_range(run: Callable[..., Any]) -> None:
+    run("bake", "plane", "-o", "out", *TINY, "--states", "dry..wet", "--no-fins")
+    assert json.loads(run("inspect", "out", "--json").out)["fur"]["pelts"] == ["dry", "damp", "moist", "wet", "soaked"]
+
+
+def test_states_that_there_are_not(run: Callable[..., Any]) -> None:
+    done = run("bake", "plane", "-o", "out", *TINY, "--states", "dry..ice")
+    assert (done.status, listed()) == (2, [])
+    assert done.err == (
+        "furbake: error: states: got dry..ice, expected dry..wet, or dry and then some of damp, moist, wet, soaked\n"
+    )
+
+
 BAD_COMMANDS = {
     # Acceptance 9.
     (
@@ -228,8 +249,10 @@ BAD_COMMANDS = {
     ("inspect", "nope"): "nope: no such folder, expected a folder that furbake wrote",
     ("inspect", "folder"): "model.gltf: no such file or directory, expected JSON",
     ("validate", "nope"): "nope: no such folder, expected a folder that furbake wrote",
-    ("fry",): "command: got 'fry', expected bake, inspect, validate, presets, report, swatch, lesson, verify, compare,",
-    (): "COMMAND: missing, expected furbake bake, inspect, validate, presets, report, swatch, lesson, verify, compare,",
+    (
+        "fry",
+    ): "command: got 'fry', expected bake, inspect, validate, presets, report, swatch, lesson, verify, compare, states",
+    (): "COMMAND: missing, expected furbake bake, inspect, validate, presets, report, swatch, lesson, verify, ",
 }
 
 
@@ -376,6 +399,21 @@ def test_swatch_of_a_folder_and_of_a_preset(run: Callable[..., Any]) -> None:
     assert run("swatch", "-o", "b.png", *small, "--pixels", "32", "--quiet").status == 0
     assert listed() == ["a.png", "b.png", "out"]
     assert all(Path(name).read_bytes().startswith(b"\x89PNG") for name in ("a.png", "b.png"))
+
+
+def test_swatch_of_a_state(run: Callable[..., Any]) -> None:
+    run("bake", "plane", "-o", "out", *TINY, "--states", "dry,soaked", "--dirt", "--no-fins")
+    for state in ("dry", "soaked", "dirty"):
+        assert run("swatch", "out", "-o", f"{state}.png", "--state", state, "--pixels", "32").status == 0
+    assert len({Path(f"{state}.png").read_bytes() for state in ("dry", "soaked", "dirty")}) == 3
+    done = run("swatch", "out", "-o", "x.png", "--state", "damp")
+    assert done.err == "furbake: error: state: got 'damp', expected one of dry, soaked, dirty\n"
+    small = [f"--set={knob}" for knob in ("layers=4", "size=8", "lights=8")]
+    assert run("swatch", "-o", "b.png", *small, "--pixels", "32", "--state", "dirty", "--quiet").status == 0
+    assert run("swatch", "-o", "c.png", *small, "--state", "frozen").status == 2
+    assert not Path("c.png").exists()
+    assert run("report", "out", "--quiet").status == 0
+    assert Path("out/report.html").read_text().count(' fur">') >= 3
 
 
 def test_report(run: Callable[..., Any]) -> None:

@@ -16,9 +16,10 @@ from hypothesis import strategies as st
 from furbake.asset.buffer import numbers
 from furbake.asset.gltf import dump, write_gltf
 from furbake.asset.read import Asset, AssetError, inside, read_asset
+from furbake.asset.stored import read_pelt
 from furbake.asset.validate import schema
 from furbake.asset.vertices import grid, quantise_positions, quantise_weights, settle, signed
-from furbake.pelt.pelt import Pelt
+from furbake.pelt.pelt import Pelt, State
 from furbake.surface.charts import Charts
 from furbake.surface.coat import FARTHEST, VertexFur
 from furbake.surface.field import comb_field
@@ -299,3 +300,37 @@ def test_dump_keeps_flat_lists_in_one_line_and_refuses_nan() -> None:
 def test_uris_stay_in_the_folder(tmp_path: Path, uri: Any) -> None:
     with pytest.raises(AssetError, match="expected the name of a file in the folder"):
         inside(tmp_path, uri)
+
+
+def test_states_come_back(tmp_path: Path, make_pelt: Callable[..., Pelt]) -> None:
+    wet = State("wet", wetness=0.75, length=0.9, shade=0.6, gloss=2.0, sharpness=3.0)
+    dirty = State("dirty", dirt=1.0, mud=(0.1, 0.05, 0.02))
+    dry = make_pelt()
+    others = (
+        replace(make_pelt(seed=1), scale=dry.scale, bias=dry.bias, state=wet, height=0.9 * dry.height),
+        replace(make_pelt(seed=2, colour=False), scale=dry.scale, bias=dry.bias, state=dirty),
+    )
+    surface = builtin("plane")
+    write_gltf(tmp_path, surface, lapped(surface), VertexFur.even(len(surface.vertices)), dry, 0.1, states=others)
+    asset = read_asset(tmp_path)
+    assert asset.fur["version"] == "1.1"
+    assert asset.fur["mud"] == [0.1, 0.05, 0.02]
+    assert not list(schema().iter_errors(asset.fur))
+    uris = [image["uri"] for image in asset.document["images"]]
+    assert [uri for uri in uris if "plane" in uri] == [
+        "plane0.png", "plane1.png", "wet-plane0.png", "wet-plane1.png", "dirty-plane0.png", "dirty-plane1.png",
+    ]  # fmt: skip
+    for i, pelt in enumerate((dry, *others)):
+        back = read_pelt(asset, i)
+        np.testing.assert_array_equal(back.codes, pelt.codes)
+        np.testing.assert_array_equal(back.tint, pelt.tint)
+        assert back.state == pelt.state
+        assert back.height == pytest.approx(pelt.height, rel=1e-6)
+        assert (back.colour is None) == (pelt.colour is None)
+
+
+def test_one_state_is_written_as_ever(write: Callable[..., Any]) -> None:
+    asset, *_ = write("plane")
+    assert asset.fur["version"] == "1.0"
+    assert "mud" not in asset.fur
+    assert set(asset.fur["pelts"][0]) == {"name", "planes", "scale", "bias", "colour"}

@@ -205,6 +205,15 @@ def test_eigen_without_a_colour_plane(tmp_path: Path, count: int) -> None:
     assert "<dt>flat</dt><dd>yes</dd>" in html
 
 
+def test_states_are_shown_where_there_are_any(tmp_path: Path, baked: Path) -> None:
+    folder = tmp_path / "fur"
+    bake("plane:1x1", folder, small(size=8, lights=8, states=("dry", "soaked"), dirt=True, fins=False))
+    html = report.write(folder).read_text("utf-8")
+    assert "<h2>Its states</h2>" in html
+    assert [f'alt="{name} fur"' in html for name in ("dry", "soaked", "dirty")] == [True] * 3
+    assert "<h2>Its states</h2>" not in (baked / report.NAME).read_text("utf-8")
+
+
 def test_names_are_text_and_never_markup(copy: Path) -> None:
     def rename(record: Any) -> None:
         record["input"]["name"] = "<b onclick=x>&.glb"

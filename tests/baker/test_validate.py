@@ -253,3 +253,35 @@ def test_summary(good: Path) -> None:
     assert found["fins"]["attributes"] == ["POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "_EDGE"]
     assert 2 * 5120 < found["fins"]["faces"] < 2 * 7680
     assert found["files"]["model.bin"] == (good / "model.bin").stat().st_size
+
+
+@pytest.fixture(scope="module")
+def living(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("living") / "asset"
+    bake("plane:1x1", folder, BakeOptions(layers=4, size=8, lights=8, states=("dry", "soaked"), dirt=True))
+    return folder
+
+
+@pytest.mark.parametrize(
+    ("edit", "problem"),
+    [
+        (lambda pelts, fur: pelts[0].update(wetness=0.5), "pelts[0] is not dry and clean"),
+        (lambda pelts, fur: pelts[1].update(name="dry"), "names that differ"),
+        (lambda pelts, fur: fur.pop("mud"), "there is no mud"),
+        (lambda pelts, fur: pelts[1].update(wetness=0), "wetness 0, 0, expected one that rises"),
+        (lambda pelts, fur: pelts[2].update(wetness=0.5), "pelt dirty is wet and dirty"),
+        (lambda pelts, fur: pelts[1]["scale"].__setitem__(2, 9.0), "pelts[1].scale differs"),
+        (lambda pelts, fur: pelts[2]["fin"]["bias"].__setitem__(0, 9.0), "pelts[2].fin.bias differs"),
+        (lambda pelts, fur: pelts[1].update(wetness=1.5), "1.5 is greater than the maximum"),
+        (lambda pelts, fur: pelts[1].update(length=0), "0 is less than or equal to the minimum"),
+        (lambda pelts, fur: pelts[1].update(planes=pelts[1]["planes"][:1]), "pelts[1].planes has 1 rows"),
+        (lambda pelts, fur: fur.update(mud=[2, 0, 0]), "2 is greater than the maximum"),
+    ],
+)
+def test_states_that_cannot_be_mixed(living: Path, tmp_path: Path, edit: Any, problem: str) -> None:
+    assert validate(living) == []
+    folder = Path(shutil.copytree(living, tmp_path / "asset"))
+    document = json.loads((folder / "model.gltf").read_text())
+    edit(fur(document)["pelts"], fur(document))
+    (folder / "model.gltf").write_text(json.dumps(document))
+    assert any(problem in found for found in validate(folder)), validate(folder)

@@ -38,6 +38,13 @@ function apart(a: number[], b: number[]): number {
 	return a.reduce((sum, value, i) => sum + Math.abs(value - (b[i] ?? 0)), 0) / a.length / 3;
 }
 
+/** Does something by which a figure's first picture has to change. */
+async function changes(page: Page, name: string, what: string, change: () => Promise<void>, least: number) {
+	const before = await pixels(page, name);
+	await change();
+	await expect.poll(async () => apart(before, await pixels(page, name)), what).toBeGreaterThan(least);
+}
+
 /** Coefficients of a pelt seen from straight above, from its files. */
 function seenFromAbove(name: string): number[] {
 	const { layers, size, pelts } = json(`${name}/model.gltf`).extensions.FUR_ptm_shells;
@@ -133,6 +140,70 @@ test('the article’s figures have the brightness of their coefficients', async 
 	});
 	for (const swing of swings) await expect(figure(page, 'short')).toContainText(`± ${swing} %`);
 	expect(swings[1]).toBeLessThan((swings[0] ?? 0) * 0.7);
+});
+
+test('hair on a spring: the exact step is on the curve however long it is, Euler’s is not', async ({ page }) => {
+	await open(page, 'learn.html?still=1&lang=en#swing');
+	await show(page, 'spring');
+	const off = (way: string) =>
+		figure(page, 'spring')
+			.locator('.note')
+			.evaluate((note, name) => Number((note as HTMLElement).dataset[name]), way);
+	const tips = async () =>
+		((await figure(page, 'spring').locator('canvas').getAttribute('data-tips')) ?? '').split(',');
+	for (const step of ['1/60 s', '1/15 s', '1/2 s']) {
+		const slider = figure(page, 'spring').getByLabel('Time step');
+		while ((await slider.getAttribute('aria-valuetext')) !== step) await slider.press('ArrowRight');
+		expect(await off('exact'), step).toBeLessThan(1e-6);
+		expect(await off('euler'), step).toBeGreaterThan(0.3);
+	}
+	expect(await off('euler')).toBeGreaterThan(100);
+	// Nothing moves until it is asked for: pushed to the left, let go, and at rest in the breeze.
+	const frames = () => pixels(page, 'spring');
+	await frames();
+	const before = await tips();
+	await frames();
+	expect(await tips()).toEqual(before);
+	await figure(page, 'spring').locator('canvas').focus();
+	for (let i = 0; i < 10; i++) await page.keyboard.press('ArrowLeft');
+	const fromRest = async () => (await tips()).slice(0, 2).map((tip) => Math.abs(Number(tip) - 0.1));
+	await expect.poll(async () => Math.max(...(await fromRest()))).toBeLessThan(0.02);
+});
+
+test('fur bends to the wind, and keeps the lane of a hand', async ({ page }) => {
+	await open(page, 'learn.html?still=1&lang=en#swing');
+	await show(page, 'wind');
+	await changes(page, 'wind', 'no wind', () => figure(page, 'wind').getByRole('slider', { name: 'Wind' }).fill('0'), 1);
+	await changes(
+		page,
+		'wind',
+		'a stroke',
+		() => figure(page, 'wind').getByRole('button', { name: 'Stroke it' }).click(),
+		0.5,
+	);
+	const drag = async () => {
+		const canvas = figure(page, 'wind').locator('canvas');
+		await canvas.evaluate((element) => element.scrollIntoView({ block: 'end', behavior: 'instant' }));
+		const { x = 0, y = 0, width = 0, height = 0 } = (await canvas.boundingBox()) ?? {};
+		await page.mouse.move(x + 0.4 * width, y + 0.7 * height);
+		await page.mouse.down();
+		await page.mouse.move(x + 0.7 * width, y + 0.6 * height, { steps: 4 });
+		await page.mouse.up();
+	};
+	await changes(page, 'wind', 'a drag', drag, 0.3);
+});
+
+test('wet fur is darker than dry, and muddy fur has another colour', async ({ page }) => {
+	await open(page, 'learn.html?still=1&lang=en#wet');
+	await show(page, 'wet');
+	const set = (label: string, to: string) => () => figure(page, 'wet').getByRole('slider', { name: label }).fill(to);
+	const bright = async () => (await pixels(page, 'wet')).reduce((sum, value) => sum + value, 0);
+	await changes(page, 'wet', 'dry', set('Wetness', '0'), 1);
+	const dry = await bright();
+	await changes(page, 'wet', 'soaked', set('Wetness', '1'), 1);
+	expect(await bright()).toBeLessThan(0.95 * dry);
+	await expect(figure(page, 'wet')).toContainText('100 % soaked');
+	await changes(page, 'wet', 'muddy', set('Dirt', '1'), 0.5);
 });
 
 test('Table 1 is measured beside the article’s, and figures go on after it', async ({ page }) => {

@@ -18,7 +18,7 @@ const ready = (page: Page) => expect.poll(() => state(page)).toBe('ready');
 /** Nothing is cut off, and nothing lies over anything else. */
 async function expectRoom(page: Page): Promise<void> {
 	const boxes: Box[] = [];
-	for (const name of ['#top', '#hint', '#panel .lil-root', '#overlay', '#orbit']) {
+	for (const name of ['#top', '#hint', '#panel .lil-root', '#overlay', '#dock']) {
 		const box = await page.locator(name).boundingBox();
 		expect(box, name).not.toBeNull();
 		if (box) boxes.push({ name, ...box });

@@ -13,6 +13,8 @@ describe('a view and its address', () => {
 		{ preset: 'fox', method: 'eigen', split: { method: 'shadow-layers', share: 0.275 }, still: true, ui: true },
 		{ lights: 8, length: 0.35, density: 1.75, colour: ['0a0b0c', 'ffeedd'], lang: 'zh', still: false, ui: true },
 		{ split: { method: 'unlit', share: 0 }, fins: true, shells: 256, still: false, ui: true },
+		{ wind: [0.35, 270], wet: 0.5, dirt: 1, turn: true, still: true, ui: true },
+		{ wind: [0, 12.5], wet: 0, dirt: 0.01, turn: false, still: false, ui: true },
 		{ model: '../out/fox/', camera: [-179.9, 90, 0.01234], still: false, ui: false },
 	];
 
@@ -31,7 +33,7 @@ describe('a view and its address', () => {
 
 	it('are readable: the example of the documentation', () => {
 		const search =
-			'?model=bunny&preset=fox&method=eigen&split=lengyel,0.5&light=0.303,0.808,0.505&lights=3&camera=30,12,1&shells=48&fins=0&length=1.2&density=0.8&colour=33221a,e8b98a&env=sunset&crowd=5&still=1&ui=0&lang=zh';
+			'?model=bunny&preset=fox&method=eigen&split=lengyel,0.5&light=0.303,0.808,0.505&lights=3&camera=30,12,1&shells=48&fins=0&length=1.2&density=0.8&colour=33221a,e8b98a&env=sunset&crowd=5&wind=0.4,90&wet=0.75&dirt=0.3&turn=1&still=1&ui=0&lang=zh';
 		expect(formatAddress(parseAddress(search).view)).toBe(search);
 	});
 
@@ -52,6 +54,11 @@ describe('reading an address', () => {
 	it('wraps the azimuth', () => {
 		expect(parseAddress('?camera=370,0,1').view.camera).toEqual([10, 0, 1]);
 		expect(parseAddress('?camera=-190,0,1').view.camera).toEqual([170, 0, 1]);
+	});
+
+	it('wraps the direction of the wind', () => {
+		expect(parseAddress('?wind=.5,-90').view.wind).toEqual([0.5, 270]);
+		expect(parseAddress('?wind=1,725').view.wind).toEqual([1, 5]);
 	});
 
 	it.each([
@@ -105,6 +112,21 @@ describe('reading an address', () => {
 		'colour=112233',
 		'colour=11223,445566',
 		'colour=112233,445566,778899',
+		'wind=',
+		'wind=1',
+		'wind=1.1,90',
+		'wind=-0.1,90',
+		'wind=0.5,east',
+		'wind=0.5,90,1',
+		'wind=0.5,Infinity',
+		'wet=',
+		'wet=yes',
+		'wet=1.01',
+		'wet=-0.2',
+		'dirt=2',
+		'dirt=0.5,1',
+		'turn=2',
+		'turn=slow',
 		'lang=fr',
 		'fins=no',
 		'still=yes',

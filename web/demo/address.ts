@@ -1,7 +1,7 @@
 /**
  * The view as a link: what the page shows, and how it stands in the address.
  *
- *     ?model=bunny&preset=fox&method=ptm&split=lengyel,0.5&light=0.3,0.8,0.5&camera=30,12,1&still=1
+ *     ?model=bunny&preset=fox&method=ptm&split=lengyel,0.5&light=0.3,0.8,0.5&camera=30,12,1&wind=0.4,90&still=1
  *
  * - model: a name from models/models.json, or a path or address of a baked folder
  * - preset: the pelt that the model wears; without it the one that it was baked with
@@ -14,7 +14,10 @@
  * - length, density: of the hairs, in units of what was baked; colour=RRGGBB,RRGGBB: of root and tip, sRGB
  * - env: a place whose light falls on the model, or none: the page's own sky
  * - crowd: so many bodies of the model, on a meadow
- * - still=1: nothing moves by itself; ui=0: the picture alone; lang: the language, whatever the browser prefers
+ * - wind=STRENGTH,DIRECTION: 0 to 1, and where it blows to: degrees as of the camera's azimuth, 90 is to the right
+ * - wet, dirt: of the whole fur, 0 to 1; turn=1: the body turns as on a turntable
+ * - still=1: nothing moves by itself, and wind bends the fur without gusts
+ * - ui=0: the picture alone; lang: the language, whatever the browser prefers
  */
 
 import { isLanguage, type Language } from '../page/language.ts';
@@ -52,6 +55,12 @@ export interface View {
 	env?: EnvironmentName | 'none' | undefined;
 	/** 1..400 */
 	crowd?: number | undefined;
+	/** strength 0..1, and where it blows to: 0..360 degrees from the first camera's side by way of the right */
+	wind?: [strength: number, direction: number] | undefined;
+	/** of all of the fur, 0..1 */
+	wet?: number | undefined;
+	dirt?: number | undefined;
+	turn?: boolean | undefined;
 	still: boolean;
 	ui: boolean;
 	lang?: Language | undefined;
@@ -80,6 +89,9 @@ export type Expected =
 	| 'colour'
 	| 'env'
 	| 'crowd'
+	| 'wind'
+	| 'wet'
+	| 'dirt'
 	| 'lang';
 
 interface Parameter<Value> {
@@ -197,6 +209,17 @@ const parameters: { [Name in keyof View]-?: Parameter<NonNullable<View[Name]>> }
 	},
 	env: chosen('env', (text): text is EnvironmentName | 'none' => text === 'none' || isEnvironment(text)),
 	crowd: whole('crowd', 400),
+	wind: {
+		expected: 'wind',
+		read: (text) => {
+			const [strength = Number.NaN, direction = 0] = numbers(text, 2) ?? [];
+			return strength >= 0 && strength <= 1 ? [strength, ((direction % 360) + 360) % 360] : undefined;
+		},
+		write: ([strength, direction]) => `${short(strength, 2)},${short(direction, 1)}`,
+	},
+	wet: between('wet', 0, 1),
+	dirt: between('dirt', 0, 1),
+	turn: flag,
 	still: flag,
 	ui: flag,
 	lang: chosen('lang', isLanguage),

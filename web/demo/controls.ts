@@ -6,16 +6,19 @@ import { bakedColours, hasOwnColours } from './colours.ts';
 import type { Exhibit } from './exhibit.ts';
 import { type MenuEntry, offered, pelts } from './models.ts';
 import { notice } from './notice.ts';
-import { hasEigen, isRival } from './outfits.ts';
+import { hasEigen, isRival, statesFor } from './outfits.ts';
 import { type Menu, Panel, type Settings } from './panel.ts';
 import type { Picture } from './picture.ts';
 import { SplitLine } from './split.ts';
+import { Tools } from './tools.ts';
 import { words } from './words/index.ts';
 
 /** What stays when everything else is as at first. */
 const kept = ['model', 'still', 'ui', 'lang'] as const satisfies (keyof View)[];
 
 const middle = 0.5;
+/** Where the wind blows to until somebody says, degrees: to the right. */
+const right = 90;
 
 const menuOf = (entries: readonly MenuEntry[], value: (entry: MenuEntry) => string): Menu =>
 	entries.map((entry) => ({ value: value(entry), title: titleOf(entry, value(entry)) }));
@@ -24,6 +27,7 @@ const titleOf = (entry: MenuEntry, name: string) => words.titles[name] ?? entry.
 
 export class Controls {
 	readonly panel: Panel;
+	readonly tools = new Tools();
 	readonly #picture: Picture;
 	readonly #exhibit: Exhibit;
 	readonly #view: View;
@@ -70,6 +74,17 @@ export class Controls {
 			},
 			root: () => this.#mix(),
 			tip: () => this.#mix(),
+			wind: () => this.#blow(),
+			direction: () => this.#blow(),
+			wetness: (wet) => {
+				view.wet = wet || undefined;
+			},
+			dirt: (dirt) => {
+				view.dirt = dirt || undefined;
+			},
+			turntable: (turn) => {
+				view.turn = turn || undefined;
+			},
 		};
 		this.panel = new Panel(container, {
 			changed: (name, value) => {
@@ -81,6 +96,11 @@ export class Controls {
 			copy: () => void this.#copy(),
 			save: () => void this.#save(),
 			reset: () => void this.#reset(),
+			clean: () => {
+				view.wet = view.dirt = undefined;
+				exhibit.living.clean();
+				this.#restyle();
+			},
 			bakedColours: () => {
 				view.colour = undefined;
 				this.#restyle();
@@ -118,6 +138,12 @@ export class Controls {
 		this.#view.colour = [root.slice(1), tip.slice(1)];
 	}
 
+	/** Takes the wind from the panel. */
+	#blow(): void {
+		const { wind, direction } = this.panel.settings;
+		this.#view.wind = wind === 0 && direction === right ? undefined : [wind, direction];
+	}
+
 	/** Shows how things are. */
 	update(): void {
 		const { menu, shown, place, looks, entry } = this.#exhibit;
@@ -139,12 +165,27 @@ export class Controls {
 			...{ automatic: view.shells === undefined, shells: Math.round(view.shells ?? fur?.shells.shellCount ?? 1) },
 			...{ fins: view.fins ?? true, length: view.length ?? 1, density: view.density ?? 1 },
 			...{ root: `#${root}`, tip: `#${tip}` },
+			...{ wind: view.wind?.[0] ?? 0, direction: view.wind?.[1] ?? right },
+			...{ wetness: view.wet ?? 0, dirt: view.dirt ?? 0, turntable: view.turn ?? false },
 		};
+		const states = statesFor(view, entry, menu, looks.body);
 		this.panel.update(settings, {
 			fur: fur !== undefined,
 			fins: fur?.fins !== undefined && !(isRival(settings.method) && (!view.split || isRival(view.split.method))),
 			eigen: hasEigen(view, entry, menu),
 			root: fur !== undefined && !hasOwnColours(fur),
+			states,
+			calm: this.#picture.calm,
+		});
+		const alone = crowd === 1;
+		const brush = fur !== undefined && alone;
+		const { wet, dirt } = states;
+		this.tools.offer({
+			light: true,
+			stroke: brush,
+			rain: brush && wet,
+			mud: brush && dirt,
+			move: shown !== '' && alone,
 		});
 		const { split } = view;
 		const left = words.methods[settings.method];
@@ -169,8 +210,9 @@ export class Controls {
 
 	async #copy(): Promise<void> {
 		const { link } = this;
-		const { own } = this.#exhibit;
-		notice([(await copy(link)) ? words.copied : words.copyThis(link), ...(own ? [words.noLink] : [])].join('\n'));
+		const { own, living } = this.#exhibit;
+		const more = [...(own ? [words.noLink] : []), ...(living.marked ? [words.notInLink] : [])];
+		notice([(await copy(link)) ? words.copied : words.copyThis(link), ...more].join('\n'));
 	}
 
 	async #save(): Promise<void> {
@@ -191,6 +233,8 @@ export class Controls {
 			if (!(kept as readonly string[]).includes(name)) delete view[name];
 		camera.chosen = false;
 		stage.lamps = 1;
+		this.#exhibit.living.reset();
+		this.tools.choose('light');
 		await Promise.all([this.#exhibit.move('none'), this.#exhibit.dress()]);
 		this.#exhibit.aim();
 		this.update();

@@ -5,26 +5,30 @@ import { setState } from '../page/element.ts';
 import type { Triple, View } from './address.ts';
 import type { OwnModel } from './drop.ts';
 import { type EnvironmentName, loadEnvironment } from './environments.ts';
+import { Living } from './living.ts';
 import { Looks } from './looks.ts';
 import { textureBytes } from './memory.ts';
-import { firstView, folderOf, loadMenu, loadModel, type MenuEntry, type Model, offered, sourceAt } from './models.ts';
+import {
+	defaultLight,
+	firstView,
+	folderOf,
+	loadMenu,
+	loadModel,
+	type MenuEntry,
+	type Model,
+	offered,
+	sourceAt,
+} from './models.ts';
 import { notice, withdraw } from './notice.ts';
 import { adjust, availableOutfits } from './outfits.ts';
 import type { Picture } from './picture.ts';
+import { Play } from './play.ts';
 import type { Progress } from './progress.ts';
 import { en } from './words/drop.en.ts';
 import { zh } from './words/drop.zh.ts';
 import { language, words } from './words/index.ts';
 
 const ownWords = { en, zh }[language];
-
-/** From the side: light from the front is flat. */
-const defaultLight: Triple = [-0.82, 0.57, -0.02];
-const defaultCamera: Triple = [0, 8, 1];
-const crowdCamera: Triple = [10, 13, 0.5];
-
-/** Of the first shells over what looks best. */
-const coarse = 4;
 
 export class Exhibit {
 	menu: MenuEntry[] = [];
@@ -34,6 +38,8 @@ export class Exhibit {
 	own = false;
 	place: EnvironmentName | 'none' = 'none';
 	readonly looks = new Looks();
+	readonly living: Living;
+	readonly play: Play;
 	/** Called when something else is on show, or what was asked for has failed. */
 	changed: () => void = () => {};
 	readonly #picture: Picture;
@@ -43,6 +49,8 @@ export class Exhibit {
 	#latestModel = 0;
 	#latestPlace = 0;
 	#latestOutfit = 0;
+	/** Whether what is worn has been asked for its states. */
+	#soiled = false;
 	/** Where the lamp of the place stands. */
 	#sun: Triple | undefined;
 
@@ -51,6 +59,9 @@ export class Exhibit {
 		this.#picture = picture;
 		this.#view = view;
 		this.#progress = progress;
+		this.living = new Living(this.looks, picture.stage, picture.calm);
+		this.play = new Play(picture, this.looks, this.living);
+		picture.live = (elapsed) => this.play.step(elapsed);
 		picture.before = () => this.looks.before(picture.stage.renderer, picture.stage.key);
 	}
 
@@ -83,7 +94,7 @@ export class Exhibit {
 		this.changed();
 		const { camera } = this.#picture;
 		if (view.camera) camera.chosen = true;
-		camera.orbit = view.camera ?? defaultCamera;
+		camera.orbit = view.camera ?? firstView(undefined).camera;
 		await this.change(async () => {
 			await Promise.all([this.#enter(view.env ?? 'none'), this.#show(name)]);
 		});
@@ -111,12 +122,14 @@ export class Exhibit {
 		return this.change(() => this.#dress());
 	}
 
-	/** Has the hairs of what it wears be as the view says. */
+	/** Has the hairs of what it wears be as the view says, and the weather. */
 	style(): void {
 		const { stage } = this.#picture;
 		this.looks.style(this.#view);
+		this.living.style(this.#view);
 		stage.gather(this.#view.crowd ?? 1, this.looks.fur);
 		this.#picture.request();
+		if (!this.#soiled && this.play.soils(this.#view)) void this.dress();
 	}
 
 	/** Light and camera as they are before anybody has touched them. */
@@ -150,12 +163,11 @@ export class Exhibit {
 	}
 
 	#firstLight(): Triple {
-		return this.#sun ?? firstView(this.entry).light ?? defaultLight;
+		return this.#sun ?? firstView(this.entry).light;
 	}
 
 	#firstCamera(): Triple {
-		const { crowd = 1 } = this.#view;
-		return (crowd > 1 ? crowdCamera : firstView(this.entry).camera) ?? defaultCamera;
+		return firstView(this.entry, this.#view.crowd).camera;
 	}
 
 	/** Where that fails, says why and stays. */
@@ -216,6 +228,7 @@ export class Exhibit {
 		} catch (error) {
 			if (late()) return;
 			if (early) {
+				this.living.strip();
 				this.looks.strip();
 				stage.show(undefined);
 				this.shown = '';
@@ -233,6 +246,7 @@ export class Exhibit {
 		const picture = this.#picture;
 		const { stage, camera, light, lamp } = picture;
 		const first = stage.model === undefined;
+		this.living.strip();
 		this.looks.strip();
 		stage.show(model);
 		stage.gather(1, undefined);
@@ -253,34 +267,29 @@ export class Exhibit {
 		const view = this.#view;
 		if (!model?.fur) return this.changed();
 		for (const reason of adjust(view, this.entry, this.menu)) notice(reason);
-		const outfits = await availableOutfits(view, this.entry, this.menu, stage.limits);
-		if (turn !== this.#latestOutfit || model !== stage.model) return;
+		const soiled = this.play.soils(view);
+		this.#soiled = soiled;
+		const wearer = { body: model.fur, soiled, entry: this.entry, limits: stage.limits };
+		const outfits = await availableOutfits(view, this.menu, wearer);
+		const late = () => turn !== this.#latestOutfit || model !== stage.model;
+		if (late()) return;
 		this.looks.wear(model.fur, outfits, view);
 		this.looks.cut(view.split?.share ?? 1);
+		if (soiled) {
+			await this.living.load(view);
+			if (late()) return;
+		}
+		this.living.style(view);
 		stage.gather(view.crowd ?? 1, this.looks.fur);
 		stage.lamps = view.lights ?? 1;
 		picture.aim();
 		picture.fit();
 		this.#weigh();
-		if (early) await this.#grow();
+		if (early) {
+			await this.looks.grow(view, () => picture.drawn());
+			performance.mark('furbake:fur');
+		}
 		this.changed();
-	}
-
-	/** A first frame with few shells and no fins: programs that a frame does without need not be there for it. */
-	async #grow(): Promise<void> {
-		const { shells, fins } = this.looks.fur ?? {};
-		if (!shells || this.#view.shells) return this.#mark();
-		shells.coarseness = coarse;
-		if (fins) fins.visible = false;
-		await this.#mark();
-		shells.coarseness = 1;
-		// As the view says by now.
-		this.looks.style(this.#view);
-	}
-
-	async #mark(): Promise<void> {
-		await this.#picture.drawn();
-		performance.mark('furbake:fur');
 	}
 
 	/** Tells the figures what the textures weigh. */

@@ -1,4 +1,4 @@
-/** When the picture is drawn: one frame after the other while anything moves, none at rest. */
+/** When the picture is drawn: one frame after the other while anything moves, few while it changes slowly, none at rest. */
 
 export interface FrameHandlers {
 	/**
@@ -6,9 +6,9 @@ export interface FrameHandlers {
 	 *
 	 * @param interval milliseconds since the frame before; NaN after a rest
 	 * @param now milliseconds
-	 * @returns whether anything still moves
+	 * @returns milliseconds until the next frame is wanted: 0 at once, Infinity for none
 	 */
-	draw(interval: number, now: number): boolean;
+	draw(interval: number, now: number): number;
 	/** Called when no further frame comes by itself. */
 	rest(): void;
 }
@@ -18,11 +18,15 @@ export class Frames {
 	/** Time of the frame before; NaN at rest. */
 	#before = Number.NaN;
 	#requested = false;
+	#timer: ReturnType<typeof setTimeout> | undefined;
 	readonly #frame = (now: number) => {
 		this.#requested = false;
+		clearTimeout(this.#timer);
 		const interval = now - this.#before;
 		this.#before = now;
-		if (this.#handlers.draw(interval, now)) this.request();
+		const wait = this.#handlers.draw(interval, now);
+		if (wait === 0) this.request();
+		else if (Number.isFinite(wait)) this.#timer = setTimeout(() => this.request(), wait);
 		else if (!this.#requested) {
 			this.#before = Number.NaN;
 			this.#handlers.rest();

@@ -1,4 +1,4 @@
-/** The keyboard: arrows move the light (or turn the camera), + and - come nearer and go away. */
+/** The keyboard: arrows move the light (or the camera, a brush, the body), + and - come nearer and go away. */
 
 const step = 4; // degrees; with Shift three times as far
 
@@ -18,9 +18,9 @@ const arrows: Record<string, [number, number]> = {
 
 export function listenToKeys({ arrow, zoom }: KeyHandlers): void {
 	addEventListener('keydown', (event) => {
-		// The panel's fields and the line of the split have their own use for these keys.
+		// The panel's fields, the tools and the line of the split have their own use for these keys.
 		if (event.ctrlKey || event.altKey || event.metaKey) return;
-		if (event.target instanceof Element && event.target.closest('#panel, [role=slider]')) return;
+		if (event.target instanceof Element && event.target.closest('#panel, [role=slider], [role=radiogroup]')) return;
 		const way = arrows[event.key];
 		const size = event.shiftKey ? 3 * step : step;
 		if (way) arrow(way[0] * size, way[1] * size);

@@ -1,7 +1,7 @@
 /** How the body on show looks: which pelt it wears, by which method that is lit; one way, or two side by side. */
 
-import type { DirectionalLight, WebGLRenderer } from 'three';
-import { dress, type Fur, type FurMethod, furMethod, type MethodName } from '../fur/index.ts';
+import type { DirectionalLight, Texture, WebGLRenderer } from 'three';
+import { dress, type Fur, type FurMethod, type FurWeather, furMethod, type MethodName } from '../fur/index.ts';
 import type { View } from './address.ts';
 import { paint } from './colours.ts';
 
@@ -22,6 +22,8 @@ interface Look {
 	rival: FurMethod | undefined;
 }
 
+/** Of the first shells over what looks best. */
+const coarse = 4;
 /** Strength of most furs' highlights, and of light from behind. */
 const usualGloss = 0.5;
 const backlight = 6;
@@ -31,6 +33,17 @@ export class Looks {
 	/** What has been put on this body so far, by pelt: the body itself, and what lies over it. */
 	readonly #worn = new Map<Fur, Fur[]>();
 	#looks: Look[] = [];
+
+	/** What all of them stand on: the model's own fur, worn or not. */
+	get body(): Fur | undefined {
+		return this.#body;
+	}
+
+	/** What states some of the furs on show have beside dry and clean. */
+	get states(): { wet: boolean; dirt: boolean } {
+		const furs = this.#looks.map(({ fur }) => fur.hasStates);
+		return { wet: furs.some(({ wet }) => wet), dirt: furs.some(({ dirt }) => dirt) };
+	}
 
 	/** Fur on the left, or on all of the picture. */
 	get fur(): Fur | undefined {
@@ -89,6 +102,35 @@ export class Looks {
 			// Fins know their own light alone, and would be a seam around fur that is lit in another way.
 			if (fur.fins) fur.fins.visible = (view.fins ?? true) && !rival;
 		}
+	}
+
+	/**
+	 * Shows the first fur of all with few shells and no fins, programs that its first frame does without; then as the view
+	 * says by then.
+	 *
+	 * @param drawn has a frame drawn
+	 */
+	async grow(view: View, drawn: () => Promise<void>): Promise<void> {
+		const { shells, fins } = this.fur ?? {};
+		if (!shells || view.shells) return drawn();
+		shells.coarseness = coarse;
+		if (fins) fins.visible = false;
+		await drawn();
+		shells.coarseness = 1;
+		this.style(view);
+	}
+
+	/** Has them move and be stained alike. @param swing of the hairs' tips; undefined: at rest */
+	live(swing: Texture | undefined, weather: FurWeather | undefined): void {
+		for (const { fur } of this.#looks) {
+			fur.swing = swing;
+			fur.weather = weather;
+		}
+	}
+
+	/** Fetches the states of the furs on show. */
+	async loadStates(): Promise<void> {
+		await Promise.all(this.#looks.map(({ fur }) => fur.loadStates()));
 	}
 
 	/** To be called before every frame. */

@@ -6,7 +6,12 @@ import { type Fur, FurLoaderPlugin, type TextureLimits } from '../fur/index.ts';
 import { disposeAll } from '../page/dispose.ts';
 import { parseAddress, type Triple } from './address.ts';
 
-/** An entry of models/models.json; its other fields are for the command that bakes it. */
+/** From the side: light from the front is flat. */
+export const defaultLight: Triple = [-0.82, 0.57, -0.02];
+const defaultCamera: Triple = [0, 8, 1];
+const crowdCamera: Triple = [10, 13, 0.5];
+
+/** An entry of models/models.json. */
 export interface MenuEntry {
 	name: string;
 	title: string;
@@ -23,6 +28,8 @@ export interface MenuEntry {
 	menu?: boolean;
 	/** first view and light, written as in the address */
 	view?: string;
+	/** of the command that bakes it: they tell which states a pelt has */
+	options?: string[];
 }
 
 /** Where a model's files come from. */
@@ -72,9 +79,10 @@ export function pelts(entries: readonly MenuEntry[], basis: 'ptm' | 'eigen' = 'p
 	return entries.filter((entry) => entry.pelt !== undefined && entry.basis === basis);
 }
 
-/** How a model of the menu wants to be seen first. */
-export function firstView(entry: MenuEntry | undefined): { light?: Triple; camera?: Triple } {
-	return parseAddress(entry?.view ?? '').view;
+/** How a model of the menu wants to be seen first, or all of a crowd. */
+export function firstView(entry: MenuEntry | undefined, crowd = 1): { light: Triple; camera: Triple } {
+	const { light = defaultLight, camera = defaultCamera } = parseAddress(entry?.view ?? '').view;
+	return { light, camera: crowd > 1 ? crowdCamera : camera };
 }
 
 /**

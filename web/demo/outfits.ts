@@ -27,6 +27,34 @@ export function hasEigen(view: View, entry: MenuEntry | undefined, menu: readonl
 	return peltOf(view, entry, menu, 'eigen') !== undefined;
 }
 
+/** States of a fur beside dry and clean. */
+export interface States {
+	wet: boolean;
+	dirt: boolean;
+}
+
+/** What the pelt in the menu has. */
+function statesOf(pelt: MenuEntry | undefined): States {
+	const options = pelt?.options ?? [];
+	return { wet: options.includes('--states'), dirt: options.includes('--dirt') };
+}
+
+const has = ({ wet, dirt }: States) => wet || dirt;
+
+/** What the model can be shown in beside dry and clean. @param body its own fur */
+export function statesFor(
+	view: View,
+	entry: MenuEntry | undefined,
+	menu: readonly MenuEntry[],
+	body: Fur | undefined,
+): States {
+	// Eigen curves are those of one state.
+	const lit = view.method !== 'eigen' || (view.split && view.split.method !== 'eigen');
+	if (!body || !lit) return { wet: false, dirt: false };
+	if (view.preset === undefined && has(body.hasStates)) return body.hasStates;
+	return statesOf(peltOf(view, entry, menu, 'ptm'));
+}
+
 /** Whether it is one to compare with, not the fur's own light. */
 export const isRival = (method: Method) => method !== 'ptm' && method !== 'eigen';
 
@@ -51,43 +79,46 @@ export function adjust(view: View, entry: MenuEntry | undefined, menu: readonly 
 	return [...reasons];
 }
 
+/** Whom outfits are for. */
+export interface Wearer {
+	/** the model's own fur */
+	body: Fur;
+	/** whether it is to get wet or dirty */
+	soiled: boolean;
+	/** of the menu */
+	entry: MenuEntry | undefined;
+	limits: TextureLimits;
+}
+
 /**
  * @param view what can be worn, as `adjust` leaves it
  * @returns one outfit, or two to be shown side by side
  */
-function outfitsOf(
-	view: View,
-	entry: MenuEntry | undefined,
-	menu: readonly MenuEntry[],
-	limits: TextureLimits,
-): Promise<Outfit[]> {
+function outfitsOf(view: View, menu: readonly MenuEntry[], { body, soiled, entry, limits }: Wearer): Promise<Outfit[]> {
+	// What its own fur does not know its pelt does; dry and clean they are the same.
+	const lent = soiled && !has(body.hasStates) && has(statesOf(peltOf(view, entry, menu, 'ptm')));
 	const wanted: Method[] = [view.method ?? 'ptm', ...(view.split ? [view.split.method] : [])];
 	return Promise.all(
 		wanted.map(async (method): Promise<Outfit> => {
 			const name = method === 'eigen' ? 'ptm' : method;
 			// A model's own fur is what it was baked with, and better than its pelt.
 			const own = method !== 'eigen' && view.preset === undefined;
-			const pelt = own ? undefined : peltOf(view, entry, menu, method);
-			const { tips = 1, gloss } = pelt ?? {};
+			const pelt = own && !lent ? undefined : peltOf(view, entry, menu, method);
+			const { tips = 1, gloss } = (!own && pelt) || {};
 			return { pelt: pelt && (await load(pelt.name, limits)), tips, gloss, method: name };
 		}),
 	);
 }
 
 /** The same; where a pelt cannot be had, says why and takes out of the view what needs it. */
-export async function availableOutfits(
-	view: View,
-	entry: MenuEntry | undefined,
-	menu: readonly MenuEntry[],
-	limits: TextureLimits,
-): Promise<Outfit[]> {
+export async function availableOutfits(view: View, menu: readonly MenuEntry[], wearer: Wearer): Promise<Outfit[]> {
 	try {
-		return await outfitsOf(view, entry, menu, limits);
+		return await outfitsOf(view, menu, wearer);
 	} catch (error) {
 		const name = view.preset ?? words.methods.eigen;
 		notice(words.presetNotShown(words.titles[name] ?? name, (error as Error).message), 'error');
-		Object.assign(view, { preset: undefined, method: undefined, split: undefined });
-		return outfitsOf(view, entry, menu, limits);
+		Object.assign(view, { preset: undefined, method: undefined, split: undefined, wet: undefined, dirt: undefined });
+		return outfitsOf(view, menu, { ...wearer, soiled: false });
 	}
 }
 

@@ -29,6 +29,13 @@ export interface Settings {
 	/** sRGB, #rrggbb */
 	root: string;
 	tip: string;
+	/** 0..1; degrees from the first camera's side by way of the right */
+	wind: number;
+	direction: number;
+	/** of all of the fur, 0..1 */
+	wetness: number;
+	dirt: number;
+	turntable: boolean;
 }
 
 /** What can be done with what is on show. */
@@ -39,6 +46,10 @@ export interface Abilities {
 	eigen: boolean;
 	/** Whether the root has one colour everywhere. */
 	root: boolean;
+	/** What it can be shown in beside dry and clean. */
+	states: { wet: boolean; dirt: boolean };
+	/** Whether nothing moves by itself. */
+	calm: boolean;
 }
 
 export type Changed = <Name extends keyof Settings>(name: Name, value: Settings[Name]) => void;
@@ -50,7 +61,10 @@ export interface PanelHandlers {
 	save(): void;
 	reset(): void;
 	bakedColours(): void;
+	clean(): void;
 }
+
+type Folder = 'body' | 'light' | 'hair' | 'weather';
 
 /** Titles of a menu, by the values that they stand for. */
 export type Menu = readonly { value: string; title: string }[];
@@ -60,12 +74,14 @@ export class Panel {
 	readonly settings: Settings = {
 		...{ model: '', preset: '', crowd: 1, method: 'ptm', split: 'none', lights: 1, environment: 'none' },
 		...{ automatic: true, shells: 1, fins: true, length: 1, density: 1, root: '#000000', tip: '#000000' },
+		...{ wind: 0, direction: 0, wetness: 0, dirt: 0, turntable: false },
 	};
 	readonly #controls: { [Name in keyof Settings]: Controller };
 	readonly #baked: Controller;
+	readonly #clean: Controller;
 	readonly #offered = { model: '', preset: '' };
 	/** Below the controls of each folder: why some of them can't be used. */
-	readonly #reasons: Record<'body' | 'light' | 'hair', HTMLElement>;
+	readonly #reasons: Record<Folder, HTMLElement>;
 	readonly #actions = document.createElement('div');
 	/** The button that stays at the end. */
 	readonly #last: Element | null = null;
@@ -83,6 +99,7 @@ export class Panel {
 		const body = gui.addFolder(words.body);
 		const light = gui.addFolder(words.light);
 		const hair = gui.addFolder(words.hair);
+		const weather = gui.addFolder(words.weather);
 		const named = (names: readonly (Method | 'none')[]) =>
 			Object.fromEntries(names.map((name) => [name === 'none' ? words.none : words.methods[name], name]));
 		const places = (['none', ...environments] as const).map((name) => [words.environments[name], name]);
@@ -101,9 +118,15 @@ export class Panel {
 			density: add(hair, 'density', 0.2, 2, 0.01),
 			root: this.#colour(hair, 'root', handlers),
 			tip: this.#colour(hair, 'tip', handlers),
+			wind: add(weather, 'wind', 0, 1, 0.01),
+			direction: add(weather, 'direction', 0, 360, 1),
+			wetness: add(weather, 'wetness', 0, 1, 0.01),
+			dirt: add(weather, 'dirt', 0, 1, 0.01),
+			turntable: add(weather, 'turntable'),
 		};
-		const buttons = { bakedColours: () => handlers.bakedColours() };
+		const buttons = { bakedColours: () => handlers.bakedColours(), clean: () => handlers.clean() };
 		this.#baked = hair.add(buttons, 'bakedColours').name(words.bakedColours);
+		this.#clean = weather.add(buttons, 'clean').name(words.clean);
 		const reason = (folder: GUI) => {
 			const place = document.createElement('p');
 			place.className = 'reason';
@@ -111,7 +134,7 @@ export class Panel {
 			folder.$children.append(place);
 			return place;
 		};
-		this.#reasons = { body: reason(body), light: reason(light), hair: reason(hair) };
+		this.#reasons = { body: reason(body), light: reason(light), hair: reason(hair), weather: reason(weather) };
 		this.#actions.className = 'actions';
 		for (const name of ['copy', 'save', 'reset'] as const) this.button(words[name], () => handlers[name]());
 		this.#last = this.#actions.lastElementChild;
@@ -146,7 +169,7 @@ export class Panel {
 	}
 
 	/** Shows how things are, lets through what makes sense, and says why where something does not. */
-	update(settings: Settings, { fur, fins, eigen, root }: Abilities): void {
+	update(settings: Settings, { fur, fins, eigen, root, states, calm }: Abilities): void {
 		Object.assign(this.settings, settings);
 		const controls = this.#controls;
 		controls.shells.max(Math.max(sliderEnd, settings.shells));
@@ -163,6 +186,11 @@ export class Panel {
 			for (const input of controls[name].domElement.querySelectorAll('input'))
 				input.disabled = controls[name]._disabled;
 		this.#baked.enable(fur);
+		for (const name of ['wind', 'direction'] as const) controls[name].enable(fur);
+		controls.wetness.enable(states.wet);
+		controls.dirt.enable(states.dirt);
+		this.#clean.enable(states.wet || states.dirt);
+		controls.turntable.enable(Boolean(settings.model) && alone && !calm);
 		for (const name of ['method', 'split'] as const) {
 			const { options } = (controls[name] as OptionController).$select;
 			for (const option of options) {
@@ -172,13 +200,17 @@ export class Panel {
 			}
 		}
 		const { noFur, noEigen, crowd, colourPlane } = words.reasons;
+		const { noStates, noEigenStates, noDirt, calm: moveless } = words.reasons;
 		this.#say('body', fur || !settings.model ? '' : noFur);
 		this.#say('light', !fur ? '' : !alone ? crowd : eigen ? '' : noEigen);
 		this.#say('hair', fur && !root ? colourPlane : '');
+		const dry = settings.method === 'eigen' ? noEigenStates : noStates;
+		const missing = !fur || states.dirt ? '' : states.wet ? noDirt : dry;
+		this.#say('weather', [missing, ...(fur && calm ? [moveless] : [])].filter(Boolean).join(' '));
 		for (const controller of Object.values(controls)) controller.updateDisplay();
 	}
 
-	#say(folder: 'body' | 'light' | 'hair', reason: string): void {
+	#say(folder: Folder, reason: string): void {
 		const place = this.#reasons[folder];
 		place.textContent = reason;
 		place.hidden = reason === '';

@@ -1,5 +1,6 @@
 /** What is drawn, and when: stage, camera, light and lamp, frame by frame. It knows neither models nor the panel. */
 
+import { Group } from 'three';
 import { FurGovernor } from '../fur/index.ts';
 import { Lamp } from '../page/lamp.ts';
 import { MovingLight } from '../page/light.ts';
@@ -13,6 +14,8 @@ import { GpuTimer } from './timer.ts';
 
 /** Milliseconds after the last movement in which the governor brings back the full resolution. */
 const settling = 1200;
+/** Seconds that what lives goes on by in a frame, at most: nothing leaps after a hidden tab. */
+const longest = 0.25;
 
 export interface PictureOptions {
 	/** Nothing moves by itself, and every frame is drawn in full. */
@@ -29,9 +32,17 @@ export class Picture {
 	readonly camera: OrbitCamera;
 	readonly light: MovingLight;
 	readonly lamp = new Lamp();
+	/** What shows how light and tools stand: no file of the picture has it. */
+	readonly guides = new Group();
 	readonly timer: GpuTimer;
 	/** Figures of the frames; none at first. */
 	overlay: Overlay | undefined;
+	/**
+	 * Moves what lives by the seconds since the frame before.
+	 *
+	 * @returns milliseconds until it wants another frame: 0 at once, Infinity never
+	 */
+	live: (elapsed: number) => number = () => Number.POSITIVE_INFINITY;
 	/** Called before a frame is drawn, for what the frame looks up. */
 	before: () => void = () => {};
 	readonly #waiting: (() => void)[] = [];
@@ -46,6 +57,8 @@ export class Picture {
 	#visible = false;
 	#moved = Number.NEGATIVE_INFINITY;
 	#moving = false;
+	/** Milliseconds that the next frame was to wait. */
+	#wait = 0;
 	readonly #render = () => {
 		this.timer.begin();
 		this.stage.render(this.camera);
@@ -63,7 +76,7 @@ export class Picture {
 		});
 		this.light = new MovingLight(!options.calm);
 		this.lamp.visible = false;
-		this.stage.scene.add(this.lamp);
+		this.stage.scene.add(this.guides.add(this.lamp));
 		this.timer = new GpuTimer(this.stage.gl);
 		// In time at 60 Hz, with room for the browser's own work; intervals are 17 ms there at best.
 		this.#governor = new FurGovernor(this.timer.works ? { target: 14 } : { target: 20, capped: true });
@@ -71,6 +84,11 @@ export class Picture {
 			this.#stale = true;
 			this.request();
 		});
+	}
+
+	/** Whether nothing moves by itself. */
+	get calm(): boolean {
+		return this.#options.calm;
 	}
 
 	request(): void {
@@ -109,7 +127,7 @@ export class Picture {
 		this.request();
 	}
 
-	#draw(interval: number, now: number): boolean {
+	#draw(interval: number, now: number): number {
 		const { stage, camera, light, lamp, timer } = this;
 		const { still, calm } = this.#options;
 		const awake = !Number.isNaN(interval);
@@ -118,10 +136,14 @@ export class Picture {
 		const turning = camera.glide();
 		const wandering = light.step(elapsed);
 		if (wandering) this.aim();
+		const wait = this.live(awake ? Math.min(interval / 1000, longest) : 1 / 60);
+		if (wait === 0) this.#moving = true;
 		const glowing = lamp.glide(camera, calm ? Number.POSITIVE_INFINITY : elapsed);
 		if (this.#moving || turning) this.#moved = now;
 		const time = timer.read();
-		if (!still) stage.scale = this.#governor.frame(timer.works ? time : interval, now, this.#moving);
+		// A frame that waited tells nothing of how long frames take.
+		const taken = timer.works ? time : this.#wait === 0 ? interval : Number.NaN;
+		if (!still) stage.scale = this.#governor.frame(taken, now, this.#moving);
 		this.#moving = false;
 		if (this.#visible && !stage.gl.isContextLost()) {
 			this.before();
@@ -129,18 +151,19 @@ export class Picture {
 			else this.#render();
 		}
 		while (this.#waiting.length) this.#waiting.pop()?.();
-		return turning || wandering || (glowing && !calm) || (!still && now - this.#moved < settling);
+		const moves = turning || wandering || (glowing && !calm) || (!still && now - this.#moved < settling);
+		this.#wait = moves ? 0 : wait;
+		return this.#wait;
 	}
 
-	/** The picture as a file: at full resolution, and without the lamp. */
+	/** The picture as a file: at full resolution, and without lamp and ring. */
 	async file(): Promise<Blob> {
 		if (this.stage.gl.isContextLost()) throw new Error('the picture is being drawn anew, please try again');
-		const { visible } = this.lamp;
 		this.stage.scale = 1;
-		this.lamp.visible = false;
+		this.guides.visible = false;
 		this.before();
 		this.#render();
-		this.lamp.visible = visible;
+		this.guides.visible = true;
 		this.request();
 		// In the same task as the drawing: later the canvas may be empty.
 		const blob = await new Promise<Blob | null>((resolve) => this.canvas.toBlob(resolve, 'image/png'));

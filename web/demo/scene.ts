@@ -8,7 +8,9 @@ import {
 	HalfFloatType,
 	HemisphereLight,
 	NeutralToneMapping,
+	Object3D,
 	type PerspectiveCamera,
+	Quaternion,
 	Scene,
 	Sphere,
 	UnsignedByteType,
@@ -27,6 +29,12 @@ const maxPixelRatio = 2;
 
 /** Irradiance: 2.8π makes a white matt surface facing it 2.8 bright. */
 const keyPower = 2.8 * Math.PI;
+/** Radians that a body leans where its foot is drawn aside by its height. */
+const leaning = 0.9;
+const foot = new Vector3();
+const axis = new Vector3();
+const lean = new Quaternion();
+
 const keyColour = new Color(1, 0.95, 0.87).multiplyScalar(keyPower);
 
 export class Stage {
@@ -47,6 +55,8 @@ export class Stage {
 	/** Light of the place. */
 	readonly #around = new Group();
 	#environment: Environment | undefined;
+	/** The body's way from its place, world. */
+	readonly #offset = new Vector3();
 	/** Of the window, CSS pixels. */
 	#width = 1;
 	#height = 1;
@@ -79,6 +89,7 @@ export class Stage {
 			this.model.dispose();
 		}
 		this.model = model;
+		this.#offset.setScalar(0);
 		this.#shadow.visible = model !== undefined;
 		if (model) this.scene.add(model.object);
 	}
@@ -115,6 +126,31 @@ export class Stage {
 		fitShadow(this.key, new Sphere(this.centre, (crowd?.reach ?? this.radius) + length), length);
 	}
 
+	/**
+	 * Moves the one body on show about its foot, and what it brings along: shadow and the light's own view of it.
+	 *
+	 * @param offset from its place, in radii of the body; it leans as far as it is drawn aside
+	 * @param yaw turn about the upright axis, radians
+	 */
+	place(offset: Vector3, yaw: number): void {
+		const { model } = this;
+		if (!model) return;
+		const { object, box, radius } = model;
+		const height = box.max.y - box.min.y;
+		this.#offset.copy(offset).multiplyScalar(radius);
+		box.getCenter(foot).setY(box.min.y);
+		const aside = Math.hypot(offset.x, offset.z);
+		lean.setFromAxisAngle(
+			axis.set(offset.z, 0, -offset.x).divideScalar(aside || 1),
+			(leaning * aside * radius) / height,
+		);
+		object.quaternion.setFromAxisAngle(Object3D.DEFAULT_UP, yaw).premultiply(lean);
+		object.position.copy(foot).negate().applyQuaternion(object.quaternion).add(foot).add(this.#offset);
+		object.updateMatrixWorld();
+		this.#shadow.follow(this.#offset, yaw, height);
+		this.light(axis.subVectors(this.key.position, this.key.target.position).normalize());
+	}
+
 	/** @param environment instead of the page's own sky, lamp colour and backdrop; undefined: these */
 	surround(environment: Environment | undefined): void {
 		this.#environment?.background.dispose();
@@ -134,8 +170,8 @@ export class Stage {
 
 	/** @param direction unit vector from the model to the lamp, world axes */
 	light(direction: Vector3): void {
-		this.key.target.position.copy(this.centre);
-		this.key.position.copy(this.centre).addScaledVector(direction, 4 * this.radius);
+		const target = this.key.target.position.copy(this.centre).add(this.#offset);
+		this.key.position.copy(target).addScaledVector(direction, 4 * this.radius);
 		this.#lamps.turn(direction);
 	}
 

@@ -30,9 +30,14 @@ export function lightByKeys(target: HTMLElement, light: SharedLight): void {
 
 /**
  * Calls `move` with the place on the canvas, in normalised device coordinates (-1..1, y up), of the mouse, pen or finger
- * that drags on it. The style sheet leaves vertical strokes of a finger to the page: `touch-action: pan-y`.
+ * that drags on it, and `end` when it lets go. The style sheet leaves vertical strokes of a finger to the page:
+ * `touch-action: pan-y`.
  */
-export function listenToDrags(canvas: HTMLCanvasElement, move: (pointer: Vector2) => void): void {
+export function listenToDrags(
+	canvas: HTMLCanvasElement,
+	move: (pointer: Vector2) => void,
+	end: () => void = () => {},
+): void {
 	const pointer = new Vector2();
 	let dragging: number | undefined;
 	let touched: { id: number; x: number; y: number } | undefined;
@@ -57,12 +62,16 @@ export function listenToDrags(canvas: HTMLCanvasElement, move: (pointer: Vector2
 	});
 	canvas.addEventListener('pointerup', (event) => {
 		// A tap is a drag without a way.
-		if (event.pointerId === touched?.id && dragging === undefined) follow(event);
+		if (event.pointerId !== touched?.id || dragging !== undefined) return;
+		follow(event);
+		end();
 	});
 	for (const name of ['pointerup', 'pointercancel', 'lostpointercapture'] as const)
 		canvas.addEventListener(name, ({ pointerId }) => {
 			if (pointerId === touched?.id) touched = undefined;
-			if (pointerId === dragging) dragging = undefined;
+			if (pointerId !== dragging) return;
+			dragging = undefined;
+			end();
 		});
 }
 

@@ -27,6 +27,9 @@ const steps: Record<string, () => Promise<{ mount: Mount }>> = {
 	tuft: () => import('./steps/tuft.ts'),
 	turning: () => import('./steps/turning.ts'),
 	short: () => import('./steps/short.ts'),
+	spring: () => import('./steps/spring.ts'),
+	wind: () => import('./steps/wind.ts'),
+	wet: () => import('./steps/wet.ts'),
 };
 
 function newLesson(language: Language): Lesson {

@@ -1,7 +1,7 @@
 /** A square of fur with nothing lapped: whole tiles side by side, all lengths in tile widths. u runs along x, v against z. */
 
 import { Color, Mesh, MeshStandardMaterial, Object3D, PlaneGeometry, Vector3 } from 'three';
-import { type Fur, type FurAsset, FurMaterial, FurShells } from '../fur/index.ts';
+import { Fur, type FurShells } from '../fur/index.ts';
 
 /** Squares per tile: the lights' moments are sums at their corners. */
 const CELLS = 4;
@@ -21,26 +21,28 @@ export function tiled(tiles: number, cells = Math.max(1, Math.round(tiles * CELL
 }
 
 export class FurPatch extends Object3D {
-	readonly asset: FurAsset;
+	/** As on any body: it can swing and get wet. */
+	readonly fur: Fur;
 	readonly shells: FurShells;
 	readonly skin: Mesh<PlaneGeometry, MeshStandardMaterial>;
 	/** Longest hairs. */
 	readonly height: number;
 
-	/** @param fur any of the pelt; @param surface instead of a square of so many tiles */
-	constructor(fur: Fur, tiles: number, surface = tiled(tiles)) {
+	/** @param pelt any fur of it; @param surface instead of a square of so many tiles */
+	constructor(pelt: Fur, tiles: number, surface = tiled(tiles)) {
 		super();
-		const { asset } = fur;
-		this.height = asset.height;
-		this.asset = { ...asset, tiles: 1, length: asset.height };
-		const material = new FurMaterial(this.asset, fur.textures, { skinColour: new Color(1, 1, 1) });
-		this.shells = new FurShells(surface, new Object3D(), this.asset, material);
+		this.height = pelt.asset.height;
+		const asset = { ...pelt.asset, tiles: 1, length: this.height };
+		const ground = { ...pelt.ground, colour: new Color(1, 1, 1), surface, placement: new Object3D(), quads: undefined };
+		this.fur = new Fur(asset, pelt.pelt, ground, () => surface.dispose());
+		this.shells = this.fur.shells;
 		this.shells.castShadow = this.shells.receiveShadow = false;
 		const shade = new Color(...asset.ramp.root).multiplyScalar(SHADE);
 		this.skin = new Mesh(
 			new PlaneGeometry(tiles, tiles).rotateX(-Math.PI / 2),
 			new MeshStandardMaterial({ color: shade }),
 		);
+		// Beside the pelt's own skin the shells would be in another scene.
 		this.add(this.skin, this.shells);
 	}
 

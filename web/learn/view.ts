@@ -1,6 +1,7 @@
 /** A three-dimensional figure: a scene under the lesson's light, and one window on it or several, whose cameras stay. */
 
 import {
+	type Camera,
 	Color,
 	DirectionalLight,
 	HemisphereLight,
@@ -9,13 +10,14 @@ import {
 	PerspectiveCamera,
 	Scene,
 	Sphere,
+	type Vector2,
 	Vector3,
 } from 'three';
 import { fitShadow } from '../fur/index.ts';
 import { backdrop } from '../page/backdrop.ts';
 import { Lamp, lampDistance } from '../page/lamp.ts';
 import { figureCanvas } from './controls.ts';
-import { lightByHand } from './drag.ts';
+import { lightByHand, lightByKeys, listenToDrags } from './drag.ts';
 import type { Lesson } from './lesson.ts';
 import type { Picture } from './painter.ts';
 
@@ -42,6 +44,8 @@ export interface WindowOptions {
 	lamp?: boolean;
 	/** Degrees by which the lamp stands further about the upright axis in this window than in others. */
 	turn?: number;
+	/** What drags do here instead of moving the lamp, which is left to arrow keys; `pointer` is undefined when one ends. */
+	drag?: (pointer: Vector2 | undefined, camera: Camera) => void;
 	/** Called before every picture of this window, with the light where it will be. */
 	before?: () => void;
 }
@@ -80,7 +84,7 @@ export class View {
 
 	/** Opens a window on the scene. @returns its canvas */
 	window(place: HTMLElement, options: WindowOptions): HTMLCanvasElement {
-		const { label, aspect = 16 / 10, lamp = true, turn = 0, before } = options;
+		const { label, aspect = 16 / 10, lamp = true, turn = 0, drag, before } = options;
 		const canvas = figureCanvas(place, label, aspect);
 		canvas.classList.add('scene');
 		const camera = new PerspectiveCamera(FIELD_OF_VIEW);
@@ -94,7 +98,14 @@ export class View {
 			painter.render(this.scene, camera, canvas);
 		});
 		this.#windows.push(picture);
-		lightByHand(canvas, light, camera, this.centre, this.radius * lampDistance, MathUtils.degToRad(turn));
+		if (drag) {
+			listenToDrags(
+				canvas,
+				(pointer) => drag(pointer, camera),
+				() => drag(undefined, camera),
+			);
+			lightByKeys(canvas, light);
+		} else lightByHand(canvas, light, camera, this.centre, this.radius * lampDistance, MathUtils.degToRad(turn));
 		return canvas;
 	}
 
@@ -107,6 +118,11 @@ export class View {
 	add(...objects: Object3D[]): void {
 		this.scene.add(...objects);
 		this.redraw();
+	}
+
+	/** Whether any of its windows is on screen, or nearly. */
+	get visible(): boolean {
+		return this.#windows.some(({ visible }) => visible);
 	}
 
 	redraw(): void {

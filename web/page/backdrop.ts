@@ -73,8 +73,13 @@ export function backdrop(half: boolean, size = 384): DataTexture {
 	return texture;
 }
 
+/** Opacity of the shadow right under a body. */
+const darkness = 0.8;
+
 /** Blurred dark disc under the model, seen from above only. */
 export class ContactShadow extends Mesh<PlaneGeometry, MeshBasicMaterial> {
+	readonly #place = new Vector3();
+
 	constructor(size = 128) {
 		const texels = new Uint8Array(size * size * 4);
 		for (let y = 0; y < size; y++) {
@@ -90,7 +95,7 @@ export class ContactShadow extends Mesh<PlaneGeometry, MeshBasicMaterial> {
 		map.needsUpdate = true;
 		super(
 			new PlaneGeometry(1, 1),
-			new MeshBasicMaterial({ map, transparent: true, depthWrite: false, opacity: 0.8, color: '#141414' }),
+			new MeshBasicMaterial({ map, transparent: true, depthWrite: false, opacity: darkness, color: '#141414' }),
 		);
 		this.rotation.x = -Math.PI / 2;
 		// Before the fur, which blends over it.
@@ -100,7 +105,23 @@ export class ContactShadow extends Mesh<PlaneGeometry, MeshBasicMaterial> {
 	/** Lies under the box, a little wider than it. @param fur its length, which reaches beyond the box */
 	fit(box: Box3, fur: number): void {
 		const size = box.getSize(new Vector3()).addScalar(2 * fur);
-		box.getCenter(this.position).setY(box.min.y - fur / 2);
+		box.getCenter(this.#place).setY(box.min.y - fur / 2);
+		this.position.copy(this.#place);
 		this.scale.set(size.x * 1.5, size.z * 1.6, 1);
+	}
+
+	/**
+	 * Stays on the ground under a body that moves, and becomes paler as it rises.
+	 *
+	 * @param offset of the body from the place where it was fitted
+	 * @param yaw its turn about the upright axis, radians
+	 * @param height of the body
+	 */
+	follow(offset: Vector3, yaw: number, height: number): void {
+		this.position.copy(this.#place);
+		this.position.x += offset.x;
+		this.position.z += offset.z;
+		this.rotation.z = yaw;
+		this.material.opacity = darkness * Math.exp((-3 * Math.max(offset.y, 0)) / height);
 	}
 }

@@ -27,6 +27,7 @@ def _summary(asset: Asset) -> dict[str, Any]:
         texels += fin["width"] * fin["height"] * (len(fin["planes"]) + ("colour" in fin))
     names = [asset.document["buffers"][0]["uri"], *(image["uri"] for image in asset.document.get("images", []))]
     files = {name: (asset.folder / name).stat().st_size for name in ["model.gltf", *names] if _exists(asset, name)}
+    fits = {state["name"]: state["fit"]["psnr"] for state in record.get("states", [])}
     return {
         "folder": str(asset.folder),
         "furbake": record.get("furbake", "unknown"),
@@ -49,6 +50,7 @@ def _summary(asset: Asset) -> dict[str, Any]:
         "shells": _mesh(asset, "shells"),
         **({"fins": _mesh(asset, "fins")} if "fins" in fur else {}),
         "fit": record.get("fit", {}),
+        **({"states": fits} if fits else {}),
         "files": files,
     }
 

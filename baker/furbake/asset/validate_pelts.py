@@ -59,17 +59,29 @@ def states(asset: Asset) -> Iterator[str]:
     if len(set(names)) < len(names):
         yield f"{EXTENSION}: pelts are called {', '.join(names)}, expected names that differ"
     dirty = [pelt for pelt in found if pelt.get("dirt", 0)]
+    wetness = [pelt.get("wetness", 0) for pelt in found if pelt not in dirty]
+    if sorted(set(wetness)) != wetness:
+        told = ", ".join(f"{value:g}" for value in wetness)
+        yield f"{EXTENSION}: clean pelts have the wetness {told}, expected one that rises"
+    if any(pelt.get("wetness", 0) for pelt in dirty):
+        yield f"{EXTENSION}: pelt {dirty[0]['name']} is wet and dirty, expected one of the two"
     if dirty and "mud" not in fur:
         yield f"{EXTENSION}: pelt {dirty[0]['name']} is dirty but there is no mud, expected its colour"
     if dirty and fur["coefficients"] == 3:
         yield f"{EXTENSION}: pelt {dirty[0]['name']} is dirty with 3 coefficients, expected 4 to 6"
+    yield from _mixable(found)
+
+
+def _mixable(found: list[dict[str, Any]]) -> Iterator[str]:
+    """The bytes of all states mean the same."""
+    first = found[0]
     for i, pelt in enumerate(found[1:], 1):
         for key in ("scale", "bias"):
-            if pelt[key] != found[0][key]:
+            if pelt[key] != first[key]:
                 yield f"{EXTENSION}: pelts[{i}].{key} differs, expected that of pelts[0]"
-        if "fin" in pelt and "fin" in found[0]:
+        if "fin" in pelt and "fin" in first:
             for key in ("width", "height", "scale", "bias"):
-                if pelt["fin"][key] != found[0]["fin"][key]:
+                if pelt["fin"][key] != first["fin"][key]:
                     yield f"{EXTENSION}: pelts[{i}].fin.{key} differs, expected that of pelts[0]"
 
 

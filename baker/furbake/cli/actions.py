@@ -7,7 +7,6 @@ import json
 import sys
 import time
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -16,13 +15,7 @@ from furbake.asset.inspect import summary
 from furbake.asset.read import AssetError, read_asset
 from furbake.asset.validate import validate
 from furbake.bake import STAGES, bake
-from furbake.bend import Row as Bent
-from furbake.bend import bend
-from furbake.bend import check as check_bends
-from furbake.bend import markdown as bends_table
-from furbake.body import patch_figures
 from furbake.cli.progress import shown
-from furbake.compare import Row, compare, markdown
 from furbake.identity import bake_key
 from furbake.lesson import STAGES as LESSON_STAGES
 from furbake.lesson import fresh as fresh_lesson
@@ -31,9 +24,6 @@ from furbake.options import BakeOptions, OptionError, as_toml, override, preset,
 from furbake.report import STAGES as REPORT_STAGES
 from furbake.report import write as write_report
 from furbake.swatch import save
-from furbake.trim import Row as TrimRow
-from furbake.trim import table as trim_table
-from furbake.trim import trim
 from furbake.verify import lines, verify
 
 GIVEN = (
@@ -165,20 +155,30 @@ def run_report(args: argparse.Namespace) -> int:
 
 def run_swatch(args: argparse.Namespace) -> int:
     """Write a picture of a baked pelt, or of a preset's."""
-    out, look = Path(args.out), {"tiles": args.tiles, "size": args.pixels}
+    out, look = Path(args.out), {"tiles": args.tiles, "size": args.pixels, "state": args.state}
     if args.folder:
         if args.preset or args.set:
             raise OptionError(f"swatch: got {args.folder!r} and --preset or --set, expected DIR alone or no DIR")
         save(Path(args.folder), out, args.light, **look)
     else:
         args.preset = args.preset or "paper"
-        options = chosen(args)
+        options = in_state(chosen(args), args.state)
         with TemporaryDirectory(prefix="furbake-") as scratch, shown(STAGES, args.quiet) as progress:
             bake("plane", Path(scratch) / "plane", options, progress=progress)
             save(Path(scratch) / "plane", out, args.light, **look)
     if not args.quiet:
         print(out)
     return 0
+
+
+def in_state(options: BakeOptions, state: str | None) -> BakeOptions:
+    """Options of a bake that has a state: the dry one, and that one."""
+    if state is None or state == "dry":
+        return options
+    dirty = state == "dirty"
+    options = replace(options, dirt=dirty, states=("dry",) if dirty else ("dry", state))
+    options.check()
+    return options
 
 
 def run_lesson(args: argparse.Namespace) -> int:
@@ -206,72 +206,6 @@ def run_verify(args: argparse.Namespace) -> int:
         print(json.dumps(figures))
     elif not args.quiet:
         print("\n".join(lines(figures)))
-    return 0
-
-
-def run_compare(args: argparse.Namespace) -> int:
-    """Print a table of presets and bases, all measured anew."""
-    names, coats = _coats(args)
-    rows: list[Row] = []
-    with shown(names, args.quiet) as progress:
-        for name, options in zip(names, coats, strict=True):
-            rows += compare(options, args.lights, partial(progress, name))
-            progress(name, 1.0)
-    print(markdown(rows), end="")
-    return 0
-
-
-def run_trim(args: argparse.Namespace) -> int:
-    """Print a table of cut fur, lit in every way, against the same strands cut and baked anew."""
-    names = args.names or preset_names()
-    rows: list[TrimRow] = []
-    with shown(names, args.quiet) as progress:
-        for name in names:
-            options = preset(name)
-            if args.size is not None:
-                options = replace(options, size=args.size)
-                options.check()
-            rows += trim(options, tuple(args.lengths), args.lights, partial(progress, name))
-            progress(name, 1.0)
-    print(trim_table(rows), end="")
-    return 0
-
-
-def run_bend(args: argparse.Namespace) -> int:
-    """Print a table of presets and bends, all measured anew."""
-    check_bends(args.tips, args.azimuths)
-    names, coats = _coats(args)
-    rows: list[Bent] = []
-    with shown(names, args.quiet) as progress:
-        for name, options in zip(names, coats, strict=True):
-            rows += bend(options, args.tips, args.azimuths, partial(progress, name))
-            progress(name, 1.0)
-    print(bends_table(rows), end="")
-    return 0
-
-
-def _coats(args: argparse.Namespace) -> tuple[list[str], list[BakeOptions]]:
-    """Presets that are named, or all, at the size that is asked for."""
-    names = args.names or preset_names()
-    coats = [preset(name) for name in names]
-    if args.size is not None:
-        coats = [replace(options, size=args.size) for options in coats]
-        coats[0].check()
-    return names, coats
-
-
-def run_patches(args: argparse.Namespace) -> int:
-    """Print a table of models and how lapped patches cover them."""
-    print("| model | faces | covered | faces ratio | stretch, 95 % | sum of weights off | off the field, 95 % | s |")
-    print("|---|---|---|---|---|---|---|---|")
-    for model in args.models:
-        found = patch_figures(model, args.faces)
-        off = max(found["sum_error"], found["sum_error_vertices"])
-        print(
-            f"| {Path(model).name} | {found['faces']} | {found['coverage']:.2%} | {found['faces_ratio']:.2f} "
-            f"| {found['stretch_mean']:.3f}, {found['stretch_95']:.3f} | {off:.1g} "
-            f"| {found['angle_mean']:.1f}°, {found['angle_95']:.1f}° | {found['seconds']:.1f} |"
-        )
     return 0
 
 

@@ -8,7 +8,7 @@ from importlib.metadata import version
 from typing import Any, NoReturn
 
 from furbake.bend import AZIMUTHS, TIPS
-from furbake.cli import actions
+from furbake.cli import actions, tables
 from furbake.pelt.states import WETNESS
 from furbake.swatch import FROM_THE_SIDE
 from furbake.trim import LENGTHS
@@ -22,7 +22,10 @@ class UsageError(ValueError):
 class _Parser(argparse.ArgumentParser):
     """Says what is wrong in the words of all other errors, instead of printing usage."""
 
-    shape = "furbake bake, inspect, validate, presets, report, swatch, lesson, verify, compare, trim, bend or patches"
+    shape = (
+        "furbake bake, inspect, validate, presets, report, swatch, lesson, verify, compare, states, trim, bend "
+        "or patches"
+    )
 
     def error(self, message: str) -> NoReturn:
         if match := re.fullmatch(r"the following arguments are required: (.*)", message, re.DOTALL):
@@ -127,14 +130,18 @@ def parser() -> argparse.ArgumentParser:
     _swatch_arguments(add("swatch", actions.run_swatch, "DIR -o FILE.png", "picture of a baked pelt, or of a preset's"))
     _lesson_arguments(add("lesson", actions.run_lesson, "-o DIR", "data of the lesson on the page Learn"))
     _verify_arguments(add("verify", actions.run_verify, "DIR", "compare a bake with a path tracer (Mitsuba 3)"))
-    compare = add(
-        "compare", actions.run_compare, "[NAME ...]", "table of presets and bases, measured anew, as Markdown"
-    )
+    compare = add("compare", tables.run_compare, "[NAME ...]", "table of presets and bases, measured anew, as Markdown")
     compare.add_argument("names", metavar="NAME", nargs="*", type=_path, help="presets or .toml files (default: all)")
     compare.add_argument("--lights", type=_lights, default=192, metavar="N", help="lights of the fit (default: 192)")
     compare.add_argument("--size", type=_whole, metavar="N", help="texels per side of a slab (default: the preset's)")
     compare.add_argument("--quiet", action="store_true", help="no progress")
-    trim = add("trim", actions.run_trim, "[NAME ...]", "table of fur that is cut at run time, as Markdown")
+    states = add("states", tables.run_states, "[NAME ...]", "table of how states of fur mix, baked anew, as Markdown")
+    states.add_argument("names", metavar="NAME", nargs="*", type=_path, help="presets or .toml files (default: all)")
+    states.add_argument("--lights", type=_lights, default=64, metavar="N", help="lights of the fits (default: 64)")
+    states.add_argument("--size", type=_whole, default=64, metavar="N", help="texels per side of a slab (default: 64)")
+    states.add_argument("--json", action="store_true", help="every figure, as a JSON list")
+    states.add_argument("--quiet", action="store_true", help="no progress")
+    trim = add("trim", tables.run_trim, "[NAME ...]", "table of fur that is cut at run time, as Markdown")
     trim.add_argument("names", metavar="NAME", nargs="*", type=_path, help="presets or .toml files (default: all)")
     trim.add_argument(
         "--lengths", type=_share, nargs="+", default=LENGTHS, metavar="S", help="shares of the fur that are left"
@@ -142,7 +149,7 @@ def parser() -> argparse.ArgumentParser:
     trim.add_argument("--lights", type=_lights, default=64, metavar="N", help="lights of the fit (default: 64)")
     trim.add_argument("--size", type=_whole, metavar="N", help="texels per side of a slab (default: the preset's)")
     trim.add_argument("--quiet", action="store_true", help="no progress")
-    bend = add("bend", actions.run_bend, "[NAME ...]", "table of how right the light on bent fur is, as Markdown")
+    bend = add("bend", tables.run_bend, "[NAME ...]", "table of how right the light on bent fur is, as Markdown")
     bend.add_argument("names", metavar="NAME", nargs="*", type=_path, help="presets or .toml files (default: all)")
     bend.add_argument(
         "--tips", type=_number, nargs="+", default=list(TIPS), metavar="H",
@@ -154,7 +161,7 @@ def parser() -> argparse.ArgumentParser:
     )  # fmt: skip
     bend.add_argument("--size", type=_whole, metavar="N", help="texels per side of a slab (default: the preset's)")
     bend.add_argument("--quiet", action="store_true", help="no progress")
-    patches = add("patches", actions.run_patches, "MODEL ...", "table of how lapped patches cover models, as Markdown")
+    patches = add("patches", tables.run_patches, "MODEL ...", "table of how lapped patches cover models, as Markdown")
     patches.add_argument("models", metavar="MODEL", nargs="+", type=_path)
     patches.add_argument(
         "--faces", type=_whole, metavar="F", help="of a simplified copy of each (default: as they are)"
@@ -221,6 +228,7 @@ def _swatch_arguments(parser: _Parser) -> None:
     _preset_arguments(parser, None)
     add("-o", "--out", metavar="FILE.png", required=True, type=_path, help="picture to write")
     add("--light", metavar="X,Y,Z", type=_direction, default=FROM_THE_SIDE, help="towards the lamp: right, up, at you")
+    add("--state", metavar="NAME", help="dry (default), damp, moist, wet, soaked or dirty")
     add("--tiles", metavar="T", type=_whole, default=3, help="repeats of the tile along a side (default: 3)")
     add("--pixels", metavar="P", type=_whole, default=512, help="side of the picture (default: 512)")
     add("--quiet", action="store_true", help="no progress, no summary")

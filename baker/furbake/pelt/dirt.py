@@ -1,4 +1,7 @@
-"""Dirt in the fur: crumbs of mud that stick to the hairs, the more the nearer the tips, lit with them as one volume."""
+"""Dirt in the fur: mud that sticks to the hairs, the more the nearer the tips, lit with them as one volume.
+
+Mud dries where it ran: a clod is a string of crumbs along a hair, thick in its middle, which glues the hairs around it.
+"""
 
 from __future__ import annotations
 
@@ -14,21 +17,25 @@ from furbake.pelt.volume import PLANES, SOLID_SLAB, Volume, cross_sections
 
 Array = NDArray[np.float64]
 
-MUD: RGB = (0.115, 0.078, 0.048)
+MUD: RGB = (0.062, 0.038, 0.021)
 """Colour of the mud, linear Rec. 709."""
 
-SIZES = (0.02, 0.075)
-"""Radius of the smallest and the largest crumb, shares of the fur's height."""
+SIZES = (0.016, 0.055)
+"""Radius of the smallest and the largest clod in its middle, shares of the fur's height."""
 
-COVER = 1.1
+COVER = 5.5
 """Sum of the crumbs' cross-sections over the tile's area."""
 
+CRUMBS, LENGTHS, ASIDE = 7, (0.08, 0.3), 0.5
+"""Crumbs of a clod, how long it is at least and at most, shares of the hair, and how far they lie aside, radii."""
+
 TOWARDS_TIPS = 2.0
-"""Crumbs at a share s of a hair are as many as s to this power."""
+"""Clods at a share s of a hair are as many as s to this power."""
 
 MOST = 20_000
+"""Clods at most."""
 
-PATCHES, PATCHINESS = 3, 0.6
+PATCHES, PATCHINESS = 3, 0.5
 """Dirtier places along a side of the tile, and how much dirtier: spread of the logarithm."""
 
 
@@ -52,21 +59,31 @@ class Crumbs:
         return Crumbs(self.centre[kept], self.radius[kept], self.hair[kept], self.tangent[kept])
 
 
-def crumbs(strands: Strands, height: float, seed: int) -> Crumbs:
-    """Crumbs on the hairs of fur of that height, tile widths: small ones many, large ones few."""
+def crumbs(strands: Strands, height: float, seed: int, dirt: float = 1.0) -> Crumbs:
+    """Crumbs on the hairs of fur of that height, tile widths: small clods many, large ones few.
+
+    dirt : share of the dirty fur's clods that there are, 0 to 1
+    """
     rng = np.random.default_rng([seed, 2])
     size = height * SIZES[0] * (SIZES[1] / SIZES[0]) ** rng.random(MOST) ** 2
-    size = size[: 1 + int(np.searchsorted(np.cumsum(np.pi * size**2), COVER))]
+    along = np.linspace(-1.0, 1.0, CRUMBS)
+    radius = size[:, None] * np.sqrt(1 - 0.8 * along**2) * rng.uniform(0.7, 1.2, (MOST, CRUMBS))
+    clods = 1 + int(np.searchsorted(np.cumsum((np.pi * radius**2).sum(1)), COVER))
+    radius = radius[:clods]
+
     root = strands.points[:, 0, :2]
     likely = np.exp(PATCHINESS * tile_noise(root, PATCHES, rng))
-    hair = rng.choice(len(root), len(size), p=likely / likely.sum())
-    at = rng.random(len(size)) ** (1 / (1 + TOWARDS_TIPS)) * (strands.points.shape[1] - 1)
+    hair = np.repeat(rng.choice(len(root), len(radius), p=likely / likely.sum()), CRUMBS)
+    middle, half = rng.random(len(radius)) ** (1 / (1 + TOWARDS_TIPS)), rng.uniform(*LENGTHS, len(radius)) / 2
+    at = np.clip(middle[:, None] + half[:, None] * along, 0.0, 1.0).ravel() * (strands.points.shape[1] - 1)
     low = np.minimum(at.astype(np.int64), strands.points.shape[1] - 2)
     part = (at - low)[:, None]
     centre = (1 - part) * strands.points[hair, low] + part * strands.points[hair, low + 1]
-    angle = rng.uniform(0.0, 2 * np.pi, len(size))
-    lying = np.stack([np.cos(angle), np.sin(angle), np.zeros(len(size))], -1)
-    return Crumbs(centre, size, hair, lying)
+    centre += ASIDE * radius.reshape(-1, 1) * rng.normal(0.0, 1.0, centre.shape)
+    angle = rng.uniform(0.0, 2 * np.pi, radius.size)
+    lying = np.stack([np.cos(angle), np.sin(angle), np.zeros(radius.size)], -1)
+    some = CRUMBS * round(dirt * clods)
+    return Crumbs(centre[:some], radius.ravel()[:some], hair[:some], lying[:some])
 
 
 def soiled(clean: Volume, mud: Crumbs, opacity: float) -> Volume:

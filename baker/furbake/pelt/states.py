@@ -55,6 +55,6 @@ def chosen(names: tuple[str, ...], dirt: bool) -> list[State]:
 def in_state(state: State, coat: Coat, strands: Strands, height: float, seed: int) -> Fur:
     """The dry hairs of a coat in a state; height : of the dry fur, tile widths."""
     albedo = coat.albedo * (1 + (ALBEDO - 1) * state.wetness)
-    mud = crumbs(strands, height, seed) if state.dirt else None
+    mud = crumbs(strands, height, seed, state.dirt) if state.dirt else None
     soaked = wet(strands, state.wetness, coat.clumps, seed)
     return Fur(state, replace(coat, albedo=albedo), soaked, height * state.length, mud)

@@ -16,6 +16,9 @@ Array = NDArray[np.float64]
 FEWER = 0.4
 """Clumps of soaked fur over those of dry fur."""
 
+SETTLING = 4
+"""Times that clumps are made more alike: a pit between large ones is what the eye sees come again with the tile."""
+
 PULL = (0.75, 1.0)
 """Share of the way to its clump that the tip of a soaked hair goes, from hair to hair."""
 
@@ -45,7 +48,9 @@ def wet(strands: Strands, wetness: float, clumps: int, seed: int) -> Strands:
         return strands
     rng = np.random.default_rng([seed, 1])
     root = strands.points[:, 0, :2]
-    centre = settle(scatter(max(1, round(FEWER * clumps)), rng), root)
+    centre = scatter(max(1, round(FEWER * clumps)), rng)
+    for _ in range(SETTLING):
+        centre = settle(centre, root)
     clump, to_centre = nearest(root, centre)
     pull = rng.uniform(*PULL, len(root))
     s = np.linspace(0.0, 1.0, strands.points.shape[1])

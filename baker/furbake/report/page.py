@@ -14,7 +14,7 @@ from furbake.report.measure import Measured, number
 from furbake.report.pictures import SPAN, colour_scale, data_uri, error_colours, grey, lightness, row
 from furbake.report.section import section
 from furbake.report.svg import dial
-from furbake.swatch import pictures
+from furbake.swatch import pictures, render
 
 SWATCH = 216
 """Side of a swatch, pixels: one tile."""
@@ -55,6 +55,7 @@ def page(measured: Measured) -> str:
     )
     sections = (
         _swatches(measured),
+        *([_states(measured)] if len(fur["pelts"]) > 1 else []),
         _figures(measured),
         _sheet(measured),
         _all_layers(measured),
@@ -96,6 +97,25 @@ def _swatches(measured: Measured) -> str:
         "The fur under eight lights",
         "One tile, seen from straight above, drawn from the stored bytes as the page draws it. "
         "<b>Look for</b> single strands, a lit side that follows the lamp, and depths that stay dark.",
+        f'<div class="swatches">{"".join(cells)}</div>',
+    )
+
+
+def _states(measured: Measured) -> str:
+    fits = {state["name"]: state["fit"] for state in measured.asset.record.get("states", [])}
+    cells = []
+    for state in measured.asset.fur["pelts"]:
+        name, psnr = state["name"], number(flat(fits.get(state["name"], {})).get("psnr"))
+        image = render(measured.asset.folder, tiles=1, size=SWATCH, state=name)
+        words = f"{escape(name)}{'' if psnr is None else f', {psnr:.1f} dB'}"
+        cells.append(
+            f'<figure><img src="{data_uri(image)}" width="{SWATCH}" height="{SWATCH}" alt="{escape(name)} fur">'
+            f"<figcaption><span>{words}</span></figcaption></figure>"
+        )
+    return section(
+        "Its states",
+        "The same hairs in every state, under one lamp; all other figures here are those of the dry fur. "
+        "<b>Look for</b> clumps that come to a point and darken as the fur gets wet, and mud that sits on the tips.",
         f'<div class="swatches">{"".join(cells)}</div>',
     )
 

@@ -1,5 +1,7 @@
 /** Plots of the lesson, in SVG: as wide as their place, text of one size, colours from the style sheet. */
 
+import './plot.css';
+
 export type Attributes = Readonly<Record<string, string | number>>;
 
 const SVG = 'http://www.w3.org/2000/svg';

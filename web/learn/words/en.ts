@@ -89,4 +89,44 @@ export const en = {
 		swing: (height: number, swing: number) =>
 			`Height ${height} of a tile: once around, L swings by ± ${(100 * swing).toFixed(0)} %.`,
 	},
+	spring: {
+		tufts:
+			'Three tufts of hair on the same spring: as it truly swings, by the exact step, by Euler’s. ' +
+			'Drag, or use the arrow keys, to push them aside and let them go.',
+		ways: ['true swing', 'exact step', 'Euler’s step'],
+		plot: 'Where the tips are during two seconds: the true curve, points of the exact step, points of Euler’s.',
+		seconds: 'seconds',
+		lengths: 'tip, in lengths of the hair',
+		step: 'Time step',
+		rate: (rate: number) => `1/${rate} s`,
+		frequency: 'Frequency',
+		hertz: (hertz: string) => `${hertz} Hz`,
+		damping: 'Damping ζ',
+		letGo: 'Let go',
+		off: (exact: string, euler: string, limit: string) =>
+			`Off the curve at most: exact step ${exact}, Euler’s ${euler} lengths of the hair. ` +
+			`Euler’s is bounded up to steps of 2ζ/ω = ${limit} ms.`,
+	},
+	wind: {
+		picture: 'A square of fur in the wind. Drag to stroke it; arrow keys move the light.',
+		wind: 'Wind',
+		strength: (strength: number) => strength.toFixed(2),
+		direction: 'Blows to',
+		degrees: (degrees: number) => `${degrees}°`,
+		stroke: 'Stroke it',
+		shake: 'Shake it',
+	},
+	wet: {
+		picture: 'A square of fur between two states. Drag or use the arrow keys to move the light.',
+		neighbours: [
+			'The drier of the two states. Drag or use the arrow keys to move the light.',
+			'The wetter of the two states. Drag or use the arrow keys to move the light.',
+		],
+		states: ['dry', 'damp', 'moist', 'wet', 'soaked'],
+		share: (state: string, share: number) => `${(100 * share).toFixed(0)} % ${state}`,
+		wetness: 'Wetness',
+		dirt: 'Dirt',
+		hair: (length: number, shade: number) =>
+			`Hairs stand ${(100 * length).toFixed(0)} % as high as dry ones, and are ${shade.toFixed(2)} as bright.`,
+	},
 };

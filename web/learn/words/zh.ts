@@ -71,4 +71,38 @@ export const zh: Words = {
 		pictures: ['长毛。拖动或用方向键移动光源。', '短毛。拖动或用方向键移动光源。'],
 		swing: (height, swing) => `毛高为瓦片宽的 ${height}：光源绕行一周，L 变化 ±${(100 * swing).toFixed(0)}%。`,
 	},
+	spring: {
+		tufts: '同一弹簧上的三簇毛：真实摆动、精确步进、欧拉步进。拖动或用方向键把毛拨开，再松手。',
+		ways: ['真实摆动', '精确步进', '欧拉步进'],
+		plot: '两秒内毛尖的位置：真实曲线、精确步进的点、欧拉步进的点。',
+		seconds: '秒',
+		lengths: '毛尖位移（以毛长为单位）',
+		step: '时间步长',
+		rate: (rate) => `1/${rate} 秒`,
+		frequency: '频率',
+		hertz: (hertz) => `${hertz} Hz`,
+		damping: '阻尼 ζ',
+		letGo: '松手',
+		off: (exact, euler, limit) =>
+			`与曲线的最大偏差：精确步进 ${exact}，欧拉步进 ${euler}（以毛长为单位）。` +
+			`步长不超过 2ζ/ω = ${limit} 毫秒时，欧拉步进才有界。`,
+	},
+	wind: {
+		picture: '风中的一块毛发。拖动即抚摸，方向键移动光源。',
+		wind: '风力',
+		strength: (strength) => strength.toFixed(2),
+		direction: '风向',
+		degrees: (degrees) => `${degrees}°`,
+		stroke: '抚摸一下',
+		shake: '摇一摇',
+	},
+	wet: {
+		picture: '介于两种状态之间的一块毛发。拖动或用方向键移动光源。',
+		neighbours: ['两种状态中较干的一种。拖动或用方向键移动光源。', '两种状态中较湿的一种。拖动或用方向键移动光源。'],
+		states: ['干', '微湿', '潮湿', '湿', '湿透'],
+		share: (state, share) => `${state} ${(100 * share).toFixed(0)}%`,
+		wetness: '湿度',
+		dirt: '泥污',
+		hair: (length, shade) => `毛高为干毛的 ${(100 * length).toFixed(0)}%，亮度为干毛的 ${shade.toFixed(2)}。`,
+	},
 };
