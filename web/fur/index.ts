@@ -44,6 +44,7 @@ export {
 } from './moments.ts';
 export { FurMotion } from './motion/FurMotion.ts';
 export type { MotionOptions } from './motion/options.ts';
+export { type Spring, springOf } from './motion/spring.ts';
 export type { WindSettings } from './motion/Wind.ts';
 export type { FurTextures } from './PeltMaterial.ts';
 export { fitShadow } from './shadow.ts';
