@@ -1,6 +1,7 @@
 // A lamp's light on fur that is bent further than it was baked. Texels are what they were; what changes is the direction
 // from which light finds its way to them, and how much of it the hairs send on. `furbake bend` holds it against bakes of the
-// bent hairs; its docstring says where each term comes from.
+// bent hairs (1.21 times the error of the unbent fit; 1.51 without this, 1.98 with a frame that turns with the hairs) and says
+// where each term comes from.
 
 uniform vec2 lean; // mean displacement of the tips inside the tile, share of the length along (T, B)
 
