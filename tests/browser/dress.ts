@@ -224,6 +224,8 @@ export async function cover(url: string) {
 		fur.length = length;
 		return outline(stage.draw());
 	});
+	// What is left of cut fur is its densest part.
+	fur.length = 1;
 	const whole = stage.draw();
 	fur.clip = { from: 0, to: 0.5 };
 	const half = stage.draw();

@@ -8,10 +8,10 @@ from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
 
-from furbake.bend import Row as Bent
+from furbake.bend import Row as BendRow
 from furbake.bend import bend
 from furbake.bend import check as check_bends
-from furbake.bend import markdown as bends_table
+from furbake.bend import markdown as bend_table
 from furbake.body import patch_figures
 from furbake.cli.progress import shown
 from furbake.compare import Row, compare, markdown
@@ -64,15 +64,15 @@ def run_trim(args: argparse.Namespace) -> int:
 
 
 def run_bend(args: argparse.Namespace) -> int:
-    """Print a table of presets and bends, all measured anew."""
+    """Print a table of bent fur, lit in every way, against the same strands bent and sampled anew."""
     check_bends(args.tips, args.azimuths)
     names, coats = _coats(args)
-    rows: list[Bent] = []
+    rows: list[BendRow] = []
     with shown(names, args.quiet) as progress:
         for name, options in zip(names, coats, strict=True):
             rows += bend(options, args.tips, args.azimuths, partial(progress, name))
             progress(name, 1.0)
-    print(bends_table(rows), end="")
+    print(bend_table(rows), end="")
     return 0
 
 
