@@ -1,4 +1,4 @@
-import { BufferAttribute, BufferGeometry, Matrix4, Vector3 } from 'three';
+import { BufferAttribute, BufferGeometry, Group, Matrix4, Object3D, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
 import { FurWeather, type WeatheredBody } from '../../web/fur/FurWeather.ts';
 import { Follicles } from '../../web/fur/follicles.ts';
@@ -25,7 +25,9 @@ function ear(): BufferGeometry {
 
 function painted(drying?: number, matrixWorld = new Matrix4()) {
 	const follicles = Follicles.of(ear());
-	const body: WeatheredBody = { follicles, shells: { matrixWorld }, weather: undefined };
+	const shells = new Object3D();
+	shells.applyMatrix4(matrixWorld);
+	const body: WeatheredBody = { follicles, shells, weather: undefined };
 	const weather = new FurWeather(body, drying ? { drying } : {});
 	const at = (x: number, y: number, front = true) => {
 		const { position, normal, count } = follicles;
@@ -39,7 +41,7 @@ function painted(drying?: number, matrixWorld = new Matrix4()) {
 		const data = weather.stains?.image.data as Uint8Array | undefined;
 		return [data?.[2 * i], data?.[2 * i + 1]];
 	};
-	return { body, weather, at, texel, follicles };
+	return { body, shells, weather, at, texel, follicles };
 }
 
 describe('the brush', () => {
@@ -71,6 +73,15 @@ describe('the brush', () => {
 		expect(texel(at(0.2, 0.4))[0]).toBeGreaterThan(110);
 		expect(texel(at(0.3, 0.4))[0]).toBeGreaterThan(20);
 		expect(texel(at(0.4, 0.4))).toEqual([0, 0]);
+	});
+
+	it('finds a body that has been moved since it was drawn', () => {
+		const { shells, weather, at, texel } = painted();
+		new Group().add(shells).position.set(7, 0, 0);
+		weather.rain(new Vector3(7.2, 0.4, 0.02), 0.2, 0.5);
+		weather.update(0);
+		expect(texel(at(0.2, 0.4))[0]).toBeGreaterThan(110);
+		expect(texel(at(0.5, 0.4))).toEqual([0, 0]);
 	});
 
 	it('soils, mats what is muddy, and rain washes a little of it away', () => {

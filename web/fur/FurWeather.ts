@@ -24,7 +24,7 @@ export interface WeatheredBody {
 	/** Points of the skin, in the axes of the shells. */
 	readonly follicles: Follicles;
 	/** Where they are. */
-	readonly shells: Pick<Object3D, 'matrixWorld'>;
+	readonly shells: Pick<Object3D, 'matrixWorld' | 'updateWorldMatrix'>;
 	/** What it is worn by. */
 	weather: FurWeather | undefined;
 }
@@ -209,7 +209,9 @@ export class FurWeather {
 
 	/** All follicles within reach that look the way that the nearest one does: what is behind a thin ear stays dry. */
 	#brush(point: Vector3, radius: number, paint: (i: number, share: number) => void): void {
-		const { matrixWorld } = this.#body.shells;
+		const { shells } = this.#body;
+		shells.updateWorldMatrix(true, false);
+		const { matrixWorld } = shells;
 		const { position, normal, count } = this.#follicles;
 		const { x, y, z } = place.copy(point).applyMatrix4(inverse.copy(matrixWorld).invert());
 		const reach = (radius / matrixWorld.getMaxScaleOnAxis()) ** 2;
