@@ -127,6 +127,22 @@ describe('wet fur', () => {
 		expect([weather.driest, weather.wettest, weather.dirtiest]).toEqual([0.25, 0.25, 0.1]);
 	});
 
+	it('is painted where it is wetter or dirtier than the whole body, not where mud mats it', () => {
+		const { weather } = painted(1);
+		Object.assign(weather, { wetness: 0.3, dirt: 1 });
+		weather.update(0);
+		expect([weather.painted, weather.wettest]).toEqual([false, 0.6]);
+		weather.rain(new Vector3(0.5, 0.5, 0.02), 0.2, 0.8);
+		expect(weather.painted).toBe(true);
+		for (let second = 0; second < 2; second++) weather.update(1);
+		expect(weather.painted, 'dry').toBe(false);
+		weather.dirt = 0.5;
+		weather.mud(new Vector3(0.5, 0.5, 0.02), 0.2, 0.8);
+		expect(weather.painted).toBe(true);
+		weather.clean();
+		expect(weather.painted, 'at once').toBe(false);
+	});
+
 	it('can be as baked again at once, and tells those who wear it', () => {
 		const { body, weather } = painted();
 		let told = 0;

@@ -14,8 +14,6 @@ const gusts = 0.7;
 /** Seconds until soaked fur is dry; milliseconds between two frames in which nothing happens but that. */
 const drying = 90;
 const slow = 100;
-/** What is no stain yet. */
-const step = 1 / 100;
 
 export class Living {
 	/** Of the body as a whole. */
@@ -35,8 +33,7 @@ export class Living {
 
 	/** Whether something was painted that no link tells of. */
 	get marked(): boolean {
-		const { wetness = 0, wettest = 0, dirt = 0, dirtiest = 0 } = this.#weather ?? {};
-		return wettest > wetness + step || dirtiest > dirt + step;
+		return this.#weather?.painted ?? false;
 	}
 
 	/** Fetches what the fur is like when it is wet and dirty; where that fails, says why and takes it out of the view. */

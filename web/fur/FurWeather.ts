@@ -67,7 +67,7 @@ export class FurWeather {
 	#dirtiest = 0;
 	/** What is painted of the wettest follicle. */
 	#left = 0;
-	#painted = false;
+	#changed = false;
 	#elapsed = 0;
 
 	/** @param body a fur, whose weather it becomes */
@@ -91,7 +91,7 @@ export class FurWeather {
 	}
 
 	set wetness(share: number) {
-		this.#painted ||= share !== this.#wetness;
+		this.#changed ||= share !== this.#wetness;
 		this.#wetness = share;
 	}
 
@@ -101,7 +101,7 @@ export class FurWeather {
 	}
 
 	set dirt(share: number) {
-		this.#painted ||= share !== this.#soiling;
+		this.#changed ||= share !== this.#soiling;
 		this.#soiling = share;
 	}
 
@@ -130,7 +130,7 @@ export class FurWeather {
 		this.#dirt.fill(0);
 		this.#wetness = this.#soiling = 0;
 		this.#left = 0;
-		this.#painted = true;
+		this.#changed = true;
 	}
 
 	/**
@@ -147,12 +147,18 @@ export class FurWeather {
 				for (let i = 0; i < this.#wet.length; i++) this.#wet[i] = Math.max((this.#wet[i] as number) - loss, 0);
 				this.#left = Math.max(this.#left - loss, 0);
 				this.#elapsed = 0;
-				this.#painted = true;
+				this.#changed = true;
 			}
 		}
-		if (!this.#painted) return false;
-		this.#painted = false;
+		if (!this.#changed) return false;
+		this.#changed = false;
 		return this.#write();
+	}
+
+	/** Whether a place is wetter or dirtier than the whole body is. */
+	get painted(): boolean {
+		const more = (whole: number) => (share: number) => share > whole + 0.5 / STAIN_STEPS;
+		return this.#wet.some(more(this.#wetness)) || this.#dirt.some(more(this.#soiling));
 	}
 
 	/** Whether it still changes by itself. */
@@ -241,7 +247,7 @@ export class FurWeather {
 			const facing = Math.min(Math.max((alike - ASIDE) / (FACING - ASIDE), 0), 1);
 			if (facing > 0) paint(i, facing * (1 - distance) ** 2);
 		}
-		this.#painted = true;
+		this.#changed = true;
 	}
 
 	#add(painted: Float32Array, i: number, amount: number): void {
