@@ -36,13 +36,19 @@ export class Living {
 		return this.#weather?.painted ?? false;
 	}
 
-	/** Fetches what the fur is like when it is wet and dirty; where that fails, says why and takes it out of the view. */
-	async load(view: View): Promise<void> {
+	/**
+	 * Fetches what the fur is like when it is wet and dirty; where that fails, says why and takes it out of the view.
+	 *
+	 * @returns whether it is there
+	 */
+	async load(view: View): Promise<boolean> {
 		try {
 			await this.#looks.loadStates();
+			return true;
 		} catch (error) {
 			Object.assign(view, { wet: undefined, dirt: undefined });
-			notice(words.statesNotShown((error as Error).message), 'error');
+			notice(words.statesNotShown((error as Error).message), 'error', 'states');
+			return false;
 		}
 	}
 
