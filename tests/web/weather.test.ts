@@ -127,6 +127,18 @@ describe('wet fur', () => {
 		expect([weather.driest, weather.wettest, weather.dirtiest]).toEqual([0.25, 0.25, 0.1]);
 	});
 
+	it('is soaked at most, and dry where it is told what is no number', () => {
+		const { weather, texel } = painted();
+		Object.assign(weather, { wetness: 2, dirt: -1 });
+		weather.update(0);
+		expect([weather.wetness, weather.wettest, weather.dirt, ...texel(0)]).toEqual([1, 1, 0, 240, 0]);
+		weather.wetness = Number.NaN;
+		weather.update(0);
+		weather.rain(new Vector3(0.5, 0.5, 0.02), 0.3, Number.NaN);
+		weather.update(0);
+		expect([weather.stains, weather.update(0)]).toEqual([undefined, false]);
+	});
+
 	it('is painted where it is wetter or dirtier than the whole body, not where mud mats it', () => {
 		const { weather } = painted(1);
 		Object.assign(weather, { wetness: 0.3, dirt: 1 });

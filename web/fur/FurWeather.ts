@@ -35,6 +35,9 @@ export interface WeatherOptions {
 	drying?: number;
 }
 
+/** A share, 0..1; what is no number is 0. */
+const bounded = (share: number) => Math.min(Math.max(share, 0), 1) || 0;
+
 const inverse = new Matrix4();
 const place = new Vector3();
 
@@ -91,8 +94,9 @@ export class FurWeather {
 	}
 
 	set wetness(share: number) {
-		this.#changed ||= share !== this.#wetness;
-		this.#wetness = share;
+		const whole = bounded(share);
+		this.#changed ||= whole !== this.#wetness;
+		this.#wetness = whole;
 	}
 
 	/** Of the whole body, 0..1: nothing is cleaner than that. */
@@ -101,8 +105,9 @@ export class FurWeather {
 	}
 
 	set dirt(share: number) {
-		this.#changed ||= share !== this.#soiling;
-		this.#soiling = share;
+		const whole = bounded(share);
+		this.#changed ||= whole !== this.#soiling;
+		this.#soiling = whole;
 	}
 
 	/**
@@ -244,14 +249,14 @@ export class FurWeather {
 			if (!(distance < 1)) continue;
 			const alike =
 				(normal[3 * i] as number) * nx + (normal[3 * i + 1] as number) * ny + (normal[3 * i + 2] as number) * nz;
-			const facing = Math.min(Math.max((alike - ASIDE) / (FACING - ASIDE), 0), 1);
+			const facing = bounded((alike - ASIDE) / (FACING - ASIDE));
 			if (facing > 0) paint(i, facing * (1 - distance) ** 2);
 		}
 		this.#changed = true;
 	}
 
 	#add(painted: Float32Array, i: number, amount: number): void {
-		const value = Math.min(Math.max((painted[i] as number) + amount, 0), 1);
+		const value = bounded((painted[i] as number) + amount);
 		painted[i] = value;
 		if (painted === this.#wet) this.#left = Math.max(this.#left, value);
 	}
