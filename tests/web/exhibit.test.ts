@@ -5,15 +5,15 @@ import { Exhibit } from '../../web/demo/exhibit.ts';
 import type { Picture } from '../../web/demo/picture.ts';
 import type { Progress } from '../../web/demo/progress.ts';
 
-const notice = vi.hoisted(() => vi.fn());
-vi.mock('../../web/demo/notice.ts', () => ({ notice, withdraw: () => {} }));
+const { notice, withdraw } = vi.hoisted(() => ({ notice: vi.fn(), withdraw: vi.fn() }));
+vi.mock('../../web/demo/notice.ts', () => ({ notice, withdraw }));
 vi.mock('../../web/page/element.ts', () => ({ setState: () => {} }));
 vi.mock('../../web/demo/words/index.ts', async () => {
 	const { en } = await import('../../web/demo/words/en.ts');
 	return { language: 'en', words: en };
 });
 
-beforeEach(() => notice.mockClear());
+beforeEach(() => vi.clearAllMocks());
 
 /** With a model on show whose fur knows wet states. */
 function exhibit(view: View) {
@@ -59,8 +59,10 @@ describe('states of the fur on show', () => {
 		expect(asked.wet).toBeUndefined();
 		await styled();
 		expect(load, 'nothing is to be wet').toHaveBeenCalledOnce();
+		expect(withdraw).not.toHaveBeenCalled();
 		asked.wet = 0.7;
 		for (let i = 0; i < 2; i++) await styled();
 		expect([load.mock.calls.length, asked.wet]).toEqual([2, 0.7]);
+		expect(withdraw).toHaveBeenCalledWith('states');
 	});
 });

@@ -4,7 +4,7 @@ import { MathUtils, type Vector3 } from 'three';
 import { FurMotion, FurWeather } from '../fur/index.ts';
 import type { View } from './address.ts';
 import type { Looks } from './looks.ts';
-import { notice } from './notice.ts';
+import { notice, withdraw } from './notice.ts';
 import type { Stage } from './scene.ts';
 import { Sway } from './sway.ts';
 import { words } from './words/index.ts';
@@ -44,6 +44,7 @@ export class Living {
 	async load(view: View): Promise<boolean> {
 		try {
 			await this.#looks.loadStates();
+			withdraw('states');
 			return true;
 		} catch (error) {
 			Object.assign(view, { wet: undefined, dirt: undefined });
