@@ -110,7 +110,7 @@ def mean(first: Pelt, second: Pelt, lighting: Lighting) -> Texels:
 
 
 def soiled(dry: Pelt, dirty: Pelt, dirt: float, lighting: Lighting) -> Texels:
-    """Dry fur at a share of the dirty pelt's dirt, as the page mixes them (`schema/README.md`)."""
+    """Dry fur at a share of the dirty pelt's dirt, as `schema/README.md` has it, without the page's film of mud."""
     mud = dirt * dirty.tint / 255 * dirty.alpha / 255
     alpha = 1 - (1 - dry.alpha / 255) * (1 - mud)
     share = np.minimum(mud / np.maximum(alpha, 1e-9), 1)

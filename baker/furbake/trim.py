@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.bake import Lighting, fit_pelt, light, under
+from furbake.bake import Lighting, fit_pelt, light, parts, under
 from furbake.options import BakeOptions
 from furbake.pelt.basis import Basis
 from furbake.pelt.fit import Judge, decibels, fit, relight
@@ -106,22 +106,18 @@ def trim(
     strands = grow(options.coat, height, options.seed)
     fine = voxelise(strands, height, *fine_shape(options.layers, options.size, height), options.coat.opacity)
     volume = coarsen(fine, options.layers, options.size)
-    runs = len(lengths) + 1
-
-    def part(number: int) -> Callable[[float], None]:
-        return lambda fraction: step((number + fraction) / runs)
-
+    part = parts(step, len(lengths) + 1)
     options = replace(options, lights=lights)
-    lighting = light(fine, options, part(0), held_out=HELD_OUT)
+    lighting = light(fine, options, next(part), held_out=HELD_OUT)
     pelt, _ = fit_pelt(volume, lighting, options)
     basis = Basis(pelt.kind, pelt.degree, pelt.matrix)
     coefficients = dequantise(pelt.codes, pelt.scale, pelt.bias)
     alpha, layers = volume.coverage, options.layers
     unseen = lighting.lights[lighting.held_out]
     whole = relight(coefficients, basis, unseen)
-    for number, share in enumerate(lengths):
+    for share in lengths:
         kept = max(1, round(share * layers))
-        short = under(lighting.lights, cut(fine, kept / layers), replace(options, layers=kept), part(number + 1))
+        short = under(lighting.lights, cut(fine, kept / layers), replace(options, layers=kept), next(part))
         judge = Judge(short[lighting.held_out], alpha[:kept], volume.tint[:kept])
         above = Judge(whole, alpha, volume.tint).composite(whole)
         flat = whole[:, ((np.arange(kept) + 0.5) * layers / kept).astype(int)]

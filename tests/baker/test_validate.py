@@ -270,6 +270,8 @@ def living(tmp_path_factory: pytest.TempPathFactory) -> Path:
         (lambda pelts, fur: fur.pop("mud"), "there is no mud"),
         (lambda pelts, fur: pelts[1].update(wetness=0), "wetness 0, 0, expected one that rises"),
         (lambda pelts, fur: pelts[2].update(wetness=0.5), "pelt dirty is wet and dirty"),
+        (lambda pelts, fur: pelts.append(pelts[2] | {"name": "dirtier"}), "2 pelts are dirty, expected one"),
+        (lambda pelts, fur: pelts[1].pop("colour"), "one of pelts[0] and pelts[1] has no colour"),
         (lambda pelts, fur: pelts[1]["scale"].__setitem__(2, 9.0), "pelts[1].scale differs"),
         (lambda pelts, fur: pelts[2]["fin"]["bias"].__setitem__(0, 9.0), "pelts[2].fin.bias differs"),
         (lambda pelts, fur: pelts[1].update(wetness=1.5), "1.5 is greater than the maximum"),

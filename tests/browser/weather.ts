@@ -69,11 +69,12 @@ const depthOf = (texture: Texture | undefined): number => (texture as Compressed
 const worst = (a: Float32Array, b: Float32Array) =>
 	a.reduce((most, value, i) => Math.max(most, Math.abs(value - (b[i] ?? Number.NaN))), 0);
 
-/** Resolves once the textures of shells have this many layers. */
-async function settled(wet: Wet, depth: number): Promise<void> {
+/** Resolves once the driest state in the textures is this one. */
+async function settled({ fur }: Wet, wetness: number): Promise<void> {
 	const started = performance.now();
-	while (wet.depths()[0] !== depth) {
-		if (performance.now() - started > 10_000) throw new Error(`textures have ${wet.depths()[0]} layers, not ${depth}`);
+	const driest = () => fur.pelt.wet[0]?.wetness ?? 0;
+	while (driest() !== wetness) {
+		if (performance.now() - started > 10_000) throw new Error(`the driest state is ${driest()}, not ${wetness}`);
 		await new Promise((resolve) => setTimeout(resolve, 5));
 	}
 }
@@ -121,11 +122,11 @@ export async function course(url: string) {
 	await light.fur.loadStates();
 	const depths = [light.depths()];
 	light.set({ wetness: 0.75, dirt: 0 });
-	await settled(light, 2 * light.fur.asset.layers);
+	await settled(light, 0.75);
 	depths.push(light.depths());
 	const tier = [worst(light.all(), atState)];
 	light.set({ wetness: 0.6, dirt: 0 });
-	await new Promise((resolve) => setTimeout(resolve, 300));
+	await settled(light, 0.5);
 	tier.push(worst(light.all(), between));
 	light.set({ wetness: 0, dirt: 1 });
 	const lightMud = { parts: light.parts };

@@ -1,4 +1,4 @@
-import { BufferAttribute, BufferGeometry, Matrix4, Vector3 } from 'three';
+import { BufferAttribute, BufferGeometry, Group, Matrix4, Object3D, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
 import { FurWeather, type WeatheredBody } from '../../web/fur/FurWeather.ts';
 import { Follicles } from '../../web/fur/follicles.ts';
@@ -25,7 +25,9 @@ function ear(): BufferGeometry {
 
 function painted(drying?: number, matrixWorld = new Matrix4()) {
 	const follicles = Follicles.of(ear());
-	const body: WeatheredBody = { follicles, shells: { matrixWorld }, weather: undefined };
+	const shells = new Object3D();
+	shells.applyMatrix4(matrixWorld);
+	const body: WeatheredBody = { follicles, shells, weather: undefined };
 	const weather = new FurWeather(body, drying ? { drying } : {});
 	const at = (x: number, y: number, front = true) => {
 		const { position, normal, count } = follicles;
@@ -39,7 +41,7 @@ function painted(drying?: number, matrixWorld = new Matrix4()) {
 		const data = weather.stains?.image.data as Uint8Array | undefined;
 		return [data?.[2 * i], data?.[2 * i + 1]];
 	};
-	return { body, weather, at, texel, follicles };
+	return { body, shells, weather, at, texel, follicles };
 }
 
 describe('the brush', () => {
@@ -71,6 +73,15 @@ describe('the brush', () => {
 		expect(texel(at(0.2, 0.4))[0]).toBeGreaterThan(110);
 		expect(texel(at(0.3, 0.4))[0]).toBeGreaterThan(20);
 		expect(texel(at(0.4, 0.4))).toEqual([0, 0]);
+	});
+
+	it('finds a body that has been moved since it was drawn', () => {
+		const { shells, weather, at, texel } = painted();
+		new Group().add(shells).position.set(7, 0, 0);
+		weather.rain(new Vector3(7.2, 0.4, 0.02), 0.2, 0.5);
+		weather.update(0);
+		expect(texel(at(0.2, 0.4))[0]).toBeGreaterThan(110);
+		expect(texel(at(0.5, 0.4))).toEqual([0, 0]);
 	});
 
 	it('soils, mats what is muddy, and rain washes a little of it away', () => {
@@ -114,6 +125,34 @@ describe('wet fur', () => {
 		expect(texel(follicles.count - 1)).toEqual([60, 24]);
 		for (let second = 0; second < 9; second++) expect(weather.update(1)).toBe(false);
 		expect([weather.driest, weather.wettest, weather.dirtiest]).toEqual([0.25, 0.25, 0.1]);
+	});
+
+	it('is soaked at most, and dry where it is told what is no number', () => {
+		const { weather, texel } = painted();
+		Object.assign(weather, { wetness: 2, dirt: -1 });
+		weather.update(0);
+		expect([weather.wetness, weather.wettest, weather.dirt, ...texel(0)]).toEqual([1, 1, 0, 240, 0]);
+		weather.wetness = Number.NaN;
+		weather.update(0);
+		weather.rain(new Vector3(0.5, 0.5, 0.02), 0.3, Number.NaN);
+		weather.update(0);
+		expect([weather.stains, weather.update(0)]).toEqual([undefined, false]);
+	});
+
+	it('is painted where it is wetter or dirtier than the whole body, not where mud mats it', () => {
+		const { weather } = painted(1);
+		Object.assign(weather, { wetness: 0.3, dirt: 1 });
+		weather.update(0);
+		expect([weather.painted, weather.wettest]).toEqual([false, 0.6]);
+		weather.rain(new Vector3(0.5, 0.5, 0.02), 0.2, 0.8);
+		expect(weather.painted).toBe(true);
+		for (let second = 0; second < 2; second++) weather.update(1);
+		expect(weather.painted, 'dry').toBe(false);
+		weather.dirt = 0.5;
+		weather.mud(new Vector3(0.5, 0.5, 0.02), 0.2, 0.8);
+		expect(weather.painted).toBe(true);
+		weather.clean();
+		expect(weather.painted, 'at once').toBe(false);
 	});
 
 	it('can be as baked again at once, and tells those who wear it', () => {

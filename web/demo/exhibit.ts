@@ -270,15 +270,15 @@ export class Exhibit {
 		const soiled = this.play.soils(view);
 		this.#soiled = soiled;
 		const wearer = { body: model.fur, soiled, entry: this.entry, limits: stage.limits };
-		const outfits = await availableOutfits(view, this.menu, wearer);
+		const { outfits, whole } = await availableOutfits(view, this.menu, wearer);
 		const late = () => turn !== this.#latestOutfit || model !== stage.model;
 		if (late()) return;
 		this.looks.wear(model.fur, outfits, view);
 		this.looks.cut(view.split?.share ?? 1);
-		if (soiled) {
-			await this.living.load(view);
-			if (late()) return;
-		}
+		const loaded = !soiled || (await this.living.load(view));
+		if (late()) return;
+		// What has failed is asked for another time.
+		this.#soiled = soiled && whole && loaded;
 		this.living.style(view);
 		stage.gather(view.crowd ?? 1, this.looks.fur);
 		stage.lamps = view.lights ?? 1;

@@ -4,7 +4,7 @@ import { MathUtils, type Vector3 } from 'three';
 import { FurMotion, FurWeather } from '../fur/index.ts';
 import type { View } from './address.ts';
 import type { Looks } from './looks.ts';
-import { notice } from './notice.ts';
+import { notice, withdraw } from './notice.ts';
 import type { Stage } from './scene.ts';
 import { Sway } from './sway.ts';
 import { words } from './words/index.ts';
@@ -14,8 +14,6 @@ const gusts = 0.7;
 /** Seconds until soaked fur is dry; milliseconds between two frames in which nothing happens but that. */
 const drying = 90;
 const slow = 100;
-/** What is no stain yet. */
-const step = 1 / 100;
 
 export class Living {
 	/** Of the body as a whole. */
@@ -35,17 +33,23 @@ export class Living {
 
 	/** Whether something was painted that no link tells of. */
 	get marked(): boolean {
-		const { wetness = 0, wettest = 0, dirt = 0, dirtiest = 0 } = this.#weather ?? {};
-		return wettest > wetness + step || dirtiest > dirt + step;
+		return this.#weather?.painted ?? false;
 	}
 
-	/** Fetches what the fur is like when it is wet and dirty; where that fails, says why and takes it out of the view. */
-	async load(view: View): Promise<void> {
+	/**
+	 * Fetches what the fur is like when it is wet and dirty; where that fails, says why and takes it out of the view.
+	 *
+	 * @returns whether it is there
+	 */
+	async load(view: View): Promise<boolean> {
 		try {
 			await this.#looks.loadStates();
+			withdraw('states');
+			return true;
 		} catch (error) {
 			Object.assign(view, { wet: undefined, dirt: undefined });
-			notice(words.statesNotShown((error as Error).message), 'error');
+			notice(words.statesNotShown((error as Error).message), 'error', 'states');
+			return false;
 		}
 	}
 

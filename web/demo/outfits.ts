@@ -110,17 +110,26 @@ function outfitsOf(view: View, menu: readonly MenuEntry[], { body, soiled, entry
 	);
 }
 
-/** The same; where a pelt cannot be had, says why and takes out of the view what needs it. */
-export async function availableOutfits(view: View, menu: readonly MenuEntry[], wearer: Wearer): Promise<Outfit[]> {
+/**
+ * The same; where a pelt cannot be had, says why and takes out of the view what needs it.
+ *
+ * @returns outfits, and whether they are what was asked for
+ */
+export async function availableOutfits(
+	view: View,
+	menu: readonly MenuEntry[],
+	wearer: Wearer,
+): Promise<{ outfits: Outfit[]; whole: boolean }> {
 	try {
-		return await outfitsOf(view, menu, wearer);
+		return { outfits: await outfitsOf(view, menu, wearer), whole: true };
 	} catch (error) {
 		const eigen = view.method === 'eigen' || view.split?.method === 'eigen';
 		const name = view.preset ?? (eigen ? words.methods.eigen : undefined);
 		const { message } = error as Error;
-		notice(name ? words.presetNotShown(words.titles[name] ?? name, message) : words.statesNotShown(message), 'error');
+		const sentence = name ? words.presetNotShown(words.titles[name] ?? name, message) : words.statesNotShown(message);
+		notice(sentence, 'error', name ? '' : 'states');
 		Object.assign(view, { preset: undefined, method: undefined, split: undefined, wet: undefined, dirt: undefined });
-		return outfitsOf(view, menu, { ...wearer, soiled: false });
+		return { outfits: await outfitsOf(view, menu, { ...wearer, soiled: false }), whole: false };
 	}
 }
 

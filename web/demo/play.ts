@@ -13,7 +13,7 @@ import type { Act } from './tools.ts';
 const width = { stroke: 0.17, rain: 0.2, mud: 0.15 } as const;
 /** What a second under the brush does: 1 is all. */
 const rate = { rain: 3.5, mud: 4 } as const;
-/** Of a key that is pressed once, as of so many seconds. */
+/** Of a key that is pressed once, or a tap, as of so many seconds. */
 const press = 0.25;
 /** Radii per second that an arrow key pushes the body by. */
 const nudge = 1.6;
@@ -35,6 +35,8 @@ export class Play {
 	readonly #pointer = new Vector2();
 	#there = false;
 	#pressed = false;
+	/** Whether it has come down since the last frame. */
+	#fresh = false;
 	/** Whether keys have it, which have no place of their own. */
 	#keys = false;
 	/** Key presses that have not been followed yet. */
@@ -61,7 +63,7 @@ export class Play {
 	set act(act: Act) {
 		this.#act = act;
 		this.#picture.canvas.dataset.act = act;
-		this.#keys = this.#on = this.#pressed = false;
+		this.#keys = this.#on = this.#pressed = this.#fresh = false;
 		this.#living.sway.release();
 		this.#picture.request();
 	}
@@ -78,7 +80,8 @@ export class Play {
 
 	/** A pointer comes down, or goes up. */
 	press(pressed: boolean): void {
-		this.#pressed = pressed;
+		if (!pressed && this.#fresh) this.#tap();
+		this.#pressed = this.#fresh = pressed;
 		this.#on = false;
 		if (this.#act === 'move') {
 			if (!pressed) this.#living.sway.release();
@@ -111,7 +114,7 @@ export class Play {
 		this.#picture.request();
 	}
 
-	/** Enter or the space bar: the brush does its work where its ring is, at first in the middle of the picture. */
+	/** Enter or the space bar: the brush does its work where its ring is, in the middle of the picture where there is none. */
 	stroke(): void {
 		if (!isPaint(this.#act)) return;
 		this.#take();
@@ -120,7 +123,7 @@ export class Play {
 	}
 
 	#take(): void {
-		if (!this.#keys) this.#pointer.setScalar(0);
+		if (!this.#keys && !this.#there) this.#pointer.setScalar(0);
 		this.#keys = true;
 	}
 
@@ -130,6 +133,7 @@ export class Play {
 	 * @returns milliseconds until another frame is wanted: 0 at once, Infinity none
 	 */
 	step(seconds: number): number {
+		this.#fresh = false;
 		const working = this.#brush(seconds);
 		const falling = this.#drops.step(seconds, this.#picture.camera);
 		const wait = this.#living.step(seconds);
@@ -150,7 +154,7 @@ export class Play {
 		}
 		const radius = this.#radius(act);
 		brush.lie(radius, 0.6 * fur.shells.furLength);
-		for (; this.#strokes > 0; this.#strokes--) this.#byKey(act, radius);
+		for (; this.#strokes > 0; this.#strokes--) this.#once(act, radius);
 		if (this.#pressed) this.#work(act, radius, seconds);
 		if (this.#pressed && act === 'rain' && !this.#picture.calm)
 			this.#drops.pour(brush.place, brush.normal, radius, this.#picture.stage.closest, seconds);
@@ -184,7 +188,15 @@ export class Play {
 			this.#living[act](this.#hand.lerpVectors(before, place, i / dabs), radius, rate[act] * seconds);
 	}
 
-	#byKey(act: Paint, radius: number): void {
+	/** A tap, over before a frame has seen it; a stroke has no way then. */
+	#tap(): void {
+		const act = this.#act;
+		if (this.#looks.fur && isPaint(act) && act !== 'stroke' && this.#aim(this.#pointer))
+			this.#once(act, this.#radius(act));
+	}
+
+	/** What a key that is pressed once does. */
+	#once(act: Paint, radius: number): void {
 		const { place } = this.brush;
 		if (act !== 'stroke') {
 			this.#living[act](place, radius, rate[act] * press);

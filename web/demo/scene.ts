@@ -8,9 +8,7 @@ import {
 	HalfFloatType,
 	HemisphereLight,
 	NeutralToneMapping,
-	Object3D,
 	type PerspectiveCamera,
-	Quaternion,
 	Scene,
 	Sphere,
 	UnsignedByteType,
@@ -24,17 +22,12 @@ import { Crowd } from './crowd.ts';
 import type { Environment } from './environments.ts';
 import { Lamps } from './lamps.ts';
 import type { Model } from './models.ts';
+import { heightOf, stand } from './stand.ts';
 
 const maxPixelRatio = 2;
 
 /** Irradiance: 2.8π makes a white matt surface facing it 2.8 bright. */
 const keyPower = 2.8 * Math.PI;
-/** Radians that a body leans where its foot is drawn aside by its height. */
-const leaning = 0.9;
-const foot = new Vector3();
-const axis = new Vector3();
-const lean = new Quaternion();
-
 const keyColour = new Color(1, 0.95, 0.87).multiplyScalar(keyPower);
 
 export class Stage {
@@ -57,6 +50,7 @@ export class Stage {
 	#environment: Environment | undefined;
 	/** The body's way from its place, world. */
 	readonly #offset = new Vector3();
+	readonly #towards = new Vector3();
 	/** Of the window, CSS pixels. */
 	#width = 1;
 	#height = 1;
@@ -129,26 +123,16 @@ export class Stage {
 	/**
 	 * Moves the one body on show about its foot, and what it brings along: shadow and the light's own view of it.
 	 *
-	 * @param offset from its place, in radii of the body; it leans as far as it is drawn aside
+	 * @param offset from its place, in radii of the body
 	 * @param yaw turn about the upright axis, radians
 	 */
 	place(offset: Vector3, yaw: number): void {
 		const { model } = this;
 		if (!model) return;
-		const { object, box, radius } = model;
-		const height = box.max.y - box.min.y;
-		this.#offset.copy(offset).multiplyScalar(radius);
-		box.getCenter(foot).setY(box.min.y);
-		const aside = Math.hypot(offset.x, offset.z);
-		lean.setFromAxisAngle(
-			axis.set(offset.z, 0, -offset.x).divideScalar(aside || 1),
-			(leaning * aside * radius) / height,
-		);
-		object.quaternion.setFromAxisAngle(Object3D.DEFAULT_UP, yaw).premultiply(lean);
-		object.position.copy(foot).negate().applyQuaternion(object.quaternion).add(foot).add(this.#offset);
-		object.updateMatrixWorld();
-		this.#shadow.follow(this.#offset, yaw, height);
-		this.light(axis.subVectors(this.key.position, this.key.target.position).normalize());
+		this.#offset.copy(offset).multiplyScalar(model.radius);
+		stand(model, this.#offset, yaw);
+		this.#shadow.follow(this.#offset, yaw, heightOf(model));
+		this.light(this.#towards.subVectors(this.key.position, this.key.target.position).normalize());
 	}
 
 	/** @param environment instead of the page's own sky, lamp colour and backdrop; undefined: these */

@@ -1,6 +1,7 @@
 /** How the body moves as a whole: after a hand on a soft spring, back when it is let go, and round as on a turntable. */
 
 import { Vector3 } from 'three';
+import { springOf } from '../fur/index.ts';
 
 /** Swings per second, and share of critical damping: it swings past its place once that one can see. */
 const frequency = 1.5;
@@ -14,10 +15,6 @@ const rest = 2e-4;
 const reach = 0.6;
 /** Share of a way down: there is a ground. */
 const down = 0.2;
-
-const omega = 2 * Math.PI * frequency;
-const decay = damping * omega;
-const ringing = omega * Math.sqrt(1 - damping ** 2);
 
 export class Sway {
 	/** Away from its place, in radii of the body, world axes. */
@@ -79,14 +76,12 @@ export class Sway {
 			velocity.setScalar(0);
 			return true;
 		}
-		const fade = Math.exp(-decay * seconds);
-		const cos = fade * Math.cos(ringing * seconds);
-		const sin = (fade * Math.sin(ringing * seconds)) / ringing;
+		const { xx, xv, vx, vv } = springOf(frequency, damping, seconds);
 		for (let i = 0; i < 3; i++) {
 			const y = offset.getComponent(i) - wanted.getComponent(i);
 			const v = velocity.getComponent(i);
-			offset.setComponent(i, wanted.getComponent(i) + y * cos + (v + decay * y) * sin);
-			velocity.setComponent(i, v * cos - (decay * v + omega ** 2 * y) * sin);
+			offset.setComponent(i, wanted.getComponent(i) + xx * y + xv * v);
+			velocity.setComponent(i, vx * y + vv * v);
 		}
 		return true;
 	}

@@ -24,7 +24,7 @@ export interface WeatheredBody {
 	/** Points of the skin, in the axes of the shells. */
 	readonly follicles: Follicles;
 	/** Where they are. */
-	readonly shells: Pick<Object3D, 'matrixWorld'>;
+	readonly shells: Pick<Object3D, 'matrixWorld' | 'updateWorldMatrix'>;
 	/** What it is worn by. */
 	weather: FurWeather | undefined;
 }
@@ -34,6 +34,9 @@ export interface WeatherOptions {
 	/** Seconds until soaked fur is dry; 40 by default. */
 	drying?: number;
 }
+
+/** A share, 0..1; what is no number is 0. */
+const bounded = (share: number) => Math.min(Math.max(share, 0), 1) || 0;
 
 const inverse = new Matrix4();
 const place = new Vector3();
@@ -67,7 +70,7 @@ export class FurWeather {
 	#dirtiest = 0;
 	/** What is painted of the wettest follicle. */
 	#left = 0;
-	#painted = false;
+	#changed = false;
 	#elapsed = 0;
 
 	/** @param body a fur, whose weather it becomes */
@@ -91,8 +94,9 @@ export class FurWeather {
 	}
 
 	set wetness(share: number) {
-		this.#painted ||= share !== this.#wetness;
-		this.#wetness = share;
+		const whole = bounded(share);
+		this.#changed ||= whole !== this.#wetness;
+		this.#wetness = whole;
 	}
 
 	/** Of the whole body, 0..1: nothing is cleaner than that. */
@@ -101,8 +105,9 @@ export class FurWeather {
 	}
 
 	set dirt(share: number) {
-		this.#painted ||= share !== this.#soiling;
-		this.#soiling = share;
+		const whole = bounded(share);
+		this.#changed ||= whole !== this.#soiling;
+		this.#soiling = whole;
 	}
 
 	/**
@@ -130,7 +135,7 @@ export class FurWeather {
 		this.#dirt.fill(0);
 		this.#wetness = this.#soiling = 0;
 		this.#left = 0;
-		this.#painted = true;
+		this.#changed = true;
 	}
 
 	/**
@@ -147,12 +152,18 @@ export class FurWeather {
 				for (let i = 0; i < this.#wet.length; i++) this.#wet[i] = Math.max((this.#wet[i] as number) - loss, 0);
 				this.#left = Math.max(this.#left - loss, 0);
 				this.#elapsed = 0;
-				this.#painted = true;
+				this.#changed = true;
 			}
 		}
-		if (!this.#painted) return false;
-		this.#painted = false;
+		if (!this.#changed) return false;
+		this.#changed = false;
 		return this.#write();
+	}
+
+	/** Whether a place is wetter or dirtier than the whole body is. */
+	get painted(): boolean {
+		const more = (whole: number) => (share: number) => share > whole + 0.5 / STAIN_STEPS;
+		return this.#wet.some(more(this.#wetness)) || this.#dirt.some(more(this.#soiling));
 	}
 
 	/** Whether it still changes by itself. */
@@ -209,7 +220,9 @@ export class FurWeather {
 
 	/** All follicles within reach that look the way that the nearest one does: what is behind a thin ear stays dry. */
 	#brush(point: Vector3, radius: number, paint: (i: number, share: number) => void): void {
-		const { matrixWorld } = this.#body.shells;
+		const { shells } = this.#body;
+		shells.updateWorldMatrix(true, false);
+		const { matrixWorld } = shells;
 		const { position, normal, count } = this.#follicles;
 		const { x, y, z } = place.copy(point).applyMatrix4(inverse.copy(matrixWorld).invert());
 		const reach = (radius / matrixWorld.getMaxScaleOnAxis()) ** 2;
@@ -236,14 +249,14 @@ export class FurWeather {
 			if (!(distance < 1)) continue;
 			const alike =
 				(normal[3 * i] as number) * nx + (normal[3 * i + 1] as number) * ny + (normal[3 * i + 2] as number) * nz;
-			const facing = Math.min(Math.max((alike - ASIDE) / (FACING - ASIDE), 0), 1);
+			const facing = bounded((alike - ASIDE) / (FACING - ASIDE));
 			if (facing > 0) paint(i, facing * (1 - distance) ** 2);
 		}
-		this.#painted = true;
+		this.#changed = true;
 	}
 
 	#add(painted: Float32Array, i: number, amount: number): void {
-		const value = Math.min(Math.max((painted[i] as number) + amount, 0), 1);
+		const value = bounded((painted[i] as number) + amount);
 		painted[i] = value;
 		if (painted === this.#wet) this.#left = Math.max(this.#left, value);
 	}

@@ -12,7 +12,7 @@ export interface Slabs {
 	layers: number;
 }
 
-/** Numbers of a row of `trimTable`: four texels RGBA. */
+/** Numbers of a row of the table that shaders look up: four texels RGBA. */
 const ROW = 16;
 
 /**

@@ -65,6 +65,8 @@ def states(asset: Asset) -> Iterator[str]:
         yield f"{EXTENSION}: clean pelts have the wetness {told}, expected one that rises"
     if any(pelt.get("wetness", 0) for pelt in dirty):
         yield f"{EXTENSION}: pelt {dirty[0]['name']} is wet and dirty, expected one of the two"
+    if len(dirty) > 1:
+        yield f"{EXTENSION}: {len(dirty)} pelts are dirty, expected one"
     if dirty and "mud" not in fur:
         yield f"{EXTENSION}: pelt {dirty[0]['name']} is dirty but there is no mud, expected its colour"
     if dirty and fur["coefficients"] == 3:
@@ -79,6 +81,8 @@ def _mixable(found: list[dict[str, Any]]) -> Iterator[str]:
         for key in ("scale", "bias"):
             if pelt[key] != first[key]:
                 yield f"{EXTENSION}: pelts[{i}].{key} differs, expected that of pelts[0]"
+        if not pelt.get("dirt", 0) and ("colour" in pelt) != ("colour" in first):
+            yield f"{EXTENSION}: one of pelts[0] and pelts[{i}] has no colour, expected both or none"
         if "fin" in pelt and "fin" in first:
             for key in ("width", "height", "scale", "bias"):
                 if pelt["fin"][key] != first["fin"][key]:
