@@ -116,7 +116,7 @@ export class Controls {
 
 	/** Hairs as the view says. */
 	#restyle(): void {
-		this.#exhibit.style();
+		void this.#exhibit.style().then(() => this.write());
 		this.update();
 		this.write();
 	}

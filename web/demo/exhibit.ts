@@ -122,14 +122,13 @@ export class Exhibit {
 		return this.change(() => this.#dress());
 	}
 
-	/** Has the hairs of what it wears be as the view says, and the weather. */
-	style(): void {
-		const { stage } = this.#picture;
+	/** Has the hairs of what it wears be as the view says, and the weather. @returns when that can be seen */
+	style(): Promise<void> {
 		this.looks.style(this.#view);
 		this.living.style(this.#view);
-		stage.gather(this.#view.crowd ?? 1, this.looks.fur);
+		this.#picture.stage.gather(this.#view.crowd ?? 1, this.looks.fur);
 		this.#picture.request();
-		if (!this.#soiled && this.play.soils(this.#view)) void this.dress();
+		return !this.#soiled && this.play.soils(this.#view) ? this.dress() : Promise.resolve();
 	}
 
 	/** Light and camera as they are before anybody has touched them. */
@@ -275,20 +274,21 @@ export class Exhibit {
 		if (late()) return;
 		this.looks.wear(model.fur, outfits, view);
 		this.looks.cut(view.split?.share ?? 1);
-		const loaded = !soiled || (await this.living.load(view));
-		if (late()) return;
-		// What has failed is asked for another time.
-		this.#soiled = soiled && whole && loaded;
 		this.living.style(view);
 		stage.gather(view.crowd ?? 1, this.looks.fur);
 		stage.lamps = view.lights ?? 1;
 		picture.aim();
 		picture.fit();
-		this.#weigh();
 		if (early) {
 			await this.looks.grow(view, () => picture.drawn());
 			performance.mark('furbake:fur');
 		}
+		const loaded = !soiled || (await this.living.load(view));
+		if (late()) return;
+		// What has failed is asked for another time.
+		this.#soiled = soiled && whole && loaded;
+		this.living.style(view);
+		this.#weigh();
 		this.changed();
 	}
 

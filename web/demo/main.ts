@@ -51,7 +51,7 @@ function start(): void {
 		},
 		chosen: (act) => {
 			tell(act);
-			exhibit.style();
+			void exhibit.style();
 		},
 		used: () => {
 			hint.hidden = true;
@@ -76,7 +76,7 @@ function start(): void {
 	});
 	canvas.addEventListener('webglcontextrestored', () => {
 		picture.timer.restore();
-		exhibit.style();
+		void exhibit.style();
 		void exhibit.settle();
 	});
 	picture.fit();
