@@ -66,7 +66,7 @@ def test_numbers_are_the_same_twice_and_a_step_is_told(small: Pelt) -> None:
     numbers = fit_bends(small, strands, SMALL.coat, steps.append)
     assert numbers is not None
     assert numbers.shape == (3, 8)
-    assert steps == [0, 0.25, 0.5, 0.75]
+    assert steps == [0.2, 0.4, 0.6, 0.8]
     np.testing.assert_array_equal(numbers, fit_bends(small, strands, SMALL.coat))
     np.testing.assert_array_equal(numbers, np.round(numbers, 3))
 

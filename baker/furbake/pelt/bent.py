@@ -127,7 +127,7 @@ def fit_bends(
     middle = (np.arange(layers) + 0.5) / layers
     over_s = np.polynomial.legendre.legvander(2 * middle - 1, 2)
     for number, (share, azimuth) in enumerate(BENDS):
-        step(number / len(BENDS))
+        step((number + 1) / (len(BENDS) + 1))
         turn = np.arctan2(*unit(lean)[::-1]) + np.radians(azimuth)
         tip = share * np.array([np.cos(turn), np.sin(turn)])
         truth = under(bent(strands, height, tip, coat.opacity, layers, size), lights)
