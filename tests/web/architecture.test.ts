@@ -26,7 +26,7 @@ const floors = [
 		'states',
 		'trim',
 	],
-	['levels', 'TrimLight', 'texels', 'stains', 'bent'],
+	['levels', 'TrimLight', 'texels', 'stains'],
 	['PeltMaterial', 'follicles'],
 	['FurMaterial', 'PeltStates', 'FurWeather', 'skin'],
 	['FinMaterial', 'HullMaterial'],

@@ -1,5 +1,4 @@
-import { Color, type ShaderMaterialParameters, Vector4 } from 'three';
-import { bentWeights, leanOf } from './bent.ts';
+import { Color, type ShaderMaterialParameters, Vector2, Vector4 } from 'three';
 import type { FurAsset } from './format.ts';
 import { ALPHA_CUT } from './lod.ts';
 import { type FurTextures, PeltMaterial } from './PeltMaterial.ts';
@@ -109,8 +108,7 @@ export class FurMaterial extends PeltMaterial {
 					shellCount: { value: asset.layers },
 					firstShell: { value: 0 },
 					drift: { value: driftKnots(asset.drift) },
-					lean: { value: leanOf(asset) },
-					bent: { value: bentWeights(asset) },
+					lean: { value: new Vector2(...(asset.drift.at(-1) ?? [0, 0])).divideScalar(asset.height) },
 					alphaCut: { value: ALPHA_CUT },
 					skinColour: { value: new Color(1, 1, 1) },
 					root: { value: new Color(...ramp.root) },
