@@ -28,7 +28,7 @@ from furbake.pelt.quantise import byte_range, dequantise, quantise, signed_bytes
 from furbake.pelt.states import Fur, chosen, in_state
 from furbake.pelt.strands import Strands, grow
 from furbake.pelt.transport import LOWEST, LOWEST_FLAT, hemisphere, sample
-from furbake.pelt.volume import Volume, coarsen
+from furbake.pelt.volume import Volume, coarsen, fine_shape, voxelise
 from furbake.sides import fit_sides
 from furbake.surface.fins import build_fins
 
@@ -169,6 +169,14 @@ def bake(
             if archive is not None:
                 write_samples(archive, lit[0], strands)
     return BakeResult(out, record, clock.seconds, body.skin.notices)
+
+
+def grown(options: BakeOptions) -> tuple[Strands, Volume, Volume]:
+    """Dry fur on no body: its strands, the oversampled volume and the slabs that are stored of it."""
+    height = options.own_height
+    strands = grow(options.coat, height, options.seed)
+    fine = voxelise(strands, height, *fine_shape(options.layers, options.size, height), options.coat.opacity)
+    return strands, fine, coarsen(fine, options.layers, options.size)
 
 
 def light(

@@ -28,15 +28,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.bake import fit_pelt, light, under
+from furbake.bake import fit_pelt, grown, light, under
 from furbake.knobs import within
 from furbake.options import BakeOptions
 from furbake.pelt.basis import PTM, Basis
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.quantise import dequantise
-from furbake.pelt.strands import Strands, grow
+from furbake.pelt.strands import Strands
 from furbake.pelt.transport import BODY_RADIUS
-from furbake.pelt.volume import Volume, coarsen, fine_shape, voxelise
+from furbake.pelt.volume import Volume, fine_shape, voxelise
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
@@ -101,14 +101,11 @@ def bend(
     step: Callable[[float], None] = lambda fraction: None,
 ) -> Iterator[Row]:
     """Bend one preset's fur every way and hold the laws against it, under lights that no fit has seen."""
-    height = options.height if options.height is not None else options.height_share
-    strands = grow(options.coat, height, options.seed)
-    fine = voxelise(strands, height, *fine_shape(options.layers, options.size, height), options.coat.opacity)
-    volume = coarsen(fine, options.layers, options.size)
+    strands, fine, volume = grown(options)
     lighting = light(fine, options)
     pelt, _ = fit_pelt(volume, lighting, options)
     lights, weights = lighting.lights[lighting.held_out], volume.coverage
-    lean = volume.drift[-1] / height
+    lean = volume.drift[-1] / options.own_height
 
     def error(tip: Array, law: Law, truth: Single) -> float:
         return rms(relit(pelt, lights, tip, lean, law) - truth, weights)
@@ -135,7 +132,7 @@ def check(tips: Sequence[float], azimuths: int) -> None:
 
 def bent(strands: Strands, tip: Array, options: BakeOptions) -> Volume:
     """Bent hairs, finely, in voxels that follow them."""
-    height = options.height if options.height is not None else options.height_share
+    height = options.own_height
     rise = float(np.sqrt(1 - tip @ tip))
     s = strands.points[..., 2:] / height
     points = np.concatenate([strands.points[..., :2] + height * s**2 * tip, strands.points[..., 2:] * rise], -1)

@@ -6,10 +6,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from furbake.bake import fit_pelt, light
+from furbake.bake import fit_pelt, grown, light
 from furbake.options import BakeOptions
-from furbake.pelt.strands import grow
-from furbake.pelt.volume import coarsen, fine_shape, voxelise
 
 VARIANTS: tuple[tuple[str, dict[str, Any]], ...] = (
     ("ptm, 6 numbers", {"basis": "ptm", "coefficients": 6}),
@@ -36,10 +34,7 @@ def compare(
     options: BakeOptions, lights: int = 192, step: Callable[[float], None] = lambda fraction: None
 ) -> Iterator[Row]:
     """Sample one fur under `lights` directions and `HELD_OUT` others, then fit it in every basis."""
-    height = options.height if options.height is not None else options.height_share
-    strands = grow(options.coat, height, options.seed)
-    fine = voxelise(strands, height, *fine_shape(options.layers, options.size, height), options.coat.opacity)
-    volume = coarsen(fine, options.layers, options.size)
+    _, fine, volume = grown(options)
     lighting = light(fine, replace(options, lights=lights), step, held_out=HELD_OUT)
     for name, basis in VARIANTS:
         _, figures = fit_pelt(volume, lighting, replace(options, **basis))

@@ -57,7 +57,7 @@ class Texels:
 
 def halfway(options: BakeOptions, step: Callable[[float], None] = lambda fraction: None) -> Iterator[Row]:
     """Bake the states of a preset's fur and what lies between them, and compare."""
-    height = options.height if options.height is not None else options.height_share
+    height = options.own_height
     strands = grow(options.coat, height, options.seed)
     wettest = list(WETNESS.items())
     between = [(first + second) / 2 for (_, first), (_, second) in pairwise(wettest)]

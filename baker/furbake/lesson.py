@@ -98,7 +98,7 @@ def write(
     if options.basis != "ptm":
         raise OptionError(f"basis: got {options.basis}, expected ptm: the lesson puts others beside it")
     with atomic_folder(out, force) as folder:
-        height = options.height if options.height is not None else options.height_share
+        height = options.own_height
         progress("strands", 0.0)
         strands = grow(options.coat, height, options.seed)
         progress("strands", 1.0)

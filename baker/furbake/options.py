@@ -128,12 +128,17 @@ class BakeOptions:
         hairs = self.coat.guard.count + self.coat.under.count
         knobs.within("coat.guard.count + coat.under.count", hairs, 1, 20_000)
 
+    @property
+    def own_height(self) -> float:
+        """Longest fur in tile widths, where no body's length has a say in it."""
+        return self.height if self.height is not None else self.height_share
+
     def dimensions(self, extent: float) -> tuple[float, float]:
         """(tile, length) in the model's units, for a model whose largest side is `extent`.
 
         Raises OptionError when length and tile together give a height out of range.
         """
-        height = self.height if self.height is not None else self.height_share
+        height = self.own_height
         if self.length is not None and self.tile is not None:
             knobs.within("height (length / tile)", self.length / self.tile, 0.02, 4)
             return self.tile, self.length
@@ -163,7 +168,7 @@ class BakeOptions:
 def _values(options: BakeOptions) -> dict[str, Any]:
     """All knobs by dotted name. A preset's `height` is the default one; a given height takes its place."""
     values = dict(knobs.flatten(asdict(options)))
-    values["height"] = options.height_share if options.height is None else options.height
+    values["height"] = options.own_height
     return {name: values[name] for name in KNOBS}
 
 

@@ -8,13 +8,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.bake import Lighting, fit_pelt, light, parts, under
+from furbake.bake import Lighting, fit_pelt, grown, light, parts, under
 from furbake.options import BakeOptions
 from furbake.pelt.basis import Basis
 from furbake.pelt.fit import Judge, decibels, fit, relight
 from furbake.pelt.quantise import dequantise
-from furbake.pelt.strands import grow
-from furbake.pelt.volume import Volume, coarsen, fine_shape, voxelise
+from furbake.pelt.volume import Volume
 from furbake.verify import correlation
 
 Array = NDArray[np.float64]
@@ -102,10 +101,7 @@ def trim(
     step: Callable[[float], None] = lambda fraction: None,
 ) -> Iterator[Row]:
     """Bake one fur whole, cut its strands at every length and sample them anew, and light what is left in every way."""
-    height = options.height if options.height is not None else options.height_share
-    strands = grow(options.coat, height, options.seed)
-    fine = voxelise(strands, height, *fine_shape(options.layers, options.size, height), options.coat.opacity)
-    volume = coarsen(fine, options.layers, options.size)
+    _, fine, volume = grown(options)
     part = parts(step, len(lengths) + 1)
     options = replace(options, lights=lights)
     lighting = light(fine, options, next(part), held_out=HELD_OUT)
