@@ -21,6 +21,7 @@ from furbake.identity import bake_key, describe_input, library_versions
 from furbake.options import BakeOptions
 from furbake.pelt import basis as bases
 from furbake.pelt.basis import Basis, environment
+from furbake.pelt.bent import fit_bends
 from furbake.pelt.fill import fill, fill_directions
 from furbake.pelt.fit import Judge, fit, relight
 from furbake.pelt.pelt import Pelt, State
@@ -125,8 +126,10 @@ def bake(
         with clock.stage("light") as step:
             share = zip(furs, parts(step, len(furs)), strict=True)
             lit = [sampled(fur, voxels(fur), options, part) for fur, part in share]
-        with clock.stage("fit"):
+        with clock.stage("fit") as step:
             pelts, figures = map(list, zip(*fit_pelts(lit, options), strict=True))
+            if not options.flat:
+                pelts[0] = replace(pelts[0], bent=fit_bends(pelts[0], strands, options.coat, step))
         with clock.stage("fins"):
             fins = None
             if options.fins:

@@ -1,29 +1,19 @@
 """Is the light right on bent fur? Stored texels under the shader's law for bent hairs, beside fresh samples of those.
 
-Hairs bend as shells do: what is at a height s, 0 at the skin and 1 at the tip, moves by d·H·s², and the whole sinks
-to c·H, c² = 1 − |d|². The fresh samples follow them: a slab's texels lie where the shader draws that slab. The fur
-keeps its density; the eye and the horizon stay the skin's.
-
-The law (`law`, and bent.glsl) for a lamp at l, with up = l·n, on fur that leans by m as it was baked:
-
-- Transmittance. Between s and the tip the hairs are sheared by (1 + s)·d on the whole and pressed together to c. Thin
-  hairs take from a ray what they took before from the ray that this makes of it, whatever its slant: texels are
-  looked up for the direction of (l − (1 + s)/c·up·d, up/c).
-- What the eye sees of it. Hairs that lie show their upper side. That has much of the light from above, which ran
-  along them before, and little of light from the side: s·|d|²·(2.7·up − 1.5); more if they lean away from it:
-  −1.8·s·up·l·d. Fur bent the way it leans covers its roots, the other way it opens: −0.5·d·m. The four numbers are
-  least squares over all seven presets at 32 texels a side; each preset's own are much the same and gain 0.01.
+The law, and how its numbers are found, are those of `pelt/bent.py` and of bent.glsl. The fresh samples follow bent
+hairs: a slab's texels lie where the shader draws that slab. The fur keeps its density; the eye and the horizon stay the
+skin's.
 
 Mean ratio over all presets at 32 texels, both tips, four directions: light as if unbent 1.51, a frame that turns with
-the hairs 1.98, the sheared direction alone 1.62, the law 1.21, of which 1.13 with tips at 0.3 H and 1.29 at 0.5 H. What
-is left is most where hairs are bent against their lean and in dense upright coats. The sky's light needs no law: under
-an even one the unbent frame is 8 % off, a turned one 9 %.
+the hairs 1.98, the sheared direction alone 1.62, the law 1.21 with general numbers and 1.09 with baked ones, of which
+1.04 with tips at 0.3 H and 1.13 at 0.5 H. What is left is most where hairs are bent against their lean and in dense
+upright coats. The sky's light needs no law: under an even one the unbent frame is 8 % off, a turned one 9 %.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,11 +22,10 @@ from furbake.bake import fit_pelt, grown, light, under
 from furbake.knobs import within
 from furbake.options import BakeOptions
 from furbake.pelt.basis import PTM, Basis
+from furbake.pelt.bent import bent, factor, fit_bends, general, sheared
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.quantise import dequantise
-from furbake.pelt.strands import Strands
 from furbake.pelt.transport import BODY_RADIUS
-from furbake.pelt.volume import Volume, fine_shape, voxelise
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
@@ -45,9 +34,6 @@ Law = Callable[[Array, Array, Array, float], tuple[Array, Array]]
 
 TIPS, AZIMUTHS = (0.3, 0.5), 4
 """How far tips are displaced, shares of the height, and in how many directions, the first along the fur's lean."""
-
-LEAST = 0.1
-"""Of the law's factor."""
 
 
 def unbent(lights: Array, _tip: Array, _lean: Array, _s: float) -> tuple[Array, Array]:
@@ -65,22 +51,26 @@ def turned(lights: Array, tip: Array, _lean: Array, s: float) -> tuple[Array, Ar
     return horizon(lights @ frame, s)
 
 
-def sheared(lights: Array, tip: Array, _lean: Array, s: float) -> tuple[Array, Array]:
+def shear(lights: Array, tip: Array, _lean: Array, s: float) -> tuple[Array, Array]:
     """The law's directions without its factors."""
-    rise, up = np.sqrt(1 - tip @ tip), lights[:, 2:]
-    way = np.concatenate([lights[:, :2] - (1 + s) / rise * up * tip, up / rise], 1)
-    return way / np.linalg.norm(way, axis=1, keepdims=True), np.ones(len(lights))
+    return sheared(lights, tip, s), np.ones(len(lights))
+
+
+def baked(numbers: Array) -> Law:
+    """What the shader does, for lights above the horizon, with these numbers."""
+    return lambda lights, tip, lean, s: (sheared(lights, tip, s), factor(lights, tip, lean, s, numbers))
 
 
 def law(lights: Array, tip: Array, lean: Array, s: float) -> tuple[Array, Array]:
-    """What the shader does, for lights above the horizon."""
-    up, along, square = lights[:, 2], lights[:, :2] @ tip, tip @ tip
-    factor = 1 - 0.5 * (tip @ lean) + s * (square * (2.7 * up - 1.5) - 1.8 * along * up)
-    return sheared(lights, tip, lean, s)[0], np.maximum(factor, LEAST)
+    """The same where none were baked."""
+    return baked(general(lean))(lights, tip, lean, s)
 
 
-LAWS: dict[str, Law] = {"as unbent": unbent, "frame turned": turned, "sheared": sheared, "law": law}
-"""The last is the shader's; the second was."""
+LAWS: dict[str, Law] = {"as unbent": unbent, "frame turned": turned, "sheared": shear, "law": law}
+"""The last is the shader's where no numbers were baked; the second was."""
+
+BAKED = "baked numbers"
+"""The law with those of `fit_bends`, for each fur."""
 
 
 @dataclass(frozen=True)
@@ -105,13 +95,17 @@ def bend(
     lighting = light(fine, options)
     pelt, _ = fit_pelt(volume, lighting, options)
     lights, weights = lighting.lights[lighting.held_out], volume.coverage
-    lean = volume.drift[-1] / options.own_height
+    height = options.own_height
+    lean = volume.drift[-1] / height
+    numbers = None if options.flat else fit_bends(pelt, strands, options.coat)
+    laws = LAWS | {BAKED: law if numbers is None else baked(numbers)}
 
     def error(tip: Array, law: Law, truth: Single) -> float:
         return rms(relit(pelt, lights, tip, lean, law) - truth, weights)
 
     def fresh(tip: Array) -> Single:
-        return under(lights, bent(strands, tip, options), options)
+        volume = bent(strands, height, tip, options.coat.opacity, options.layers, options.size)
+        return under(lights, volume, options)
 
     base = error(np.zeros(2), unbent, fresh(np.zeros(2)))
     ways = [(tip, 360 * i / azimuths) for tip in tips for i in range(azimuths)]
@@ -120,7 +114,7 @@ def bend(
         angle = np.arctan2(lean[1], lean[0]) + np.radians(azimuth)
         way = tip * np.array([np.cos(angle), np.sin(angle)])
         truth = fresh(way)
-        yield Row(options.preset, tip, azimuth, {name: error(way, law, truth) / base for name, law in LAWS.items()})
+        yield Row(options.preset, tip, azimuth, {name: error(way, law, truth) / base for name, law in laws.items()})
 
 
 def check(tips: Sequence[float], azimuths: int) -> None:
@@ -128,20 +122,6 @@ def check(tips: Sequence[float], azimuths: int) -> None:
     for tip in tips:
         within("tips", tip, 0, 0.8)
     within("azimuths", azimuths, 1, 64)
-
-
-def bent(strands: Strands, tip: Array, options: BakeOptions) -> Volume:
-    """Bent hairs, finely, in voxels that follow them."""
-    height = options.own_height
-    rise = float(np.sqrt(1 - tip @ tip))
-    s = strands.points[..., 2:] / height
-    points = np.concatenate([strands.points[..., :2] + height * s**2 * tip, strands.points[..., 2:] * rise], -1)
-    slabs, size = fine_shape(options.layers, options.size, height)
-    middle = (np.arange(slabs) + 0.5) / slabs
-    aside = height * middle[:, None] ** 2 * tip
-    # Opacity is told for a share of the height, which has sunk: the hairs are as dense as they were.
-    opacity = options.coat.opacity * rise
-    return voxelise(replace(strands, points=points), height * rise, slabs, size, opacity, aside)
 
 
 def relit(pelt: Pelt, lights: Array, tip: Array, lean: Array, law: Law) -> Single:
@@ -172,7 +152,7 @@ def rms(error: Single, weights: Array) -> float:
 
 def markdown(rows: Sequence[Row]) -> str:
     """A table: a line for each bend, then means over the directions of each fur and of all, and the worst of all."""
-    names = list(LAWS)
+    names = [*LAWS, BAKED]
     lines = ["| fur | tip | from the lean | " + " | ".join(names) + " |", "|---|---|---|" + "---|" * len(names)]
 
     def line(fur: str, tip: str, way: str, ratios: Sequence[float]) -> None:

@@ -26,7 +26,7 @@ const floors = [
 		'states',
 		'trim',
 	],
-	['levels', 'TrimLight', 'texels', 'stains'],
+	['levels', 'TrimLight', 'texels', 'stains', 'bent'],
 	['PeltMaterial', 'follicles'],
 	['FurMaterial', 'PeltStates', 'FurWeather', 'skin'],
 	['FinMaterial', 'HullMaterial'],

@@ -19,8 +19,8 @@ const MIRRORED = ['finLength', 'finOpacity', 'finHeights'] as const satisfies (k
 
 /** What fins have from the shells that they stand between. */
 const SHARED = [
-	...['tiles', 'furLength', 'furTrim', 'bodyRadius', 'lean', 'gloss', 'sharpness', 'backlight', 'density', 'swing'],
-	...['stains', 'wetnesses', 'traits', 'mud'],
+	...['tiles', 'furLength', 'furTrim', 'bodyRadius', 'lean', 'bent', 'gloss', 'sharpness', 'backlight', 'density'],
+	...['swing', 'stains', 'wetnesses', 'traits', 'mud'],
 	...['skinColour', 'root', 'tip', 'tip2', 'tipShare', 'rampPower'],
 ];
 

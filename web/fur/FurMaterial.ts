@@ -1,4 +1,5 @@
-import { Color, type ShaderMaterialParameters, Vector2, Vector4 } from 'three';
+import { Color, type ShaderMaterialParameters, Vector4 } from 'three';
+import { bentWeights, leanOf } from './bent.ts';
 import type { FurAsset } from './format.ts';
 import { ALPHA_CUT } from './lod.ts';
 import { type FurTextures, PeltMaterial } from './PeltMaterial.ts';
@@ -108,7 +109,8 @@ export class FurMaterial extends PeltMaterial {
 					shellCount: { value: asset.layers },
 					firstShell: { value: 0 },
 					drift: { value: driftKnots(asset.drift) },
-					lean: { value: new Vector2(...(asset.drift.at(-1) ?? [0, 0])).divideScalar(asset.height) },
+					lean: { value: leanOf(asset) },
+					bent: { value: bentWeights(asset) },
 					alphaCut: { value: ALPHA_CUT },
 					skinColour: { value: new Color(1, 1, 1) },
 					root: { value: new Color(...ramp.root) },

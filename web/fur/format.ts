@@ -105,6 +105,8 @@ export interface FurAsset {
 	environment: number[][];
 	/** Per slab: mean displacement of the hairs at its middle, tile widths. */
 	drift: [number, number][];
+	/** Light on bent hairs: rows for 1, s and s², in each the weights of eight terms; where absent, of any fur. */
+	bent?: number[][];
 	/** Linear colours along a hair: mix(root, tip, s^power). */
 	ramp: {
 		/** At the skin. */

@@ -126,6 +126,7 @@ def extension(pelts: Sequence[Pelt], length: float, tiles: float, images: list[s
         "basis": basis,
         "environment": [numbers(row) for row in pelt.environment],
         "drift": [numbers(row) for row in pelt.drift],
+        **({} if pelt.bent is None else {"bent": [numbers(row) for row in pelt.bent]}),
         "ramp": {
             "root": numbers(np.array(pelt.ramp.root)),
             "tip": numbers(np.array(pelt.ramp.tip)),

@@ -79,6 +79,7 @@ def _pelt(fur: dict[str, Any], asset: Asset, index: int) -> Pelt:
         ramp=Ramp(_rgb(ramp["root"]), _rgb(ramp["tip"]), _rgb(ramp["tip2"]), float(ramp["power"])),
         fin=_fin(stored["fin"], asset) if "fin" in stored else None,
         direction=texels.direction,
+        bent=_array(fur["bent"], 3, 8) if "bent" in fur else None,
         state=state,
     )
 

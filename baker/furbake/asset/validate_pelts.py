@@ -30,6 +30,8 @@ def pelts(asset: Asset) -> Iterator[str]:
     wrong = list(_basis(fur["basis"], count))
     yield from wrong
     lists = {"environment": (fur["environment"], count), "drift": (fur["drift"], layers)}
+    if "bent" in fur:
+        lists["bent"] = (fur["bent"], 3)
     if fur["basis"]["kind"] == "eigen" and not wrong:
         lists["basis.matrix"] = (fur["basis"]["matrix"], count)
     for i, pelt in enumerate(fur["pelts"]):

@@ -85,6 +85,7 @@ class Pelt:
     drift : (K, 2) mean sideways displacement of the hairs at each slab's middle, tile widths
     height : of the fur, tile widths
     fin : its side view, or None
+    bent : (3, 8) numbers of the law of bent hairs, or None
     direction : (K, N, N, 3) bytes of the hairs' mean tangent, or None
     state : dry unless the fur has others; in a dirty one `tint` is the mud's share of the coverage, here and in the fin
     """
@@ -104,6 +105,7 @@ class Pelt:
     ramp: Ramp
     fin: FinPelt | None = None
     direction: Bytes | None = None
+    bent: Floats | None = None
     state: State = State()
 
     @property

@@ -50,10 +50,10 @@ vec2 highlights(vec3 strand, vec3 normalVS, vec3 light, vec3 viewer) {
 void addLamp(inout Lamps lamps, inout float power, FurPoint point, vec3 lightVS, vec3 irradiance) {
 	vec3 lightTS = lightVS * point.frameVS;
 	irradiance *= horizon(lightTS, point.s);
-	vec3 low, high, bent = irradiance * bentLight(lightTS, point.comb, point.s);
+	vec3 low, high, lit = irradiance * bentLight(lightTS, point.comb, point.s);
 	basis(lightTS, low, high);
-	lamps.moments.low += outerProduct(bent, low);
-	lamps.moments.high += outerProduct(bent, high);
+	lamps.moments.low += outerProduct(lit, low);
+	lamps.moments.high += outerProduct(lit, high);
 #if defined(GLOSS) || defined(BACKLIGHT)
 	vec3 strand = strandVS(point), viewer = viewerVS(point.pointVS);
 	float share = dot(irradiance, vec3(0.2126, 0.7152, 0.0722));

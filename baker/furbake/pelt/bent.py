@@ -1,0 +1,145 @@
+"""Light on bent hairs: the law by which stored texels are lit, and the numbers in it that suit one fur best.
+
+Hairs bend as shells do: what is at a height s, 0 at the skin and 1 at the tip, moves by d·H·s², and the whole sinks
+to c·H, c² = 1 − |d|². The law, for a lamp at l with z = l·n, on fur that leans along m:
+
+- Transmittance. Between s and the tip the hairs are sheared by (1 + s)·d on the whole and pressed together to c. Thin
+  hairs take from a ray what they took before from the ray that this makes of it, whatever its slant: texels are
+  looked up for the direction of (l − (1 + s)/c·z·d, z/c).
+- What the eye sees of it: a factor 1 + Σ c_f(s)·f over the terms f of `terms`, each c_f a parabola over s.
+  `fit_bends` finds these 24 numbers by light transport through hairs that are bent; `general` are those of any fur.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from furbake.pelt.basis import PTM, Basis
+from furbake.pelt.fill import fill
+from furbake.pelt.fit import fit, relight
+from furbake.pelt.pelt import Pelt
+from furbake.pelt.quantise import dequantise
+from furbake.pelt.strands import Coat, Strands
+from furbake.pelt.transport import hemisphere, sample
+from furbake.pelt.volume import Volume, coarsen, fine_shape, voxelise
+
+Array = NDArray[np.float64]
+Single = NDArray[np.float32]
+
+LEAST = 0.1
+"""Of the factor."""
+
+MOST = 2 / 3
+"""Displacement of the tip, share of the length, from which on the factor no longer changes."""
+
+SIZE = 32
+"""Texels a side for which numbers are fitted: larger tiles of the same hairs have much the same."""
+
+BENDS = ((0.4, 45), (0.4, 225), (0.6, 135), (0.6, 315))
+"""Bends that the fit sees: displacement of the tip, share of the length, and degrees from the lean."""
+
+LIGHTS, LIGHTS_UNBENT = 16, 32
+"""Lights of the fit, and of the small unbent pelt that it makes for larger ones."""
+
+RIDGE = 1e-3
+"""Of the diagonal: what a term does that the bends tell little about is left small."""
+
+MONOMIALS = np.array([[1.0, 0, 0], [-1, 2, 0], [1, -6, 6]])
+"""Legendre polynomials in 2s − 1 as rows of weights of 1, s, s²."""
+
+
+def unit(lean: Array) -> Array:
+    """Direction in which the fur leans; along v where it does not."""
+    length = float(np.hypot(*lean))
+    return lean / length if length > 1e-6 else np.array([0.0, 1.0])
+
+
+def terms(lights: Array, tip: Array, lean: Array) -> Array:
+    """[x·z, d·m, q·z, q, x, q·(l·m), q·(l·m)·z, x·(l·m)] with x = d·l and q = |d|², (n, 8)."""
+    d = tip * min(1.0, MOST / max(float(np.hypot(*tip)), 1e-9))
+    m, z, x, q = unit(lean), lights[:, 2], lights[:, :2] @ d, float(d @ d)
+    along, even = lights[:, :2] @ m, np.ones(len(lights))
+    return np.stack([x * z, d @ m * even, q * z, q * even, x, q * along, q * along * z, x * along], 1)
+
+
+def general(lean: Array) -> Array:
+    """Numbers of the law where none were baked, (3, 8) for s⁰, s¹, s²: −0.5·d·lean + s·(|d|²·(2.7·z − 1.5) − 1.8·x·z).
+
+    Least squares over seven presets at 32 texels a side. Hairs that lie show their upper side, which has much of the
+    light from above and little of light from the side; fur bent the way it leans covers its roots.
+    """
+    numbers = np.zeros((3, 8))
+    numbers[0, 1] = -0.5 * np.hypot(*lean)
+    numbers[1, [0, 2, 3]] = -1.8, 2.7, -1.5
+    return numbers
+
+
+def sheared(lights: Array, tip: Array, s: float) -> Array:
+    """The law's directions, (n, 3)."""
+    rise, up = np.sqrt(1 - tip @ tip), lights[:, 2:]
+    way = np.concatenate([lights[:, :2] - (1 + s) / rise * up * tip, up / rise], 1)
+    return np.asarray(way / np.linalg.norm(way, axis=1, keepdims=True))
+
+
+def factor(lights: Array, tip: Array, lean: Array, s: float, numbers: Array) -> Array:
+    """The law's factors, (n,)."""
+    return np.maximum(1 + terms(lights, tip, lean) @ (np.array([1, s, s * s]) @ numbers), LEAST)
+
+
+def bent(strands: Strands, height: float, tip: Array, opacity: float, layers: int, size: int) -> Volume:
+    """Bent hairs, finely, in voxels that follow them. Hairs are as dense as they were.
+
+    height : of the fur, tile widths; tip : how far tips are displaced, shares of that
+    """
+    rise = float(np.sqrt(1 - tip @ tip))
+    s = strands.points[..., 2:] / height
+    points = np.concatenate([strands.points[..., :2] + height * s**2 * tip, strands.points[..., 2:] * rise], -1)
+    slabs, fine = fine_shape(layers, size, height)
+    middle = (np.arange(slabs) + 0.5) / slabs
+    aside = height * middle[:, None] ** 2 * tip
+    # Opacity is told for a share of the height, which has sunk.
+    return voxelise(replace(strands, points=points), height * rise, slabs, fine, opacity * rise, aside)
+
+
+def fit_bends(
+    pelt: Pelt, strands: Strands, coat: Coat, step: Callable[[float], None] = lambda fraction: None
+) -> Array | None:
+    """The 24 numbers of the law for a pelt of these hairs, (3, 8) for s⁰, s¹, s²; None where its texels are black."""
+    layers, size, height = pelt.layers, min(pelt.size, SIZE), pelt.height
+    basis = PTM if pelt.matrix is None else Basis(pelt.kind, pelt.degree, pelt.matrix)
+    lean = pelt.drift[-1] / height
+    lights = hemisphere(LIGHTS, turn=0.5)
+
+    def under(volume: Volume, lights: Array) -> Single:
+        return sample(volume, layers, size, lights, albedo=coat.albedo, skin=coat.skin)
+
+    if size == pelt.size:
+        texels, alpha = dequantise(pelt.codes, pelt.scale, pelt.bias), pelt.alpha / 255
+    else:
+        fine = voxelise(strands, height, *fine_shape(layers, size, height), coat.opacity)
+        seen, alpha = hemisphere(LIGHTS_UNBENT), coarsen(fine, layers, size).coverage
+        texels = fill(fit(under(fine, seen), basis, seen), alpha)
+    matrix, right = np.zeros((24, 24)), np.zeros(24)
+    middle = (np.arange(layers) + 0.5) / layers
+    over_s = np.polynomial.legendre.legvander(2 * middle - 1, 2)
+    for number, (share, azimuth) in enumerate(BENDS):
+        step((number + 1) / (len(BENDS) + 1))
+        turn = np.arctan2(*unit(lean)[::-1]) + np.radians(azimuth)
+        tip = share * np.array([np.cos(turn), np.sin(turn)])
+        truth = under(bent(strands, height, tip, coat.opacity, layers, size), lights)
+        found = terms(lights, tip, lean)
+        for k, s in enumerate(middle):
+            told = relight(texels[k], basis, sheared(lights, tip, s)).astype(np.float64)
+            power, shared = ((alpha[k] * told * other).sum((1, 2)) / share for other in (told, truth[:, k]))
+            row = (over_s[k][:, None] * found[:, None]).reshape(len(lights), 24)
+            matrix += (row * power[:, None]).T @ row
+            right += (shared - power) @ row
+    diagonal = np.diag(matrix)
+    if not diagonal.max() > 0:
+        return None
+    solved = np.linalg.solve(matrix + np.diag(RIDGE * diagonal + 1e-9 * diagonal.max()), right)
+    return np.asarray(np.round(MONOMIALS.T @ solved.reshape(3, 8), 3))

@@ -1,0 +1,19 @@
+/** The law of light on bent hairs, as bent.glsl has it: its numbers. */
+
+import { Vector2, Vector4 } from 'three';
+import type { FurAsset } from './format.ts';
+
+/** Mean displacement of the tips inside the tile, share of the length. */
+export function leanOf({ drift, height }: Pick<FurAsset, 'drift' | 'height'>): Vector2 {
+	return new Vector2(...(drift.at(-1) ?? [0, 0])).divideScalar(height);
+}
+
+/** Weights of eight terms, two vectors for each of 1, s and s²: as baked, or such as suit any fur. */
+export function bentWeights(asset: Pick<FurAsset, 'drift' | 'height' | 'bent'>): Vector4[] {
+	const rows = asset.bent ?? [
+		[0, -0.5 * leanOf(asset).length(), 0, 0, 0, 0, 0, 0],
+		[-1.8, 0, 2.7, -1.5, 0, 0, 0, 0],
+		[0, 0, 0, 0, 0, 0, 0, 0],
+	];
+	return rows.flatMap((row) => [0, 4].map((first) => new Vector4().fromArray(row, first)));
+}
