@@ -75,13 +75,16 @@ BAKED = "baked numbers"
 
 @dataclass(frozen=True)
 class Row:
-    """RMS error of the layers' light over that of the unbent fit, for each law."""
+    """How far each law is off."""
 
     preset: str
     tip: float
     azimuth: float
     """Degrees from the direction in which the fur leans."""
     ratios: dict[str, float]
+    """RMS error of the layers' light under one lamp over that of the unbent fit."""
+    sky: dict[str, float]
+    """RMS error of the layers' light under all lamps at once, share of its mean."""
 
 
 def bend(
@@ -100,21 +103,23 @@ def bend(
     numbers = None if options.flat else fit_bends(pelt, strands, options.coat)
     laws = LAWS | {BAKED: law if numbers is None else baked(numbers)}
 
-    def error(tip: Array, law: Law, truth: Single) -> float:
-        return rms(relit(pelt, lights, tip, lean, law) - truth, weights)
-
     def fresh(tip: Array) -> Single:
         volume = bent(strands, height, tip, options.coat.opacity, options.layers, options.size)
         return under(lights, volume, options)
 
-    base = error(np.zeros(2), unbent, fresh(np.zeros(2)))
+    still = np.zeros(2)
+    base = rms(relit(pelt, lights, still, lean, unbent) - fresh(still), weights)
     ways = [(tip, 360 * i / azimuths) for tip in tips for i in range(azimuths)]
     for i, (tip, azimuth) in enumerate(ways):
         step((i + 1) / (len(ways) + 1))
         angle = np.arctan2(lean[1], lean[0]) + np.radians(azimuth)
         way = tip * np.array([np.cos(angle), np.sin(angle)])
         truth = fresh(way)
-        yield Row(options.preset, tip, azimuth, {name: error(way, law, truth) / base for name, law in laws.items()})
+        even = float((truth.mean(0) * weights).sum() / weights.sum())
+        off = {name: relit(pelt, lights, way, lean, law) - truth for name, law in laws.items()}
+        ratios = {name: rms(error, weights) / base for name, error in off.items()}
+        sky = {name: rms(error.mean(0, keepdims=True), weights) / even for name, error in off.items()}
+        yield Row(options.preset, tip, azimuth, ratios, sky)
 
 
 def check(tips: Sequence[float], azimuths: int) -> None:
@@ -151,22 +156,27 @@ def rms(error: Single, weights: Array) -> float:
 
 
 def markdown(rows: Sequence[Row]) -> str:
-    """A table: a line for each bend, then means over the directions of each fur and of all, and the worst of all."""
+    """A table: a line for each bend, then means over the directions of each fur and of all, the worst, and the sky."""
     names = [*LAWS, BAKED]
     lines = ["| fur | tip | from the lean | " + " | ".join(names) + " |", "|---|---|---|" + "---|" * len(names)]
 
-    def line(fur: str, tip: str, way: str, ratios: Sequence[float]) -> None:
-        lines.append(f"| {fur} | {tip} | {way} | " + " | ".join(f"{ratio:.2f}" for ratio in ratios) + " |")
+    def line(fur: str, tip: str, way: str, cells: Sequence[str]) -> None:
+        lines.append(f"| {fur} | {tip} | {way} | " + " | ".join(cells) + " |")
 
-    def table(of: Sequence[Row]) -> Array:
+    def ratios(of: Sequence[Row]) -> Array:
         return np.array([[row.ratios[name] for name in names] for row in of])
 
+    def mean(of: Sequence[Row]) -> list[str]:
+        return [f"{ratio:.2f}" for ratio in ratios(of).mean(0)]
+
     for row in rows:
-        line(row.preset, f"{row.tip:g} H", f"{row.azimuth:g}°", list(row.ratios.values()))
+        line(row.preset, f"{row.tip:g} H", f"{row.azimuth:g}°", mean([row]))
     for fur in dict.fromkeys(row.preset for row in rows):
-        line(f"**{fur}**", "all", "mean", table([row for row in rows if row.preset == fur]).mean(0))
+        line(f"**{fur}**", "all", "mean", mean([row for row in rows if row.preset == fur]))
     for tip in dict.fromkeys(row.tip for row in rows):
-        line("**all**", f"{tip:g} H", "mean", table([row for row in rows if row.tip == tip]).mean(0))
-    line("**all**", "all", "mean", table(rows).mean(0))
-    line("**all**", "all", "worst", table(rows).max(0))
+        line("**all**", f"{tip:g} H", "mean", mean([row for row in rows if row.tip == tip]))
+    line("**all**", "all", "mean", mean(rows))
+    line("**all**", "all", "worst", [f"{ratio:.2f}" for ratio in ratios(rows).max(0)])
+    sky = np.array([[row.sky[name] for name in names] for row in rows]).mean(0)
+    line("**all, under an even sky**", "all", "mean", [f"{share:.1%}" for share in sky])
     return "\n".join(lines) + "\n"

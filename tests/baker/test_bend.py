@@ -34,6 +34,8 @@ def test_the_law_beats_none_and_a_frame_that_turns() -> None:
     mean = {name: np.mean([row.ratios[name] for row in rows]) for name in [*LAWS, BAKED]}
     assert mean[BAKED] < mean["law"] < mean["as unbent"] < mean["frame turned"]
     assert mean["law"] < 1.2
+    sky = {name: np.mean([row.sky[name] for row in rows]) for name in mean}
+    assert sky[BAKED] < sky["law"] < sky["as unbent"]
 
 
 def test_texels_follow_the_hairs() -> None:
@@ -97,7 +99,7 @@ def test_texels_are_lit_and_clamped(make_pelt: Callable[..., Pelt]) -> None:
 
 def test_table() -> None:
     def row(preset: str, tip: float, ratio: float) -> Row:
-        return Row(preset, tip, 90.0, dict.fromkeys([*LAWS, BAKED], ratio))
+        return Row(preset, tip, 90.0, dict.fromkeys([*LAWS, BAKED], ratio), dict.fromkeys([*LAWS, BAKED], 0.1 * ratio))
 
     lines = markdown([row("fox", 0.3, 1.0), row("fox", 0.5, 1.5), row("mole", 0.3, 2.0)]).splitlines()
     assert lines[0] == "| fur | tip | from the lean | as unbent | frame turned | sheared | law | baked numbers |"
@@ -109,6 +111,7 @@ def test_table() -> None:
         "| **all** | 0.5 H | mean | 1.50 | 1.50 | 1.50 | 1.50 | 1.50 |",
         "| **all** | all | mean | 1.50 | 1.50 | 1.50 | 1.50 | 1.50 |",
         "| **all** | all | worst | 2.00 | 2.00 | 2.00 | 2.00 | 2.00 |",
+        "| **all, under an even sky** | all | mean | 15.0% | 15.0% | 15.0% | 15.0% | 15.0% |",
     ]
 
 
@@ -118,4 +121,4 @@ def test_command(run: Callable[..., Any], tmp_path: Any, tiny: BakeOptions) -> N
     assert (done.status, done.err) == (0, "")
     assert [line.split(" | ")[0] for line in done.out.splitlines()[2:]] == ["| tiny"] * 2 + ["| **tiny**"] + [
         "| **all**"
-    ] * 3
+    ] * 3 + ["| **all, under an even sky**"]

@@ -51,3 +51,34 @@ for (const [name, picture, bounds] of [
 		expect(lamp?.rmse).toBeLessThan(plain?.rmse ?? 0);
 	});
 }
+
+// Of PTMs only the sum over directions is inexact, of other curves that they are taken for polynomials, too.
+for (const [name, bound] of [
+	['ptm-6', 0.02],
+	['eigen-6', 0.04],
+	['eigen-3', 0.04],
+] as const) {
+	test(`the sky lights bent hairs as lamps all around do: ${name}`, async ({ page }) => {
+		await openStage(page);
+		const combs = [
+			[0.4, 0],
+			[-0.3, 0.4],
+			[0.1, -0.3],
+		];
+		const harmonics = [1.2, 0.3, -0.3, 0.35, 0.15, -0.1, 0.12, 0.18, -0.14];
+		const drawn = await page.evaluate(([url, c, h]) => stage.dome(url, 2, c, h), [
+			served(`tests/golden/${name}/model.gltf`),
+			combs,
+			harmonics,
+		] as const);
+		expect(drawn).toHaveLength(combs.length);
+		for (const [i, { sky, lamps }] of drawn.entries()) {
+			const seen = sky.flatMap((light, at) => (Number.isNaN(light) ? [] : [[light, lamps[at] ?? Number.NaN] as const]));
+			expect(seen.length).toBeGreaterThan(20);
+			const mean = seen.reduce((sum, [, truth]) => sum + truth, 0) / seen.length;
+			const error = Math.sqrt(seen.reduce((sum, [light, truth]) => sum + (light - truth) ** 2, 0) / seen.length) / mean;
+			test.info().annotations.push({ type: `error at ${combs[i]}`, description: error.toFixed(4) });
+			expect(error).toBeLessThan(bound);
+		}
+	});
+}

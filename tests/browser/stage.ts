@@ -23,6 +23,7 @@ import { environmentLight, type Fur } from '../../web/fur/index.ts';
 import { measureEnvironment } from '../../web/measure/environment.ts';
 import { measureFins } from '../../web/measure/fins.ts';
 import { loadFur, renderFloats, Studio } from '../../web/measure/studio.ts';
+import { underDome } from './dome.ts';
 import { channel, Flat, readArray, renderer, toBase64, uncovered } from './flat.ts';
 
 const stage = {
@@ -87,6 +88,9 @@ const stage = {
 		flat.fur.dispose();
 		return { light, frame };
 	},
+
+	/** A layer of bent hairs under a sky and under as many lamps. */
+	dome: underDome,
 
 	/** How many shader programs there are after each of these assets has been drawn, the ones before still at hand. */
 	async programs(urls: string[]): Promise<number[]> {

@@ -9,6 +9,7 @@ import {
 	environmentMoments,
 	evaluateBasis,
 	lightMoments,
+	polynomialCurves,
 	relight,
 	smoothFunctions,
 } from '../../web/fur/moments.ts';
@@ -115,5 +116,42 @@ describe('basis', () => {
 
 	it('never gives negative light', () => {
 		expect(relight([-1, 0], [1, 0])).toBe(0);
+	});
+});
+
+describe('polynomialCurves', () => {
+	const polynomials = ([u, v, w]: Direction) => [u * u, v * v, u * v, u, v, 1, w, u * w, v * w];
+
+	it('are a PTM itself', () => {
+		polynomialCurves({ kind: 'ptm' }).forEach((row, c) => {
+			expect(row).toEqual([0, 1, 2, 3, 4, 5, 6, 7, 8].map((j) => expect.closeTo(j === c ? 1 : 0, 2)));
+		});
+	});
+
+	it.each(['eigen-6', 'eigen-3'])('leave of %s what no polynomial of degree 2 has', (name) => {
+		const { basis }: FurAsset = JSON.parse(readFileSync(golden(name, 'model.gltf'), 'utf8')).extensions.FUR_ptm_shells;
+		const rows = polynomialCurves(basis);
+		const count = 5000;
+		const left = rows.map(() => new Array<number>(9).fill(0));
+		const powers = rows.map(() => [0, 0] as [number, number]);
+		for (let i = 0; i < count; i++) {
+			const [w, angle] = [1 - (i + 0.5) / count, i * Math.PI * (3 - Math.sqrt(5))];
+			const light: Direction = [Math.sqrt(1 - w * w) * Math.cos(angle), Math.sqrt(1 - w * w) * Math.sin(angle), w];
+			const p = polynomials(light);
+			evaluateBasis(basis, light).forEach((phi, c) => {
+				const rest = phi - p.reduce((sum, value, j) => sum + value * (rows[c]?.[j] ?? Number.NaN), 0);
+				const power = powers[c] as [number, number];
+				power[0] += phi ** 2 / count;
+				power[1] += rest ** 2 / count;
+				p.forEach((value, j) => {
+					(left[c] as number[])[j] = (left[c]?.[j] ?? 0) + (rest * value) / count;
+				});
+			});
+		}
+		powers.forEach(([whole, rest], c) => {
+			const size = Math.sqrt(whole);
+			expect(left[c]?.map((value) => value / size)).toEqual(new Array(9).fill(expect.closeTo(0, 3)));
+			expect(Math.sqrt(rest) / size, `curve ${c}`).toBeLessThan(0.5);
+		});
 	});
 });

@@ -87,6 +87,44 @@ export function horizonMoments(
 	return rows;
 }
 
+/** Polynomials that are orthogonal over the half sphere, and the mean of their square. */
+const ORTHOGONAL: readonly (readonly [square: number, of: (light: Direction) => number])[] = [
+	[1, () => 1],
+	[1 / 3, ([, , w]) => 2 * w - 1],
+	[1 / 5, ([, , w]) => 6 * w * w - 6 * w + 1],
+	[4 / 15, ([u, v]) => u * u - v * v],
+	[1 / 15, ([u, v]) => u * v],
+	[1 / 3, ([u]) => u],
+	[1 / 3, ([, v]) => v],
+	[19 / 960, ([u, , w]) => u * (w - 3 / 8)],
+	[19 / 960, ([, v, w]) => v * (w - 3 / 8)],
+];
+
+/**
+ * Light curves above the horizon as polynomials of degree 2, by least squares: φ_c ≈ Σ_j rows[c][j]·p_j for
+ * p = (u², v², uv, u, v, 1, w, uw, vw).
+ */
+export function polynomialCurves(basis: Basis): number[][] {
+	const [heights, spokes] = [64, 32];
+	const lights = Array.from({ length: heights * spokes }, (_, i): Direction => {
+		const w = (Math.floor(i / spokes) + 0.5) / heights;
+		const [level, psi] = [Math.sqrt(1 - w * w), (2 * Math.PI * (i % spokes)) / spokes];
+		return [level * Math.cos(psi), level * Math.sin(psi), w];
+	});
+	const curves = lights.map((light) => evaluateBasis(basis, light));
+	return (curves[0] ?? []).map((_, c) => {
+		const [one = 0, rise = 0, bow = 0, side = 0, uv = 0, u = 0, v = 0, uw = 0, vw = 0] = ORTHOGONAL.map(
+			([square, of]) =>
+				lights.reduce((sum, light, i) => sum + (curves[i]?.[c] ?? 0) * of(light), 0) / lights.length / square,
+		);
+		return [
+			...[side - 6 * bow, -side - 6 * bow, uv],
+			...[u - (3 / 8) * uw, v - (3 / 8) * vw, one - rise + 7 * bow],
+			...[2 * rise - 6 * bow, uw, vw],
+		];
+	});
+}
+
 /**
  * Moments of the radiance R(ω) = Σ_j harmonics[j]·Y_j(ω) from all around, for fur at height `s`.
  *

@@ -47,10 +47,10 @@ vec2 highlights(vec3 strand, vec3 normalVS, vec3 light, vec3 viewer) {
 #endif
 }
 
-void addLamp(inout Lamps lamps, inout float power, FurPoint point, vec3 lightVS, vec3 irradiance) {
+void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bending, vec3 lightVS, vec3 irradiance) {
 	vec3 lightTS = lightVS * point.frameVS;
 	irradiance *= horizon(lightTS, point.s);
-	vec3 low, high, lit = irradiance * bentLight(lightTS, point.comb, point.s);
+	vec3 low, high, lit = irradiance * bentLight(lightTS, bending);
 	basis(lightTS, low, high);
 	lamps.moments.low += outerProduct(lit, low);
 	lamps.moments.high += outerProduct(lit, high);
@@ -66,6 +66,7 @@ void addLamp(inout Lamps lamps, inout float power, FurPoint point, vec3 lightVS,
 
 Lamps lampsAt(FurPoint point) {
 	Lamps lamps = DARKNESS;
+	Bending bending = bendingOf(point.comb, point.s);
 	IncidentLight light;
 	float power = 0.0;
 #if NUM_DIR_LIGHTS > 0
@@ -75,14 +76,14 @@ Lamps lampsAt(FurPoint point) {
 #if defined(USE_SHADOWMAP) && (UNROLLED_LOOP_INDEX < NUM_DIR_LIGHT_SHADOWS)
 		light.color *= shadow(directionalShadowMap[ i ], directionalLightShadows[ i ].shadowMapSize, directionalLightShadows[ i ].shadowIntensity, directionalLightShadows[ i ].shadowBias, directionalLightShadows[ i ].shadowRadius, directionalShadowMatrix[ i ] * vec4(point.tipWS, 1.0));
 #endif
-		addLamp(lamps, power, point, light.direction, light.color);
+		addLamp(lamps, power, point, bending, light.direction, light.color);
 	}
 	#pragma unroll_loop_end
 #endif
 #if NUM_POINT_LIGHTS > 0
 	for (int i = 0; i < NUM_POINT_LIGHTS; i++) {
 		getPointLightInfo(pointLights[i], point.pointVS, light);
-		addLamp(lamps, power, point, light.direction, light.color);
+		addLamp(lamps, power, point, bending, light.direction, light.color);
 	}
 #endif
 #if NUM_SPOT_LIGHTS > 0
@@ -92,7 +93,7 @@ Lamps lampsAt(FurPoint point) {
 #if defined(USE_SHADOWMAP) && (UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS)
 		light.color *= shadow(spotShadowMap[ i ], spotLightShadows[ i ].shadowMapSize, spotLightShadows[ i ].shadowIntensity, spotLightShadows[ i ].shadowBias, spotLightShadows[ i ].shadowRadius, spotLightMatrix[ i ] * vec4(point.tipWS, 1.0));
 #endif
-		addLamp(lamps, power, point, light.direction, light.color);
+		addLamp(lamps, power, point, bending, light.direction, light.color);
 	}
 	#pragma unroll_loop_end
 #endif

@@ -33,7 +33,7 @@ in float vPower;
 Lamps receivedLamps() {
 #ifdef LAMPS_PER_FRAGMENT
 	vec3 comb = vec3(vCombX, 0.0, 0.0);
-	comb[3 - UPRIGHT] = vCombY;
+	comb[LEVEL] = vCombY;
 	return lampsAt(FurPoint(vFrame, comb, vPoint, vTip, vS));
 #else
 	Lamps lamps = DARKNESS;

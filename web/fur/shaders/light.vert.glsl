@@ -35,7 +35,7 @@ out float vPower; // irradiance
 // openness: to the sky, 0..1.
 void passLight(FurPoint point, float openness) {
 #ifdef SKY
-	Moments sky = environmentMoments(point.frameVS, point.s);
+	Moments sky = environmentMoments(point);
 	vSkyLow = sky.low * openness;
 #ifdef TWO_PLANES
 	vSkyHigh = sky.high * openness;
@@ -44,7 +44,7 @@ void passLight(FurPoint point, float openness) {
 #ifdef LAMPS_PER_FRAGMENT
 	vFrame = point.frameVS;
 	vCombX = point.comb.x;
-	vCombY = point.comb[3 - UPRIGHT];
+	vCombY = point.comb[LEVEL];
 	vPoint = point.pointVS;
 	vTip = point.tipWS;
 	vS = point.s;

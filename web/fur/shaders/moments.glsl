@@ -11,6 +11,7 @@
 #define UP z
 #define UPRIGHT 2 // the axis of UP
 #endif
+#define LEVEL (3 - UPRIGHT) // the level axis beside the first
 
 // Moments of coefficients 0..2 and 3..5: a column per coefficient, a row per colour channel.
 struct Moments {

@@ -16,33 +16,103 @@ uniform vec3 environmentHigh2;
 uniform vec3 horizonLow[5];
 uniform vec3 horizonHigh[5];
 
+#ifdef CURVES // curves 0..2 and 3..5 as polynomials: a column each, matrices for (u², v², uv), (u, v, 1), (w, uw, vw)
+uniform mat3 flatLow[3];
+#ifdef TWO_PLANES
+uniform mat3 flatHigh[3];
+#endif
+#endif
+
+// R = constant + gradient·ω + ωᵀ·form·ω in the tangent frame.
+struct Radiance {
+	vec3 constant;
+	mat3 gradient; // a column per axis
+	mat3 form[3]; // traceless, one for each channel
+};
+
+// A product around the horizon: light times what bent fur makes of it, in the harmonics of horizonLow.
+vec3[5] bentRing(vec3 light[5], Bending bending) {
+	mat3 q = bending.form;
+	float even = bending.even + 0.5 * (q[0][0] + q[LEVEL][LEVEL]), x = bending.gradient[0], y = bending.gradient[LEVEL];
+	float xx = 0.5 * (q[0][0] - q[LEVEL][LEVEL]), xy = 0.5 * (q[0][LEVEL] + q[LEVEL][0]);
+	return vec3[5](
+		even * light[0] + 0.5 * (x * light[1] + y * light[2] + xx * light[3] + xy * light[4]),
+		even * light[1] + x * light[0] + 0.5 * (x * light[3] + y * light[4] + xx * light[1] + xy * light[2]),
+		even * light[2] + y * light[0] + 0.5 * (x * light[4] - y * light[3] - xx * light[2] + xy * light[1]),
+		even * light[3] + xx * light[0] + 0.5 * (x * light[1] - y * light[2]),
+		even * light[4] + xy * light[0] + 0.5 * (x * light[2] + y * light[1])
+	);
+}
+
 // Light from below the horizon is held on it and fades as a lamp's does: Σ_h horizon[h]·∫√(1 + z/dip)·(R's part in h)dz.
-// R = constant + gradient·ω + ωᵀ·form·ω in the tangent frame, the form traceless, one for each channel.
-void addDip(inout Moments moments, vec3 constant, mat3 gradient, mat3 form[3], float s) {
-	const int U = UPRIGHT, V = 3 - UPRIGHT; // axes: upright, and level beside the first
+void addDip(inout Moments moments, Radiance radiance, Bending bending, float s) {
 	float dip = horizonDip(s);
 	// ∫√(1 + z/dip)·{1, z, z²}dz over −dip..0; times √(1 − z²) to its second term.
 	float i0 = 2.0 / 3.0 * dip, i1 = -4.0 / 15.0 * dip * dip, i2 = 16.0 / 105.0 * dip * dip * dip;
 	float level0 = i0 - 0.5 * i2, level1 = i1 + 16.0 / 315.0 * dip * dip * dip * dip;
-	vec3 ring[5] = vec3[5](constant * i0 + gradient[U] * i1, gradient[0] * level0, gradient[V] * level0, vec3(0.0), vec3(0.0));
+	mat3 gradient = radiance.gradient;
+	vec3 ring[5] = vec3[5](radiance.constant * i0 + gradient[UPRIGHT] * i1, gradient[0] * level0, gradient[LEVEL] * level0, vec3(0.0), vec3(0.0));
 	for (int c = 0; c < 3; c++) {
-		mat3 q = form[c];
-		ring[0][c] += q[U][U] * (1.5 * i2 - 0.5 * i0);
-		ring[1][c] += 2.0 * q[0][U] * level1;
-		ring[2][c] += 2.0 * q[V][U] * level1;
-		ring[3][c] = 0.5 * (q[0][0] - q[V][V]) * (i0 - i2);
-		ring[4][c] = q[0][V] * (i0 - i2);
+		mat3 q = radiance.form[c];
+		ring[0][c] += q[UPRIGHT][UPRIGHT] * (1.5 * i2 - 0.5 * i0);
+		ring[1][c] += 2.0 * q[0][UPRIGHT] * level1;
+		ring[2][c] += 2.0 * q[LEVEL][UPRIGHT] * level1;
+		ring[3][c] = 0.5 * (q[0][0] - q[LEVEL][LEVEL]) * (i0 - i2);
+		ring[4][c] = q[0][LEVEL] * (i0 - i2);
 	}
+	if (bending.there) ring = bentRing(ring, bending);
 	for (int h = 0; h < 5; h++) {
 		moments.low += outerProduct(ring[h], horizonLow[h]);
 		moments.high += outerProduct(ring[h], horizonHigh[h]);
 	}
 }
 
+// Two heights of Gauss and Legendre's, four spokes each; z up.
+const vec3 SKYWARD[8] = vec3[8](
+	vec3(0.97741619, 0.0, 0.21132487), vec3(-0.97741619, 0.0, 0.21132487),
+	vec3(0.0, 0.97741619, 0.21132487), vec3(0.0, -0.97741619, 0.21132487),
+	vec3(0.43473824, 0.43473824, 0.78867513), vec3(-0.43473824, 0.43473824, 0.78867513),
+	vec3(-0.43473824, -0.43473824, 0.78867513), vec3(0.43473824, -0.43473824, 0.78867513)
+);
+
+// What bending changes of the light from above, ∫R·(factor·φ(sheared ω) − φ(ω))dω, by a sum over eight directions: exact
+// where fur stands as it was baked, 1 to 2 % of the light off where its tips are displaced by half of their length.
+void addBent(inout Moments moments, Radiance radiance, Bending bending) {
+	// Of the polynomials (u², v², uv), (u, v, 1), and for other curves (w, uw, vw).
+	mat3 square = mat3(0.0), plain = mat3(0.0), steep = mat3(0.0);
+	for (int i = 0; i < 8; i++) {
+		vec3 at = SKYWARD[i];
+#ifdef FIN
+		at = at.xzy;
+#endif
+		vec3 light = radiance.constant + radiance.gradient * at;
+		light += vec3(dot(at, radiance.form[0] * at), dot(at, radiance.form[1] * at), dot(at, radiance.form[2] * at));
+		light *= 0.25 * PI;
+		vec3 way = at;
+		float gain = bentLight(way, bending);
+		square += outerProduct(light, gain * way.xyx * way.xyy - at.xyx * at.xyy);
+		plain += outerProduct(light, gain * vec3(way.xy, 1.0) - vec3(at.xy, 1.0));
+#ifdef CURVES
+		steep += outerProduct(light, gain * way.z * vec3(1.0, way.xy) - at.z * vec3(1.0, at.xy));
+#endif
+	}
+#ifdef CURVES
+	moments.low += square * flatLow[0] + plain * flatLow[1] + steep * flatLow[2];
+#ifdef TWO_PLANES
+	moments.high += square * flatHigh[0] + plain * flatHigh[1] + steep * flatHigh[2];
+#endif
+#else
+	moments.low += square;
+	moments.high += plain;
+#endif
+}
+
 // Moments of the radiance R(ω) = Σ_j radiance[j]·Y_j(ω) in the tangent frame (columns T, B, N), from three's ambient,
-// hemisphere and probe lights. s: height of the fur, 0 at the skin, 1 at the tip.
-Moments environmentMoments(mat3 frameVS, float s) {
+// hemisphere and probe lights.
+Moments environmentMoments(FurPoint point) {
 	Moments moments;
+	mat3 frameVS = point.frameVS;
+	Bending bending = bendingOf(point.comb, point.s);
 	const float Y0 = 0.28209479, Y1 = 0.48860251;
 	vec3 constant = ambientLightColor;
 	mat3 gradient = mat3(0.0); // column per axis of the tangent frame: how the radiance grows along it
@@ -81,9 +151,11 @@ Moments environmentMoments(mat3 frameVS, float s) {
 	moments.low += transpose(order2) * mat3x4(environmentLow1) + outerProduct(last, environmentLow2);
 	moments.high += transpose(order2) * mat3x4(environmentHigh1) + outerProduct(last, environmentHigh2);
 #endif
-	addDip(moments, Y0 * radiance[0], Y1 * mat3(radiance[3], radiance[1], radiance[2]), form, s);
+	Radiance around = Radiance(Y0 * radiance[0], Y1 * mat3(radiance[3], radiance[1], radiance[2]), form);
+	addDip(moments, around, bending, point.s);
+	if (bending.there) addBent(moments, around, bending);
 #ifdef TRIMMED
-	moments = trimmed(moments, s);
+	moments = trimmed(moments, point.s);
 #endif
 	return moments;
 }
