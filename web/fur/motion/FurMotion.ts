@@ -31,7 +31,7 @@ const MOST_GRAVITY = 100;
  *     if (motion.update(seconds)) for (const other of dressed) other.swing = motion.swing;
  *     renderer.render(scene, camera);
  *
- * The body's node may be moved by whatever moves it: `update` looks where it is. Time goes in sub-steps of a fortieth of a
+ * The body's node may be moved by whatever moves it: `update` looks where it is. Time goes in sub-steps of a thirtieth of a
  * second, whatever the frame rate is, and what is seen is one of them behind. Without anything that pulls at it the fur falls
  * asleep, as it was baked, and costs nothing.
  */
