@@ -210,7 +210,10 @@ export class FurMotion {
 			const now = 1 - left / frame;
 			this.#carriage.advance(STEP - this.#behind);
 			this.#behind = 0;
+			const { widest } = this.#strokes;
 			this.#strokes.advance(before, now);
+			// What is left of lanes that have just come to their end swings out.
+			if (this.#strokes.widest === 0) this.#unrest += this.#spring.widest * widest;
 			this.#wind.advance(STEP / 2);
 			this.#pull(now, false);
 			this.#wind.advance(STEP / 2);
