@@ -332,7 +332,12 @@ describe('FurMotion', () => {
 		motion.wind.strength = 0.8;
 		for (let i = 0; i < 60; i++) motion.update(1 / 60);
 		expect(largest(swingOf(body))).toBeGreaterThan(0.2);
+		// What is dressed on it learns by its texture that it is over.
+		let over = false;
+		motion.swing?.addEventListener('dispose', () => {
+			over = true;
+		});
 		motion.dispose();
-		expect(body.fur.swing).toBeUndefined();
+		expect([body.fur.swing, over]).toEqual([undefined, true]);
 	});
 });

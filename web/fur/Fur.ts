@@ -121,17 +121,25 @@ export class Fur {
 	/**
 	 * How far hairs are from where they were combed: RGBA floats, a texel for each of `follicles`, XYZ = displacement of the
 	 * tip beyond the comb, in the tangent plane, share of the length, axes of the shells' mesh; with the comb no longer than
-	 * 0.8. What writes into the texture on the GPU adds 1 to its `version`. Undefined, as the fur was baked, costs nothing.
+	 * 0.8. What writes into the texture on the GPU adds 1 to its `version`. Undefined, as the fur was baked, costs nothing; it
+	 * is that again when the texture is disposed of.
 	 */
 	get swing(): Texture | undefined {
 		return this.material.swing;
 	}
 
 	set swing(texture: Texture | undefined) {
-		if (texture === this.material.swing) return;
+		const before = this.material.swing;
+		if (texture === before) return;
 		if (texture) this.#mark();
+		before?.removeEventListener('dispose', this.#straighten);
+		texture?.addEventListener('dispose', this.#straighten);
 		this.material.swing = texture;
 	}
+
+	readonly #straighten = (): void => {
+		this.swing = undefined;
+	};
 
 	/**
 	 * Columns of the picture within which shells and fins are drawn, undefined: all. So two furs of a body, in other light
@@ -207,6 +215,7 @@ export class Fur {
 	/** Frees geometry, materials and textures; of a dressed body the materials alone, the rest is the body's and the pelt's. */
 	readonly dispose = (): void => {
 		this.weather = undefined;
+		this.swing = undefined;
 		this.pelt.leave(this.#stain);
 		this.#parts.removeFromParent();
 		this.ground.skin.bare(this.asset);

@@ -163,7 +163,7 @@ export class FurMotion {
 		this.#body.swing = undefined;
 	}
 
-	/** Frees what it has, and leaves the body's fur as it was baked; of what is dressed on it `swing` has to be taken away, too. */
+	/** Frees what it has, and leaves all fur that it moved as it was baked, the body's and what is dressed on it. */
 	dispose(): void {
 		this.#body.swing = undefined;
 		this.#solver.dispose();
