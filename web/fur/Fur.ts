@@ -1,4 +1,4 @@
-import { BufferGeometry, type Color, Object3D, type Texture } from 'three';
+import { BufferGeometry, type Color, Object3D, Scene, type Texture } from 'three';
 import type { Columns } from './clip.ts';
 import { FinMaterial } from './FinMaterial.ts';
 import { FurMaterial } from './FurMaterial.ts';
@@ -192,7 +192,8 @@ export class Fur {
 
 	/** Shows the weather, as far as there are states for it. */
 	readonly #stain = (): void => {
-		const { stains, driest = 0, wettest = 0, dirtiest = 0 } = this.#weather ?? {};
+		const weather = this.#weather;
+		const { stains, driest = 0, wettest = 0, dirtiest = 0 } = weather ?? {};
 		const { wet, dirty, loaded, all } = this.pelt;
 		const mud = dirtiest > 0 && loaded && all.dirty ? this.asset.mud : undefined;
 		this.material.setTextures(this.textures);
@@ -201,8 +202,16 @@ export class Fur {
 		const states = wettest > 0 ? wet : wet.slice(0, 1);
 		this.material.setStains(shown ? { stains, wet: states, mud, clumps: dirty ? wet.length : undefined } : undefined);
 		this.ground.skin.soak(this.asset, this.#wetness());
-		this.pelt.want(this.#stain, driest, wettest);
+		if (weather || this.#isInScene()) this.pelt.want(this.#stain, driest, wettest);
+		else this.pelt.want(this.#stain, 1, 0);
 	};
+
+	/** A pelt that others are dressed in need not be: without weather of its own nobody asks how wet it is then. */
+	#isInScene(): boolean {
+		let top: Object3D = this.#parts;
+		while (top.parent) top = top.parent;
+		return top instanceof Scene;
+	}
 
 	/** Undefined where it is not seen. */
 	#wetness(): Wetness | undefined {
