@@ -3,7 +3,7 @@ import { FOLLICLES_PER_ROW, type Follicles } from '../follicles.ts';
 import { LIMIT, STEP } from './spring.ts';
 
 /** How far a finger lays hairs, share of their length: farther than they go, so that a lane stays a while before it fades. */
-const LAY = 1.2;
+const LAY = 1.6;
 /** How far aside it sweeps those at its rim, sine of the angle to its way: there the fur is parted. */
 const PART = 0.85;
 /** A hair in the middle of a lane is laid but for e^(−4/3·FIRMNESS) when the finger has passed. */
