@@ -110,7 +110,11 @@ def mean(first: Pelt, second: Pelt, lighting: Lighting) -> Texels:
 
 
 def soiled(dry: Pelt, dirty: Pelt, dirt: float, lighting: Lighting) -> Texels:
-    """Dry fur at a share of the dirty pelt's dirt, as `schema/README.md` has it, without the page's film of mud."""
+    """Dry fur at a share of the dirty pelt's dirt, as `schema/README.md` has it, without the page's film of mud.
+
+    Each crumb is thinned. Which of them a true bake has cannot be told from the bytes: to keep whole those that are a
+    larger share of their texel, however soft the edge, is farther from it (bunny r .82 against .86, fox .82 and .84).
+    """
     mud = dirt * dirty.tint / 255 * dirty.alpha / 255
     alpha = 1 - (1 - dry.alpha / 255) * (1 - mud)
     share = np.minimum(mud / np.maximum(alpha, 1e-9), 1)

@@ -99,17 +99,31 @@ test('a stroke leaves a lane that is seen, there alone, and recovers; a body tha
 	page,
 }) => {
 	await makeSmall(page);
+	await page.addInitScript(() => {
+		const { prototype } = WebGL2RenderingContext;
+		const link = prototype.linkProgram;
+		prototype.linkProgram = function (program) {
+			performance.mark('link');
+			link.call(this, program);
+		};
+	});
+	const links = () => page.evaluate(() => performance.getEntriesByName('link').length);
 	await open(page, `${model}&still=1`);
-	const before = await shot(page);
+	await rests(page);
+	const [before, first] = [await shot(page), await links()];
 	// By the keyboard: the light is before it.
 	await tool(page, 'Move the light').focus();
 	await page.keyboard.press('ArrowRight');
 	await expect(tool(page, 'Stroke the fur')).toBeChecked();
+	await expect.poll(links, 'when the tool is chosen').toBeGreaterThan(first);
+	await rests(page);
+	const compiled = await links();
 	await drag(page, [-30, 0], [-15, 0], [0, 0], [15, 0], [30, 0]);
 	const stroked = await shot(page);
 	const inside = compare(before, stroked, (x, y) => Math.abs(x) < 25 && Math.abs(y) < 5);
 	const outside = compare(before, stroked, (_x, y) => Math.abs(y) > 30);
-	expect(inside.difference).toBeGreaterThan(4);
+	expect(inside.difference).toBeGreaterThan(12);
+	expect(await links(), 'by the stroke').toBe(compiled);
 	expect(outside.psnr).toBeGreaterThan(40);
 	await expect.poll(async () => psnr(before, await shot(page)), { intervals: [300] }).toBeGreaterThan(40);
 

@@ -43,3 +43,12 @@ test('what the GPU would do more slowly stays on the CPU', async ({ page }) => {
 	expect([processor, error]).toEqual(['cpu', 0]);
 	expect(swung).toBeGreaterThan(0.1);
 });
+
+test('a motion that ends leaves the body as it was baked, and what is dressed on it', async ({ page }) => {
+	const { bent, processor, error } = await page.evaluate(
+		(url) => loaded.ends(url),
+		served('public/models/torus-512/model.gltf'),
+	);
+	expect(bent).toEqual([true, true, false, false, true, true, false, false]);
+	expect([processor, error]).toEqual(['gpu', 0]);
+});

@@ -1,7 +1,7 @@
 /** Runs inside the page: the same fur moved by CPU and GPU. Its answers go to `motion.spec.ts`. */
 
 import { type DataTexture, type Texture, Vector3, Vector4, WebGLRenderer, WebGLRenderTarget } from 'three';
-import { type Fur, FurMotion, type MotionOptions } from '../../web/fur/index.ts';
+import { dress, type Fur, FurMotion, type MotionOptions } from '../../web/fur/index.ts';
 import { loadFur } from '../../web/measure/studio.ts';
 
 const renderer = new WebGLRenderer();
@@ -106,6 +106,26 @@ export async function slower(url: string) {
 	motion.dispose();
 	fur.dispose();
 	return result;
+}
+
+/** Whether a body and what is dressed on it have a displacement while they move, and when the motion is over, on CPU and GPU. */
+export async function ends(url: string) {
+	const { fur, motion: gpu } = await onGpu(url);
+	const other = dress(fur, fur);
+	const bent: boolean[] = [];
+	for (const motion of [new FurMotion(fur), gpu]) {
+		for (let frame = 0; frame < 40; frame++) {
+			act(fur, motion, frame);
+			motion.update(1 / 60);
+		}
+		other.swing = motion.swing;
+		bent.push(fur.swing !== undefined, other.swing !== undefined);
+		motion.dispose();
+		bent.push(fur.swing !== undefined, other.swing !== undefined);
+	}
+	const processor = gpu.processor;
+	for (const each of [other, fur]) each.dispose();
+	return { bent, processor, error: gl.getError() };
 }
 
 /** What is left of the renderer's own state, and of a motion whose context was lost. */

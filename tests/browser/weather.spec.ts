@@ -51,6 +51,12 @@ test('dry fur is drawn as if there were no weather; a light tier holds two state
 	expect([all.left, all.error], 'the two targets that were drawn to').toEqual([2, 0]);
 });
 
+test('on a light tier the pelt that a body is dressed in takes no room for its own dry fur, which nobody sees', async ({
+	page,
+}) => {
+	expect(await page.evaluate((u) => loaded.worn(u, 0.6), url)).toEqual([0.5, 0.75]);
+});
+
 test('with every switch of the shaders, in rivals and in herds, wet fur is darker and muddy fur is darker still', async ({
 	page,
 }) => {

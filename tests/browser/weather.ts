@@ -151,6 +151,22 @@ export async function course(url: string) {
 	};
 }
 
+/** Wetness of the two states that a pelt has ready for a body which is dressed in it. @param wetness of the body */
+export async function worn(url: string, wetness: number): Promise<number[]> {
+	const [body, pelt] = await Promise.all([loadFur(url), loadFur(url, { states: 2 })]);
+	const weather = new FurWeather(body);
+	const dressed = dress(body, pelt);
+	await dressed.loadStates();
+	weather.wetness = wetness;
+	weather.update(0);
+	const { pelt: states } = dressed;
+	for (let i = 0; i < 200 && states.wet.length < 2; i++) await new Promise((resolve) => setTimeout(resolve, 10));
+	const ready = states.wet.map((state) => state.wetness ?? 0);
+	weather.dispose();
+	for (const fur of [dressed, pelt, body]) fur.dispose();
+	return ready;
+}
+
 /** Every switch of the shaders with wet and dirty fur, in rivals and herds too: what of the picture is darker than dry. */
 export async function switches(url: string) {
 	const fur = await loadFur(url);

@@ -69,6 +69,32 @@ describe('pieces of a body', () => {
 		expect(corner).toBe(piece.geometry.index?.count);
 	});
 
+	it('take over the colours that their meshes get later', () => {
+		const [skin, eye] = body();
+		const [piece] = gatherPieces([skin, eye], placement);
+		const colour = piece?.geometry.getAttribute('color') as BufferAttribute;
+		const first = skin.geometry.getAttribute('position').count;
+		const version = colour.version;
+		piece?.follow();
+		expect(colour.version, 'nothing is uploaded').toBe(version);
+		// As wet fur does: the skin's material first, then its vertices, which had a colour, and at last other vertices.
+		skin.material.color.setRGB(0.1, 0.2, 0.3);
+		piece?.follow();
+		const shade = skin.geometry.getAttribute('color') as BufferAttribute;
+		expect(colour.getZ(5)).toBeCloseTo(0.3 * shade.getZ(5), 6);
+		shade.setXYZ(5, 1, 0.5, 0.25).needsUpdate = true;
+		piece?.follow();
+		expect([colour.getX(5), colour.getY(5), colour.getZ(5)]).toEqual(
+			[0.1, 0.1, 0.075].map((c) => expect.closeTo(c, 6)),
+		);
+		const count = eye.geometry.getAttribute('position').count;
+		eye.geometry.setAttribute('color', new BufferAttribute(new Float32Array(3 * count).fill(0.5), 3));
+		eye.material.vertexColors = true;
+		piece?.follow();
+		expect(colour.getX(first + 7)).toBeCloseTo(0.01, 6);
+		expect(colour.version).toBeGreaterThan(version);
+	});
+
 	it('of which the first keeps its places to the bit', () => {
 		const [skin, eye] = body();
 		const [piece] = gatherPieces([skin, eye], placement);

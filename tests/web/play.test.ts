@@ -18,7 +18,7 @@ function hands(act: Act) {
 	const fur = { skin, shells: { furLength: 0.1 } };
 	const living = {
 		...{ rain: note('rain'), mud: note('mud'), stroke: note('stroke') },
-		...{ step: () => Number.POSITIVE_INFINITY, sway: { release() {}, pull: note('pull') } },
+		...{ rehearse() {}, step: () => Number.POSITIVE_INFINITY, sway: { release() {}, pull: note('pull') } },
 	};
 	const stage = { scene: new Group(), closest: 1, centre: skin.position };
 	const picture = { camera, stage, guides: new Group(), canvas: { dataset: {} }, calm: true, request() {} };

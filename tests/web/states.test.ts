@@ -138,9 +138,12 @@ describe('the states of a pelt', () => {
 		['a texture takes no more', Number.POSITIVE_INFINITY, 7],
 	])('where %s are the two around the wetness of all who wear it', async (_, most, layers) => {
 		const { states, stacks, fetched } = await peltOf(most, layers);
-		const [one, other] = [() => {}, () => {}];
+		const [one, other, unseen] = [() => {}, () => {}, () => {}];
 		states.join(one);
 		states.join(other);
+		// Nobody asks how wet that one is, nor is that a third one who is no longer seen.
+		states.join(unseen);
+		states.want(() => {}, 1, 0);
 		await states.load();
 		expect([fetched(), states.loaded, states.dirty]).toEqual([3, true, false]);
 		expect(stacks().values).toEqual([0]);

@@ -1,7 +1,7 @@
 /** What lives on the body on show: its hairs' motion, what they are wet with and soiled by, and how the body itself moves. */
 
-import { MathUtils, type Vector3 } from 'three';
-import { FurMotion, FurWeather } from '../fur/index.ts';
+import { DataTexture, FloatType, MathUtils, RGBAFormat, type Vector3 } from 'three';
+import { FOLLICLES_PER_ROW, FurMotion, FurWeather } from '../fur/index.ts';
 import type { View } from './address.ts';
 import type { Looks } from './looks.ts';
 import { notice, withdraw } from './notice.ts';
@@ -23,6 +23,9 @@ export class Living {
 	readonly #calm: boolean;
 	#motion: FurMotion | undefined;
 	#weather: FurWeather | undefined;
+	/** Of hairs that stand still: for the next frame, and of the last one. */
+	#rehearsal: DataTexture | undefined;
+	#rehearsed: DataTexture | undefined;
 
 	/** @param calm nothing moves by itself: wind bends the hairs and stays, and the table does not turn */
 	constructor(looks: Looks, stage: Stage, calm: boolean) {
@@ -93,6 +96,16 @@ export class Living {
 		return this.#weather;
 	}
 
+	/** Has the next frame drawn as if hairs moved, at rest: so what that needs is compiled before the first stroke. */
+	rehearse(): void {
+		const { body } = this.#looks;
+		if (!body || this.#motion) return;
+		const rows = Math.ceil(body.follicles.count / FOLLICLES_PER_ROW);
+		const still = new Float32Array(4 * FOLLICLES_PER_ROW * rows);
+		this.#rehearsal = new DataTexture(still, FOLLICLES_PER_ROW, rows, RGBAFormat, FloatType);
+		this.#rehearsal.needsUpdate = true;
+	}
+
 	/** A finger goes over the fur. Points on the skin and radius are the world's. */
 	stroke(from: Vector3, to: Vector3, radius: number): void {
 		this.#moving()?.stroke(from, to, radius);
@@ -140,15 +153,19 @@ export class Living {
 		}
 		const moved = this.#motion?.update(seconds) ?? false;
 		this.#weather?.update(seconds);
-		this.#looks.live(this.#motion?.swing, this.#weather);
-		if (swung || moved) return 0;
+		this.#rehearsed?.dispose();
+		this.#rehearsed = this.#rehearsal;
+		this.#rehearsal = undefined;
+		this.#looks.live(this.#motion?.swing ?? this.#rehearsed, this.#weather);
+		if (swung || moved || this.#rehearsed) return 0;
 		return this.#weather?.drying ? slow : Number.POSITIVE_INFINITY;
 	}
 
 	/** To be called while the context is lost: motion begins anew. */
 	forget(): void {
 		this.#motion?.dispose();
-		this.#motion = undefined;
+		this.#rehearsed?.dispose();
+		this.#motion = this.#rehearsal = this.#rehearsed = undefined;
 		this.#looks.live(undefined, this.#weather);
 	}
 

@@ -65,6 +65,7 @@ export class Play {
 		this.#picture.canvas.dataset.act = act;
 		this.#keys = this.#on = this.#pressed = this.#fresh = false;
 		this.#living.sway.release();
+		if (act === 'stroke' || act === 'move') this.#living.rehearse();
 		this.#picture.request();
 	}
 

@@ -1,4 +1,4 @@
-import { BufferGeometry, type Color, Object3D, type Texture } from 'three';
+import { BufferGeometry, type Color, Object3D, Scene, type Texture } from 'three';
 import type { Columns } from './clip.ts';
 import { FinMaterial } from './FinMaterial.ts';
 import { FurMaterial } from './FurMaterial.ts';
@@ -121,17 +121,25 @@ export class Fur {
 	/**
 	 * How far hairs are from where they were combed: RGBA floats, a texel for each of `follicles`, XYZ = displacement of the
 	 * tip beyond the comb, in the tangent plane, share of the length, axes of the shells' mesh; with the comb no longer than
-	 * 0.8. What writes into the texture on the GPU adds 1 to its `version`. Undefined, as the fur was baked, costs nothing.
+	 * 0.8. What writes into the texture on the GPU adds 1 to its `version`. Undefined, as the fur was baked, costs nothing; it
+	 * is that again when the texture is disposed of.
 	 */
 	get swing(): Texture | undefined {
 		return this.material.swing;
 	}
 
 	set swing(texture: Texture | undefined) {
-		if (texture === this.material.swing) return;
+		const before = this.material.swing;
+		if (texture === before) return;
 		if (texture) this.#mark();
+		before?.removeEventListener('dispose', this.#straighten);
+		texture?.addEventListener('dispose', this.#straighten);
 		this.material.swing = texture;
 	}
+
+	readonly #straighten = (): void => {
+		this.swing = undefined;
+	};
 
 	/**
 	 * Columns of the picture within which shells and fins are drawn, undefined: all. So two furs of a body, in other light
@@ -184,7 +192,8 @@ export class Fur {
 
 	/** Shows the weather, as far as there are states for it. */
 	readonly #stain = (): void => {
-		const { stains, driest = 0, wettest = 0, dirtiest = 0 } = this.#weather ?? {};
+		const weather = this.#weather;
+		const { stains, driest = 0, wettest = 0, dirtiest = 0 } = weather ?? {};
 		const { wet, dirty, loaded, all } = this.pelt;
 		const mud = dirtiest > 0 && loaded && all.dirty ? this.asset.mud : undefined;
 		this.material.setTextures(this.textures);
@@ -193,8 +202,16 @@ export class Fur {
 		const states = wettest > 0 ? wet : wet.slice(0, 1);
 		this.material.setStains(shown ? { stains, wet: states, mud, clumps: dirty ? wet.length : undefined } : undefined);
 		this.ground.skin.soak(this.asset, this.#wetness());
-		this.pelt.want(this.#stain, driest, wettest);
+		if (weather || this.#isInScene()) this.pelt.want(this.#stain, driest, wettest);
+		else this.pelt.want(this.#stain, 1, 0);
 	};
+
+	/** A pelt that others are dressed in need not be: without weather of its own nobody asks how wet it is then. */
+	#isInScene(): boolean {
+		let top: Object3D = this.#parts;
+		while (top.parent) top = top.parent;
+		return top instanceof Scene;
+	}
 
 	/** Undefined where it is not seen. */
 	#wetness(): Wetness | undefined {
@@ -207,6 +224,7 @@ export class Fur {
 	/** Frees geometry, materials and textures; of a dressed body the materials alone, the rest is the body's and the pelt's. */
 	readonly dispose = (): void => {
 		this.weather = undefined;
+		this.swing = undefined;
 		this.pelt.leave(this.#stain);
 		this.#parts.removeFromParent();
 		this.ground.skin.bare(this.asset);

@@ -23,6 +23,9 @@ export interface Cut {
 /** Somebody who wears the pelt: told when the textures are others. */
 export type Wearer = () => void;
 
+/** What a wearer wants who is not seen. */
+const NONE = [1, 0] as const;
+
 /** The states of one pelt, for all furs that wear it. */
 export class PeltStates {
 	/** All that there are. */
@@ -112,9 +115,9 @@ export class PeltStates {
 		this.#dry = [];
 	}
 
-	/** Has somebody told of other textures, who is dry as yet. */
+	/** Has somebody told of other textures, who wants no state as yet. */
 	join(wearer: Wearer): void {
-		this.#wearers.set(wearer, [0, 0]);
+		this.#wearers.set(wearer, NONE);
 	}
 
 	/** Tells them nothing any more. */
@@ -123,7 +126,10 @@ export class PeltStates {
 		if (this.#files) void this.#settle();
 	}
 
-	/** How wet they are, from their driest place to their wettest: where there is room for two states it is the two around that. */
+	/**
+	 * How wet they are, from their driest place to their wettest: where there is room for two states it is the two around that.
+	 * From 1 to 0: they are not seen, and want none.
+	 */
 	want(wearer: Wearer, from: number, to: number): void {
 		this.#wearers.set(wearer, [from, to]);
 		if (this.#files) void this.#settle();

@@ -242,7 +242,8 @@ export class FurInstances extends Object3D {
 		cutLevels(this.#order, count, this.#seen, this.#level, this.#drawn, this.#ends);
 
 		const total = this.#ends[0] ?? 0;
-		for (const { mesh, places, matrices } of this.#skins) {
+		for (const { piece, mesh, places, matrices } of this.#skins) {
+			piece.follow();
 			places.put(this.#drawn, total - 1, -1, total, matrices, this.#moved);
 			mesh.count = total;
 			mesh.visible = total > 0;

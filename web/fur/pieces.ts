@@ -3,9 +3,11 @@
 import {
 	BufferAttribute,
 	BufferGeometry,
+	Color,
 	DataTexture,
 	DoubleSide,
 	FloatType,
+	type InterleavedBufferAttribute,
 	Matrix3,
 	Matrix4,
 	type Mesh,
@@ -23,6 +25,8 @@ export interface Piece {
 	matrix: Matrix4;
 	/** The mesh that this stands for, or the first of them. */
 	mesh: Mesh;
+	/** Has the colours that its meshes have now: skin is darker below wet fur. */
+	follow(): void;
 	/** Frees what was made for this piece, not what belongs to the mesh. */
 	dispose(): void;
 }
@@ -56,9 +60,48 @@ export function gatherPieces(meshes: readonly Mesh[], placement: (mesh: Mesh) =>
 			geometry: mesh.geometry,
 			material: mesh.material,
 			matrix: placement(mesh),
+			follow() {},
 			dispose() {},
 		})),
 	];
+}
+
+type Attribute = BufferAttribute | InterleavedBufferAttribute;
+
+const versionOf = (attribute: Attribute | undefined) =>
+	attribute && ('data' in attribute ? attribute.data.version : attribute.version);
+
+/** The colours of a mesh among those of the piece that it has become part of. */
+class Part {
+	readonly #mesh: Mesh;
+	readonly #first: number;
+	/** As they were when they were copied. */
+	readonly #shade = new Color(Number.NaN, 0, 0);
+	#own: Attribute | undefined;
+	#version: number | undefined;
+
+	/** @param first of its vertices in the piece */
+	constructor(mesh: Mesh, first: number) {
+		this.#mesh = mesh;
+		this.#first = first;
+	}
+
+	/** Copies them, where they are others than before. */
+	copy(colours: BufferAttribute): void {
+		const { geometry, material } = this.#mesh;
+		const { color, vertexColors } = material as MeshStandardMaterial;
+		const own = vertexColors ? geometry.getAttribute('color') : undefined;
+		if (this.#shade.equals(color) && this.#own === own && this.#version === versionOf(own)) return;
+		this.#shade.copy(color);
+		this.#own = own;
+		this.#version = versionOf(own);
+		const { r, g, b } = color;
+		const end = this.#first + geometry.getAttribute('position').count;
+		for (let v = this.#first, i = 0; v < end; v++, i++)
+			if (own) colours.setXYZ(v, r * own.getX(i), g * own.getY(i), b * own.getZ(i));
+			else colours.setXYZ(v, r, g, b);
+		colours.needsUpdate = true;
+	}
 }
 
 /** In the axes of the first, whose vertices keep their places to the bit. */
@@ -68,7 +111,8 @@ function merge(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Pie
 	const total = meshes.reduce((sum, { geometry }) => sum + geometry.getAttribute('position').count, 0);
 	const positions = new Float32Array(total * 3);
 	const normals = new Float32Array(total * 3);
-	const colours = new Float32Array(total * 3);
+	const colours = new BufferAttribute(new Float32Array(total * 3), 3);
+	const parts: Part[] = [];
 	const coordinates = new Float32Array(total * 2);
 	const surfaces = new Float32Array(meshes.length * 4);
 	const corners: number[] = [];
@@ -76,13 +120,13 @@ function merge(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Pie
 	const vector = new Vector3();
 	let vertex = 0;
 	for (const [m, piece] of meshes.entries()) {
-		const { color, roughness, metalness, vertexColors } = piece.material as MeshStandardMaterial;
+		const { roughness, metalness } = piece.material as MeshStandardMaterial;
 		surfaces.set([0, roughness, metalness, 1], m * 4);
 		const between = m === 0 ? new Matrix4() : new Matrix4().multiplyMatrices(inverse, placement(piece));
 		const turn = new Matrix3().getNormalMatrix(between);
 		const { index } = piece.geometry;
 		const [position, normal] = [piece.geometry.getAttribute('position'), piece.geometry.getAttribute('normal')];
-		const own = vertexColors ? piece.geometry.getAttribute('color') : undefined;
+		parts.push(new Part(piece, vertex));
 		const count = index?.count ?? position.count;
 		for (let i = 0; i < count; i++) corners.push(vertex + (index?.getX(i) ?? i));
 		for (let i = 0; i < position.count; i++, vertex++) {
@@ -95,14 +139,12 @@ function merge(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Pie
 				.applyNormalMatrix(turn)
 				.toArray(normals, vertex * 3);
 			coordinates.set([(m + 0.5) / meshes.length, 0.5], vertex * 2);
-			for (const [c, value] of color.toArray().entries())
-				colours[vertex * 3 + c] = value * (own?.getComponent(i, c) ?? 1);
 		}
 	}
 	const geometry = new BufferGeometry();
 	geometry.setAttribute('position', new BufferAttribute(positions, 3));
 	geometry.setAttribute('normal', new BufferAttribute(normals, 3));
-	geometry.setAttribute('color', new BufferAttribute(colours, 3));
+	geometry.setAttribute('color', colours);
 	geometry.setAttribute('uv', new BufferAttribute(coordinates, 2));
 	geometry.setIndex(corners);
 
@@ -114,11 +156,16 @@ function merge(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Pie
 	material.roughnessMap = material.metalnessMap = palette;
 	material.roughness = material.metalness = 1;
 	if (meshes.some((piece) => (piece.material as MeshStandardMaterial).side === DoubleSide)) material.side = DoubleSide;
+	const follow = () => {
+		for (const part of parts) part.copy(colours);
+	};
+	follow();
 	return {
 		mesh,
 		geometry,
 		material,
 		matrix,
+		follow,
 		dispose() {
 			geometry.dispose();
 			material.dispose();

@@ -4,8 +4,11 @@ import { Turn } from './Turn.ts';
 
 /** Where gravity takes the tips of the longest fur on a wall, share of the length. */
 const SAG = 0.3;
-/** Seconds in which hairs feel the skin's velocity: the jerks of a pointer arrive rounded. */
-const YIELD = 1 / 40;
+/**
+ * Seconds in which hairs feel the skin's velocity: the jerks of a pointer arrive rounded. The longer they are, the less
+ * matters it that the velocity changes from frame to frame only.
+ */
+const YIELD = 1 / 25;
 /** Velocity of the skin that hairs feel however fast it is, ω times their length. */
 const FASTEST = 1.2;
 /** Below it the skin stands still, lengths of the fur per second. */

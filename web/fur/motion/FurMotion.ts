@@ -31,7 +31,7 @@ const MOST_GRAVITY = 100;
  *     if (motion.update(seconds)) for (const other of dressed) other.swing = motion.swing;
  *     renderer.render(scene, camera);
  *
- * The body's node may be moved by whatever moves it: `update` looks where it is. Time goes in sub-steps of a fortieth of a
+ * The body's node may be moved by whatever moves it: `update` looks where it is. Time goes in sub-steps of a thirtieth of a
  * second, whatever the frame rate is, and what is seen is one of them behind. Without anything that pulls at it the fur falls
  * asleep, as it was baked, and costs nothing.
  */
@@ -163,7 +163,7 @@ export class FurMotion {
 		this.#body.swing = undefined;
 	}
 
-	/** Frees what it has, and leaves the body's fur as it was baked; of what is dressed on it `swing` has to be taken away, too. */
+	/** Frees what it has, and leaves all fur that it moved as it was baked, the body's and what is dressed on it. */
 	dispose(): void {
 		this.#body.swing = undefined;
 		this.#solver.dispose();
@@ -210,7 +210,10 @@ export class FurMotion {
 			const now = 1 - left / frame;
 			this.#carriage.advance(STEP - this.#behind);
 			this.#behind = 0;
+			const { widest } = this.#strokes;
 			this.#strokes.advance(before, now);
+			// What is left of lanes that have just come to their end swings out.
+			if (this.#strokes.widest === 0) this.#unrest += this.#spring.widest * widest;
 			this.#wind.advance(STEP / 2);
 			this.#pull(now, false);
 			this.#wind.advance(STEP / 2);

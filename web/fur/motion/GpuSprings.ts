@@ -181,6 +181,8 @@ export class GpuSprings implements Solver {
 	dispose(): void {
 		this.#renderer.domElement.removeEventListener('webglcontextlost', this.#lose);
 		this.#free();
+		// Tells the furs that have it.
+		this.swing.dispose();
 	}
 
 	#free(): void {

@@ -2,16 +2,18 @@ import { type Matrix4, Vector3 } from 'three';
 import { FOLLICLES_PER_ROW, type Follicles } from '../follicles.ts';
 import { LIMIT, STEP } from './spring.ts';
 
-/** How far a finger lays hairs, share of their length. */
-const LAY = 0.7;
+/** How far a finger lays hairs, share of their length: farther than they go, so that a lane stays a while before it fades. */
+const LAY = 1.6;
+/** How far aside it sweeps those at its rim, sine of the angle to its way: there the fur is parted. */
+const PART = 0.85;
 /** A hair in the middle of a lane is laid but for e^(−4/3·FIRMNESS) when the finger has passed. */
 const FIRMNESS = 2.2;
 /** Strokes at a time that have not come to their end; the oldest of more is there at once. */
 const MOST = 64;
 /** Numbers of one: from, to, radius, 1 where its frame is over. */
 const STRIDE = 8;
-/** Nothing is seen of less. */
-const NOTHING = 1e-3;
+/** Of what is less the springs take hairs back by themselves, and nobody sees it. */
+const NOTHING = 0.02;
 /** When the common factor is smaller, offsets are multiplied by it. */
 const SMALL = 0.1;
 
@@ -171,15 +173,21 @@ export class Strokes {
 			const nx = normal[3 * i] as number;
 			const ny = normal[3 * i + 1] as number;
 			const nz = normal[3 * i + 2] as number;
-			const outward = along * nx + up * ny + beside * nz;
+			// Along its way in the middle, aside at its rim.
+			const aside = PART / radius;
+			const ahead = Math.sqrt(1 - PART * PART * (1 - near / (radius * radius))) - aside * there;
+			const wayX = ahead * along + aside * px;
+			const wayY = ahead * up + aside * py;
+			const wayZ = ahead * beside + aside * pz;
+			const outward = wayX * nx + wayY * ny + wayZ * nz;
 			const share = Math.sqrt(Math.max(1 - outward * outward, 0));
 			if (share < 1e-3) continue;
 			const laid = 1 - Math.exp(-FIRMNESS * share * felt);
-			this.#pull(4 * i, laid, (LAY * (along - outward * nx)) / share - (comb[3 * i] as number));
-			this.#pull(4 * i + 1, laid, (LAY * (up - outward * ny)) / share - (comb[3 * i + 1] as number));
-			this.#pull(4 * i + 2, laid, (LAY * (beside - outward * nz)) / share - (comb[3 * i + 2] as number));
+			this.#pull(4 * i, laid, (LAY * (wayX - outward * nx)) / share - (comb[3 * i] as number));
+			this.#pull(4 * i + 1, laid, (LAY * (wayY - outward * ny)) / share - (comb[3 * i + 1] as number));
+			this.#pull(4 * i + 2, laid, (LAY * (wayZ - outward * nz)) / share - (comb[3 * i + 2] as number));
 		}
-		this.#widest = 2 * LIMIT;
+		this.#widest = LAY + LIMIT;
 		this.version++;
 	}
 

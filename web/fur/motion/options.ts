@@ -8,7 +8,7 @@ export interface MotionOptions {
 	damping?: number;
 	/** How much hairs take their neighbours along, 0 (not at all) to 1; 0.3 by default. */
 	coupling?: number;
-	/** Seconds in which a stroked lane loses all but 1/e, 0.01 to 3600; 1.6 by default. */
+	/** Seconds in which a stroked lane loses all but 1/e, 0.01 to 3600; 1.2 by default. */
 	relaxation?: number;
 	/** Gravities: 1, the default, is what the fur was baked under. */
 	gravity?: number;
@@ -32,7 +32,7 @@ export function completed({
 	frequency = 2.4,
 	damping = 0.28,
 	coupling = 0.3,
-	relaxation = 1.6,
+	relaxation = 1.2,
 	gravity = 1,
 	seed = 1,
 	clock = () => performance.now(),

@@ -24,6 +24,6 @@ export interface Solver {
 	show(share: number): void;
 	/** All hairs as they were baked. */
 	rest(): void;
-	/** Frees what it has on the GPU. */
+	/** Frees what it has on the GPU; `swing`, too, which furs take for the end of it. */
 	dispose(): void;
 }

@@ -1,7 +1,7 @@
 /** A damped spring, and the numbers that solvers on CPU and GPU have in common. */
 
 /** Seconds of a sub-step. Fixed, so that what hairs give to their neighbours does not depend on the frame rate. */
-export const STEP = 1 / 40;
+export const STEP = 1 / 30;
 
 /** The farthest that a tip lies from its root along the skin, share of the hair's length. */
 export const LIMIT = 0.8;
