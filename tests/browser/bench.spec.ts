@@ -4,6 +4,9 @@ import type { Page } from '@playwright/test';
 import type { BenchFigures, Result } from '../../web/measure/results.ts';
 import { expect, site, state, test } from './harness.ts';
 
+// As wide as its tables.
+test.use({ viewport: { width: 480, height: 360 } });
+
 /** Opens the page, has it measure and takes what it sends. */
 async function measured(page: Page, query: string): Promise<{ figures?: BenchFigures; error?: string }> {
 	const sent = new Promise<{ figures?: BenchFigures; error?: string }>((resolve) => {
