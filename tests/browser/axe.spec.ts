@@ -2,6 +2,7 @@
 
 import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
+import { drawNothing } from './gpu.ts';
 import { expect, site, state, test } from './harness.ts';
 import { restyle } from './robust.ts';
 
@@ -38,6 +39,8 @@ for (const [file, query, width, height] of PAGES) {
 	for (const language of ['en', 'zh']) {
 		test(`axe finds nothing serious on ${file} in ${language}, in either scheme`, async ({ page }) => {
 			test.setTimeout(150_000);
+			// It looks at elements; no pixel of a picture is one.
+			await drawNothing(page);
 			await page.setViewportSize({ width, height });
 			await load(page, `${file}${query}&lang=${language}`);
 			// All of the lesson at once is more than anybody sees.

@@ -2,7 +2,11 @@
 
 import type { Page } from '@playwright/test';
 import type { BenchFigures, Result } from '../../web/measure/results.ts';
+import { drawNothing } from './gpu.ts';
 import { expect, site, state, test } from './harness.ts';
+
+// As wide as its tables.
+test.use({ viewport: { width: 480, height: 360 } });
 
 /** Opens the page, has it measure and takes what it sends. */
 async function measured(page: Page, query: string): Promise<{ figures?: BenchFigures; error?: string }> {
@@ -62,6 +66,7 @@ test('fragments are counted, not guessed', async ({ page }) => {
 });
 
 test('frames upload nothing, wherever the light is', async ({ page }) => {
+	await drawNothing(page);
 	await page.addInitScript(() => {
 		const context = WebGL2RenderingContext.prototype as unknown as Record<string, (...args: unknown[]) => unknown>;
 		Object.assign(globalThis, { uploads: 0 });

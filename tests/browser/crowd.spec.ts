@@ -1,3 +1,4 @@
+import { shrinkPicture } from './gpu.ts';
 import { difference, expect, open, picture, state, test } from './harness.ts';
 
 test('crowd=8 shows eight bodies in a few draw calls more than one', async ({ page }) => {
@@ -37,24 +38,27 @@ test('a link leads close to one body of a crowd', async ({ page }) => {
 
 test('the panel makes a crowd, and makes it go', async ({ page }) => {
 	await page.setViewportSize({ width: 900, height: 600 });
+	await shrinkPicture(page, 160, 120, [240, 120]);
+	const shown = () => picture(page.locator('#picture'));
 	await open(page, '?model=sphere&shells=6&still=1&light=1,.3,.5&camera=0,10,1');
-	const before = await picture(page);
+	const before = await shown();
 	const count = page.getByLabel('Crowd', { exact: true });
 	const shells = page.getByLabel('Shells', { exact: true });
 	await count.fill('5');
 	await count.press('Enter');
 	await expect.poll(() => new URL(page.url()).searchParams.get('crowd')).toBe('5');
 	await expect(shells).toBeDisabled();
-	expect(difference(before, await picture(page))).toBeGreaterThan(3);
+	expect(difference(before, await shown())).toBeGreaterThan(3);
 	await count.fill('1');
 	await count.press('Enter');
 	await expect.poll(() => new URL(page.url()).searchParams.get('crowd')).toBe(null);
 	await expect(shells).toBeEnabled();
-	await expect.poll(async () => difference(before, await picture(page))).toBeLessThan(1);
+	await expect.poll(async () => difference(before, await shown())).toBeLessThan(1);
 });
 
 test('another model comes as the same crowd', async ({ page }) => {
 	await page.setViewportSize({ width: 900, height: 600 });
+	await shrinkPicture(page, 160, 120, [240, 120]);
 	await open(page, '?model=sphere&crowd=3&still=1&light=1,.3,.5');
 	await page.getByRole('combobox', { name: 'Model' }).selectOption('Torus');
 	await expect.poll(() => new URL(page.url()).searchParams.get('model')).toBe('torus');

@@ -5,7 +5,7 @@ import { encode } from 'fast-png';
 import { patched, renamed, triangle, zipped } from '../web/zips.ts';
 import { difference, expect, open, type Picture, picture, state, test } from './harness.ts';
 
-test.use({ viewport: { width: 240, height: 180 } });
+test.use({ viewport: { width: 160, height: 120 } });
 
 const folder = fileURLToPath(new URL('../../public/models/torus-512/', import.meta.url));
 type Files = Record<string, Uint8Array>;

@@ -1,11 +1,11 @@
-/** Fewer pixels where frames take long. */
+/** Fewer pixels where frames take long; how long they take is told to it, so none is drawn. */
 
 import type { Page } from '@playwright/test';
-import { shrinkPicture, watchGpu } from './gpu.ts';
+import { drawNothing, shrinkPicture, watchGpu } from './gpu.ts';
 import { expect, open, test } from './harness.ts';
 import { calm, canvasWidth, frames } from './robust.ts';
 
-test.use({ viewport: { width: 200, height: 160 } });
+test.use({ viewport: { width: 100, height: 80 } });
 
 const load = (page: Page, milliseconds: number) =>
 	page.evaluate((milliseconds) => {
@@ -14,7 +14,8 @@ const load = (page: Page, milliseconds: number) =>
 
 test('draws fewer pixels where frames take long, all of them where nothing moves', async ({ page }) => {
 	await page.setViewportSize({ width: 400, height: 300 });
-	await shrinkPicture(page, 160, 120);
+	await shrinkPicture(page, 160, 60);
+	await drawNothing(page);
 	await watchGpu(page);
 	await page.addInitScript(() => {
 		window.gpu.time = () => 1;
@@ -35,6 +36,7 @@ test('draws fewer pixels where frames take long, all of them where nothing moves
 });
 
 test('leaves pictures alone with still=1', async ({ page }) => {
+	await drawNothing(page);
 	await watchGpu(page);
 	await page.addInitScript(() => {
 		window.gpu.time = () => 200;
@@ -44,5 +46,5 @@ test('leaves pictures alone with still=1', async ({ page }) => {
 		await page.keyboard.press('ArrowRight');
 		await frames(page, 1);
 	}
-	expect(await canvasWidth(page)).toBe(200);
+	expect(await canvasWidth(page)).toBe(100);
 });

@@ -84,14 +84,31 @@ export async function watchGpu(page: Page, missing: string[] = []): Promise<void
 	}, missing);
 }
 
-/** @param width of the picture in CSS pixels, until it is restyled; the page around it keeps its own size */
-export async function shrinkPicture(page: Page, width: number, height: number): Promise<void> {
-	await page.addInitScript(
-		([width, height]) => {
-			const sheet = new CSSStyleSheet();
-			sheet.replaceSync(`#picture { width: ${width}px !important; height: ${height}px !important }`);
-			document.adoptedStyleSheets = [sheet];
-		},
-		[width, height],
-	);
+/** Everything is made and asked for but the pixels: for what elements, objects or memory tell, not the picture. */
+export async function drawNothing(page: Page): Promise<void> {
+	await page.addInitScript(() => {
+		const proto = WebGL2RenderingContext.prototype as unknown as Record<string, () => void>;
+		for (const how of ['Arrays', 'Elements', 'RangeElements', 'ArraysInstanced', 'ElementsInstanced'])
+			proto[`draw${how}`] = () => {};
+	});
+}
+
+/**
+ * @param width of the picture in CSS pixels, until it is restyled; the page around it keeps its own size
+ * @param place of its left upper corner in the window; without one it stays where it is
+ */
+export async function shrinkPicture(
+	page: Page,
+	width: number,
+	height: number,
+	place?: readonly [left: number, top: number],
+): Promise<void> {
+	const [left, top] = place ?? [];
+	const fixed = place ? `position: fixed; left: ${left}px; top: ${top}px;` : '';
+	await page.addInitScript((css) => {
+		// As a sheet that is adopted: the site's policy lets no style element in.
+		const sheet = new CSSStyleSheet();
+		sheet.replaceSync(css);
+		document.adoptedStyleSheets = [sheet];
+	}, `#picture { ${fixed} width: ${width}px !important; height: ${height}px !important }`);
 }

@@ -4,7 +4,7 @@ import { shrinkPicture, watchGpu } from './gpu.ts';
 import { expect, open, state, test } from './harness.ts';
 import { calm, frames, loseContext, middle, psnr, shot } from './robust.ts';
 
-test.use({ viewport: { width: 200, height: 160 } });
+test.use({ viewport: { width: 120, height: 96 } });
 
 const floats = ['EXT_color_buffer_float', 'EXT_color_buffer_half_float'];
 
@@ -54,7 +54,7 @@ for (const [parameter, least, words] of [
 ] as const) {
 	test(`an asset beyond ${parameter} gets one clear sentence, and the old model stays`, async ({ page }) => {
 		await page.setViewportSize({ width: 900, height: 500 });
-		await shrinkPicture(page, 160, 120);
+		await shrinkPicture(page, 100, 75);
 		await watchGpu(page);
 		await open(page, '?model=sphere&shells=4&still=1&light=-.8,.5,.3');
 		const before = await page.locator('#picture').screenshot();

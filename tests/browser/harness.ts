@@ -1,6 +1,6 @@
 /** What the browser tests share: a page that is watched, and pictures that are measured. */
 
-import { test as base, expect, type Page } from '@playwright/test';
+import { test as base, expect, type Locator, type Page } from '@playwright/test';
 import { decode } from 'fast-png';
 
 export { expect };
@@ -66,8 +66,9 @@ export interface Picture {
 	brightness: Float32Array;
 }
 
-export async function picture(page: Page): Promise<Picture> {
-	const { width, height, data, channels } = decode(await page.screenshot());
+/** What a page, or an element of it, looks like. */
+export async function picture(shown: Page | Locator): Promise<Picture> {
+	const { width, height, data, channels } = decode(await shown.screenshot());
 	const brightness = new Float32Array(width * height);
 	for (let i = 0; i < brightness.length; i++) {
 		const [r = 0, g = 0, b = 0] = data.subarray(i * channels, i * channels + 3);

@@ -57,6 +57,7 @@ for (const [what, wanted] of [
 
 test('a hundred bodies are three draws a level, and bodies of a level have shells enough', async ({ page }) => {
 	const places = rows(100);
+	await page.evaluate(() => loaded.blind());
 	const { calls, levels } = await draw(page, bunny, { places, size: 480, eye: [0, 0.6, 3.2], target: [0, 0, -10] });
 	expect(levels.length).toBeGreaterThanOrEqual(3);
 	expect(calls).toBeLessThanOrEqual(3 * levels.length);
@@ -133,6 +134,7 @@ test('nothing pops where a body goes from level to level', async ({ page }) => {
 });
 
 test('only what moves is uploaded', async ({ page }) => {
+	await page.evaluate(() => loaded.blind());
 	const uploads = await page.evaluate(([url, places]) => loaded.frames(url, { places }), [sphere, crowd] as const);
 	for (const name of ['first', 'camera', 'body', 'fewer']) expect(uploads[name], name).toBeGreaterThan(0);
 	for (const name of ['still', 'lamp', 'still again', 'at last']) expect(uploads[name], name).toBe(0);

@@ -73,11 +73,11 @@ test('a drag takes the lamp along, over the rim and behind the model', async ({ 
 });
 
 test('a tap of one finger puts the light there', async ({ browser, watch }) => {
-	const context = await browser.newContext({ hasTouch: true, viewport: { width: 480, height: 360 } });
+	const context = await browser.newContext({ hasTouch: true, viewport: { width: 240, height: 180 } });
 	const page = await context.newPage();
 	page.on('pageerror', (error) => watch.complaints.push(error.message));
 	await open(page, '?model=sphere&shells=4&still=1&ui=0&light=0,1,0&camera=0,0,1');
-	await page.touchscreen.tap(200, 180);
+	await page.touchscreen.tap(100, 90);
 	await expect.poll(() => light(page)[0]).toBeLessThan(-0.1);
 	await context.close();
 });

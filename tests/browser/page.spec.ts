@@ -1,5 +1,12 @@
+import type { Page } from '@playwright/test';
 import { shrinkPicture } from './gpu.ts';
 import { difference, expect, halves, open, picture, settled, site, state, test } from './harness.ts';
+
+test.use({ viewport: { width: 480, height: 360 } });
+
+/** Small, in the middle of windows that are large enough for what is around it. */
+test.beforeEach(({ page }) => shrinkPicture(page, 160, 120, [240, 120]));
+const shown = (page: Page) => picture(page.locator('#picture'));
 
 test('the page opens with the first model of the menu, ready and with its controls', async ({ page, watch }) => {
 	await page.setViewportSize({ width: 900, height: 600 });
@@ -60,7 +67,7 @@ test('fins=0 leaves out the fins, which are one draw call', async ({ page }) => 
 test('the lamp is visible, and hidden with ui=0', async ({ page }) => {
 	const at = '?model=sphere&shells=4&still=1&light=-1,0,.01&camera=0,0,1';
 	const leftmost = async () => {
-		const { width, height, brightness } = await picture(page);
+		const { width, height, brightness } = await shown(page);
 		return brightness.filter((_, i) => {
 			const [x, y] = [i % width, Math.floor(i / width)];
 			return x < width * 0.17 && y > height * 0.45 && y < height * 0.55;
@@ -126,21 +133,21 @@ test('a place is fetched when it is wanted, lights the model and stands behind i
 	const places = () => watch.requests.filter((url) => /\.exr[.-]/.test(url));
 	await open(page, at);
 	expect(places()).toEqual([]);
-	const own = await picture(page);
+	const own = await shown(page);
 	const menu = page.getByRole('combobox', { name: 'Environment' });
 	await menu.selectOption('Sunset');
 	await expect.poll(() => new URL(page.url()).searchParams.get('env')).toBe('sunset');
 	await expect.poll(() => state(page)).toBe('ready');
 	expect(places()).toHaveLength(1);
-	const sunset = await picture(page);
+	const sunset = await shown(page);
 	expect(difference(own, sunset)).toBeGreaterThan(5);
 	await menu.selectOption('None');
 	await expect.poll(() => new URL(page.url()).searchParams.get('env')).toBe(null);
 	await expect.poll(() => state(page)).toBe('ready');
-	expect(difference(own, await picture(page))).toBeLessThan(0.5);
+	expect(difference(own, await shown(page))).toBeLessThan(0.5);
 	await open(page, `${at}&env=sunset`);
 	await expect(menu).toHaveValue('Sunset');
-	expect(difference(sunset, await picture(page))).toBeLessThan(0.5);
+	expect(difference(sunset, await shown(page))).toBeLessThan(0.5);
 	const hosts = new Set(watch.requests.filter((url) => !url.startsWith('data:')).map((url) => new URL(url).host));
 	expect([...hosts]).toEqual([new URL(site).host]);
 });
@@ -204,12 +211,12 @@ test('a broken model from the menu leaves the one before', async ({ page }) => {
 	await page.setViewportSize({ width: 900, height: 600 });
 	await page.route('**/models/torus/model.gltf', (route) => route.fulfill({ body: '{"asset": {"version": "2.0"}}' }));
 	await open(page, '?model=sphere&shells=4&still=1&light=1,0,.3');
-	const before = halves(await picture(page));
+	const before = halves(await shown(page));
 	await page.getByRole('combobox', { name: 'Model' }).selectOption('Torus');
 	await expect(page.getByRole('status')).toContainText('torus cannot be shown');
 	await expect.poll(() => state(page)).toBe('ready');
 	await expect(page.getByRole('combobox', { name: 'Model' })).toHaveValue('Sphere');
-	expect(halves(await picture(page))[0]).toBeGreaterThan(before[0] * 0.8);
+	expect(halves(await shown(page))[0]).toBeGreaterThan(before[0] * 0.8);
 });
 
 test('a broken plane of a furry model gets clear words', async ({ page }) => {

@@ -2,14 +2,14 @@
 
 import type { Page } from '@playwright/test';
 import { openModule } from '../../web/tools/browser.mjs';
-import { shrinkPicture, watchGpu } from './gpu.ts';
+import { drawNothing, watchGpu } from './gpu.ts';
 import { expect, open, site, test } from './harness.ts';
 import { served } from './library.ts';
 import { calm, frames, hasten, psnr, shot } from './robust.ts';
 
 declare const loaded: typeof import('./breeze.ts');
 
-test.use({ viewport: { width: 200, height: 160 } });
+test.use({ viewport: { width: 80, height: 60 } });
 
 interface Allocations {
 	callFrame: { url: string };
@@ -69,7 +69,8 @@ test('a moving light uploads neither texture nor buffer', async ({ page }) => {
 
 test('steady frames under a moving light allocate nothing', async ({ page }) => {
 	test.setTimeout(200_000);
-	await shrinkPicture(page, 48, 36);
+	// The page's own memory knows nothing of pixels.
+	await drawNothing(page);
 	await hasten(page);
 	// From its sources, whose names tell the page's own allocations from three's.
 	await open(page, 'sources.html?model=torus-512&shells=2');
