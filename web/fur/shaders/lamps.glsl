@@ -64,9 +64,8 @@ void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bendi
 #endif
 }
 
-Lamps lampsAt(FurPoint point) {
+Lamps lampsAt(FurPoint point, Bending bending) {
 	Lamps lamps = DARKNESS;
-	Bending bending = bendingOf(point.comb, point.s);
 	IncidentLight light;
 	float power = 0.0;
 #if NUM_DIR_LIGHTS > 0

@@ -34,7 +34,7 @@ Lamps receivedLamps() {
 #ifdef LAMPS_PER_FRAGMENT
 	vec3 comb = vec3(vCombX, 0.0, 0.0);
 	comb[LEVEL] = vCombY;
-	return lampsAt(FurPoint(vFrame, comb, vPoint, vTip, vS));
+	return lampsAt(FurPoint(vFrame, comb, vPoint, vTip, vS), bendingOf(comb, vS));
 #else
 	Lamps lamps = DARKNESS;
 	lamps.moments.low = vLampLow;

@@ -34,8 +34,9 @@ out float vPower; // irradiance
 
 // openness: to the sky, 0..1.
 void passLight(FurPoint point, float openness) {
+	Bending bending = bendingOf(point.comb, point.s);
 #ifdef SKY
-	Moments sky = environmentMoments(point);
+	Moments sky = environmentMoments(point, bending);
 	vSkyLow = sky.low * openness;
 #ifdef TWO_PLANES
 	vSkyHigh = sky.high * openness;
@@ -49,7 +50,7 @@ void passLight(FurPoint point, float openness) {
 	vTip = point.tipWS;
 	vS = point.s;
 #else
-	Lamps lamps = lampsAt(point);
+	Lamps lamps = lampsAt(point, bending);
 	vLampLow = lamps.moments.low;
 #ifdef TWO_PLANES
 	vLampHigh = lamps.moments.high;
