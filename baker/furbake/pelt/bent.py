@@ -1,7 +1,7 @@
 """Light on bent hairs: the law by which stored texels are lit, and the numbers in it that suit one fur best.
 
 Hairs bend as shells do: what is at a height s, 0 at the skin and 1 at the tip, moves by d·H·s², and the whole sinks
-to c·H, c² = 1 − |d|². The law, for a lamp at l with z = l·n, on fur that leans along m:
+to c·H, c² = 1 − |d|². The law, for light from l with z = l·n, on fur that leans along m:
 
 - Transmittance. Between s and the tip the hairs are sheared by (1 + s)·d on the whole and pressed together to c. Thin
   hairs take from a ray what they took before from the ray that this makes of it, whatever its slant: texels are
