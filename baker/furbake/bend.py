@@ -7,8 +7,8 @@ skin's.
 Mean ratio over all presets at 32 texels, both tips, four directions: light as if unbent 1.51, a frame that turns with
 the hairs 1.98, the sheared direction alone 1.62, the law 1.21 with general numbers and 1.09 with baked ones, of which
 1.04 with tips at 0.3 H and 1.13 at 0.5 H. What is left is most where hairs are bent against their lean and in dense
-upright coats; no factor would leave less than 1.2 in `sheep` and `teddy`. Under an even sky: 10 % off as if unbent, 12 %
-turned, 9 % with general numbers and 7 % with baked ones.
+upright coats; no factor would leave less than 1.2 in `sheep` and `teddy`. Under an even sky: 10 % off as if unbent,
+12 % turned, 9 % with general numbers and 7 % with baked ones.
 """
 
 from __future__ import annotations

@@ -40,6 +40,7 @@ Bending bendingOf(vec3 comb, float s) {
 	vec3 tip = comb * min(1.0, BENT_MOST * inversesqrt(max(square, 1e-8))), leaning = leanTS(), upright = vec3(0.0);
 	upright.UP = 1.0;
 	float q = dot(tip, tip);
+	// In the order of the format, with y = leaning·l: x·z, p, q·z, q; x, q·y, q·y·z, x·y.
 	vec4 first = bent[0] + s * (bent[2] + s * bent[4]), second = bent[1] + s * (bent[3] + s * bent[5]);
 	bending.even = 1.0 + first.y * dot(tip, leaning) + first.w * q;
 	bending.gradient = second.x * tip + q * (first.z * upright + second.y * leaning);
