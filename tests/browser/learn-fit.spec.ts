@@ -56,13 +56,21 @@ test('lamps, texels, bits and numbers, by mouse and keyboard', async ({ page }) 
 	const texels = figure('texel').locator('canvas.picked');
 	await texels.press('ArrowUp');
 	await texels.press('ArrowRight');
-	const [column = 0, up = 0] = ((await texels.getAttribute('data-texel')) ?? '').split(',').map(Number);
-	const at = ((7 * 64 + up) * 64 + column) * 4;
-	const stored = [0, 1, 2].map((channel) => planes[0]?.[at + channel]);
-	stored.push(planes[1]?.[at], planes[1]?.[at + 1], planes[0]?.[at + 3]);
 	const cells = figure('texel').locator('table tbody td');
-	const numbers = (await cells.allTextContents()).map((text) => Number(text.replace('−', '-')));
-	expect([1, 4, 7, 10, 13, 16].map((i) => numbers[i])).toEqual(stored);
+	const read = async () => (await cells.allTextContents()).map((text) => Number(text.replace('−', '-')));
+	const bytes = async () => {
+		const numbers = await read();
+		return [1, 4, 7, 10, 13, 16].map((i) => numbers[i]);
+	};
+	// The table follows the keys with the next frame.
+	await expect(async () => {
+		const [column = 0, up = 0] = ((await texels.getAttribute('data-texel')) ?? '').split(',').map(Number);
+		const at = ((7 * 64 + up) * 64 + column) * 4;
+		const stored = [0, 1, 2].map((channel) => planes[0]?.[at + channel]);
+		stored.push(planes[1]?.[at], planes[1]?.[at + 1], planes[0]?.[at + 3]);
+		expect(await bytes()).toEqual(stored);
+	}).toPass({ intervals: [100] });
+	const numbers = await read();
 	const sum = figure('texel').locator('.sum');
 	const said = (await sum.textContent()) ?? '';
 	const [lu = 0, lv = 0] = (/L\(([^)]*)\)/.exec(said)?.[1] ?? '')
@@ -70,7 +78,8 @@ test('lamps, texels, bits and numbers, by mouse and keyboard', async ({ page }) 
 		.map((text) => Number(text.replace('−', '-')));
 	const decoded = [2, 5, 8, 11, 14, 17].map((i) => numbers[i] ?? 0);
 	const light = [lu * lu, lv * lv, lu * lv, lu, lv, 1].reduce((total, phi, i) => total + phi * (decoded[i] ?? 0), 0);
-	expect(Math.abs(Number(await sum.getAttribute('data-stored')) - Math.max(light, 0))).toBeLessThan(0.03);
+	// Of eight numbers that are told to two places.
+	expect(Math.abs(Number(await sum.getAttribute('data-stored')) - Math.max(light, 0))).toBeLessThan(0.05);
 	const disc = await figure('texel').locator('canvas.lit').boundingBox();
 	await figure('texel')
 		.locator('canvas.lit')
