@@ -3,22 +3,13 @@
 import { readFile } from 'node:fs/promises';
 import type { Page } from '@playwright/test';
 import { decode } from 'fast-png';
+import { shrinkPicture } from './gpu.ts';
 import { difference, expect, open, type Picture, state, test } from './harness.ts';
 
 test.use({ viewport: { width: 900, height: 760 }, permissions: ['clipboard-read', 'clipboard-write'] });
 
 /** A small picture in the middle of a page that is large enough for its panel, and nothing above it. */
-async function makeSmall(page: Page): Promise<void> {
-	await page.addInitScript(() => {
-		// As a sheet that is adopted: the site's policy lets no style element in.
-		const sheet = new CSSStyleSheet();
-		sheet.replaceSync(`
-			#picture { position: fixed; top: 280px; left: 400px; width: 120px !important; height: 90px !important }
-			#split, #loading, #notices { opacity: 0 !important }
-		`);
-		document.adoptedStyleSheets.push(sheet);
-	});
-}
+const makeSmall = (page: Page) => shrinkPicture(page, 120, 90, [400, 280], '#split, #loading, #notices');
 
 async function shot(page: Page): Promise<Picture & { data: ArrayLike<number> }> {
 	const { width, height, data, channels } = decode(await page.locator('#picture').screenshot());

@@ -51,30 +51,3 @@ for (const [name, picture, bounds] of [
 		expect(lamp?.rmse).toBeLessThan(plain?.rmse ?? 0);
 	});
 }
-
-for (const name of ['ptm-6', 'eigen-6', 'eigen-3']) {
-	test(`the sky lights bent hairs as lamps all around do: ${name}`, async ({ page }) => {
-		await openStage(page);
-		const combs = [
-			[0.4, 0],
-			[-0.3, 0.4],
-			[0.1, -0.3],
-		];
-		const harmonics = [1.2, 0.3, -0.3, 0.35, 0.15, -0.1, 0.12, 0.18, -0.14];
-		const drawn = await page.evaluate(([url, c, h]) => stage.dome(url, 2, c, h), [
-			served(`tests/golden/${name}/model.gltf`),
-			combs,
-			harmonics,
-		] as const);
-		expect(drawn).toHaveLength(combs.length);
-		for (const [i, { sky, lamps }] of drawn.entries()) {
-			const seen = sky.flatMap((light, at) => (Number.isNaN(light) ? [] : [[light, lamps[at] ?? Number.NaN] as const]));
-			expect(seen.length).toBeGreaterThan(20);
-			const brightest = Math.max(...seen.map(([, truth]) => truth));
-			const squares = seen.reduce((sum, [light, truth]) => sum + (light - truth) ** 2, 0);
-			const error = Math.sqrt(squares / seen.length) / brightest;
-			test.info().annotations.push({ type: `error at ${combs[i]}`, description: error.toFixed(4) });
-			expect(error).toBeLessThan(0.02);
-		}
-	});
-}

@@ -1,4 +1,4 @@
-/** Fins and combing on the GPU: their light, where they are, what the packed attributes do. */
+/** Fins on the GPU: their light, where they are, what the packed attributes do. */
 
 import { readFile } from 'node:fs/promises';
 import type { Page } from '@playwright/test';
@@ -91,74 +91,6 @@ test("a fin's L equals numpy's in the frame of edge and normal, below the horizo
 	expect(below).toBeGreaterThan(8 * width * height);
 	const alphas = Array.from({ length: height }, (_, row) => floats(fin.alpha)[row * width] ?? Number.NaN);
 	expect(alphas).toEqual(alphas.map((_, row) => expect.closeTo((0.9 * (255 - 32 * row)) / 255, 4)));
-});
-
-test('combed hairs move along T and B, lit as numpy says', async ({ page }) => {
-	await openStage(page);
-	const { bends, light: lamp } = JSON.parse(await readFile(`${repository}${golden}/bent.json`, 'utf8'));
-	const expected = await readFloats(`${golden}/bent.f32`);
-	const cases = [
-		[1, 0, 1],
-		[0, 1, 1],
-		[-1, 1, 1],
-		[1, 0, 0.5], // hairs half as long, combed twice as far
-	] as const;
-	for (const [i, [right, up, length]] of cases.entries()) {
-		const attributes = { _comb: bends[i], _fur: [1, length, 1, 0] };
-		const drawn = await page.evaluate(([url, a, l]) => stage.vertices(url, 3, a, { lamp: l }), [
-			served(`${golden}/model.gltf`),
-			attributes,
-			lamp,
-		] as const);
-		let compared = 0;
-		drawn.light.forEach((light, texel) => {
-			const [column, row] = [(texel % 8) - right, Math.floor(texel / 8) - up];
-			if (column < 0 || column > 7 || row < 0 || row > 7) {
-				expect(drawn.alpha[texel]).toBe(0);
-				return;
-			}
-			compared++;
-			expect(Math.abs(light - (expected[i * 64 + row * 8 + column] ?? Number.NaN))).toBeLessThan(1e-3);
-		});
-		expect(compared).toBeGreaterThanOrEqual(49);
-	}
-	expect(Math.max(...expected)).toBeGreaterThan(1);
-});
-
-test('baked numbers of bent hairs meet their terms and powers of the height', async ({ page }) => {
-	await openStage(page);
-	const { bends, light: lamp } = JSON.parse(await readFile(`${repository}${golden}/bent.json`, 'utf8'));
-	const expected = await readFloats(`${golden}/bent.f32`);
-	const gltf = JSON.parse(await readFile(`${repository}${golden}/model.gltf`, 'utf8'));
-	const [[u, v], [lu, lv, z], s] = [bends[2], lamp, 3.5 / 4];
-	// The fur leans by 0.4 along v.
-	const [x, q] = [u * lu + v * lv, u * u + v * v];
-	const terms = [x * z, v, q * z, q, x, q * lv, q * lv * z, x * lv];
-	const general = s * (q * (2.7 * z - 1.5) - 1.8 * x * z) - 0.2 * v;
-	// One number by itself, such that it does what those of any fur do here.
-	let changed = 0;
-	const attributes: Record<string, number[]> = { _comb: bends[2], _fur: [1, 1, 1, 0] };
-	for (const [i, term] of terms.entries()) {
-		const power = i % 3;
-		const bent = [0, 1, 2].map((p) => terms.map((_, f) => (f === i && p === power ? general / (term * s ** p) : 0)));
-		await page.route(new RegExp(`model\\.gltf\\?term=${i}$`), (route) => {
-			changed++;
-			const fur = { ...gltf.extensions.FUR_ptm_shells, bent };
-			return route.fulfill({ json: { ...gltf, extensions: { FUR_ptm_shells: fur } } });
-		});
-		const drawn = await page.evaluate(([url, a, l]) => stage.vertices(url, 3, a, { lamp: l }), [
-			served(`${golden}/model.gltf?term=${i}`),
-			attributes,
-			lamp,
-		] as const);
-		// Away from the rim, from texels that have moved by one to the left and one up.
-		for (let texel = 9; texel < 54; texel++) {
-			if (texel % 8 === 7 || texel % 8 === 0) continue;
-			const wanted = expected[2 * 64 + texel - 8 + 1] ?? Number.NaN;
-			expect(Math.abs((drawn.light[texel] ?? Number.NaN) - wanted), `term ${i}`).toBeLessThan(1e-3);
-		}
-	}
-	expect(changed).toBe(terms.length);
 });
 
 test('a vertex brings weight, openness, tip and colour', async ({ page }) => {

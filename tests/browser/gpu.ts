@@ -96,19 +96,22 @@ export async function drawNothing(page: Page): Promise<void> {
 /**
  * @param width of the picture in CSS pixels, until it is restyled; the page around it keeps its own size
  * @param place of its left upper corner in the window; without one it stays where it is
+ * @param hidden selectors of what lies over it and is not to be seen
  */
 export async function shrinkPicture(
 	page: Page,
 	width: number,
 	height: number,
 	place?: readonly [left: number, top: number],
+	hidden?: string,
 ): Promise<void> {
 	const [left, top] = place ?? [];
+	const covers = hidden ? `${hidden} { opacity: 0 !important }` : '';
 	const fixed = place ? `position: fixed; left: ${left}px; top: ${top}px;` : '';
 	await page.addInitScript((css) => {
 		// As a sheet that is adopted: the site's policy lets no style element in.
 		const sheet = new CSSStyleSheet();
 		sheet.replaceSync(css);
 		document.adoptedStyleSheets = [sheet];
-	}, `#picture { ${fixed} width: ${width}px !important; height: ${height}px !important }`);
+	}, `#picture { ${fixed} width: ${width}px !important; height: ${height}px !important } ${covers}`);
 }

@@ -2,6 +2,7 @@
 
 import type { Page } from '@playwright/test';
 import { decode } from 'fast-png';
+import { shrinkPicture } from './gpu.ts';
 import { expect, open, state, test } from './harness.ts';
 import { psnr } from './robust.ts';
 
@@ -13,18 +14,8 @@ const centre = [left + width / 2, top + height / 2] as const;
 const model = '?model=sphere&preset=bunny&shells=6&light=-.5,.5,.7&camera=0,0,.9';
 
 /** A small picture between header and tools, and nothing over it. */
-async function makeSmall(page: Page): Promise<void> {
-	await page.addInitScript(
-		(css) => {
-			// As a sheet that is adopted: the site's policy lets no style element in.
-			const sheet = new CSSStyleSheet();
-			sheet.replaceSync(css);
-			document.adoptedStyleSheets.push(sheet);
-		},
-		`#picture { position: fixed; left: ${left}px; top: ${top}px; width: ${width}px !important; height: ${height}px !important }
-		#hint, #loading, #notices, #overlay .graphs { opacity: 0 !important }`,
-	);
-}
+const makeSmall = (page: Page) =>
+	shrinkPicture(page, width, height, [left, top], '#hint, #loading, #notices, #overlay .graphs');
 
 const shot = (page: Page) => page.locator('#picture').screenshot();
 const tool = (page: Page, name: string) => page.getByRole('radio', { name });
@@ -117,13 +108,11 @@ test('a stroke leaves a lane that is seen, there alone, and recovers; a body tha
 	await expect(tool(page, 'Stroke the fur')).toBeChecked();
 	await expect.poll(links, 'when the tool is chosen').toBeGreaterThan(first);
 	await rests(page);
-	const compiled = await links();
 	await drag(page, [-30, 0], [-15, 0], [0, 0], [15, 0], [30, 0]);
 	const stroked = await shot(page);
 	const inside = compare(before, stroked, (x, y) => Math.abs(x) < 25 && Math.abs(y) < 5);
 	const outside = compare(before, stroked, (_x, y) => Math.abs(y) > 30);
 	expect(inside.difference).toBeGreaterThan(12);
-	expect(await links(), 'by the stroke').toBe(compiled);
 	expect(outside.psnr).toBeGreaterThan(40);
 	await expect.poll(async () => psnr(before, await shot(page)), { intervals: [300] }).toBeGreaterThan(40);
 

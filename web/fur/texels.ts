@@ -20,7 +20,7 @@ export interface Texels {
 export function momentUniforms({ environment, basis }: Texels, fin: boolean): Record<string, IUniform> {
 	const uniforms: Record<string, IUniform> = {};
 	const around = horizonMoments(basis, fin ? (psi) => [Math.cos(psi), 0, Math.sin(psi)] : undefined);
-	const flat = basis.kind === 'eigen' ? polynomialCurves(basis) : [];
+	const polynomials = basis.kind === 'eigen' ? polynomialCurves(basis) : [];
 	for (const [part, first] of [
 		['Low', 0],
 		['High', 3],
@@ -39,8 +39,8 @@ export function momentUniforms({ environment, basis }: Texels, fin: boolean): Re
 			uniforms[`curves${part}`] = {
 				value: Array.from({ length: terms }, (_, t) => new Vector3(...curves.map((row) => row?.[t] ?? 0))),
 			};
-			const rows = [0, 1, 2].map((i) => flat[first + i] ?? zeros);
-			uniforms[`flat${part}`] = { value: [0, 3, 6].flatMap((j) => rows.flatMap((row) => row.slice(j, j + 3))) };
+			const rows = [0, 1, 2].map((i) => polynomials[first + i] ?? zeros);
+			uniforms[`polynomial${part}`] = { value: [0, 3, 6].flatMap((j) => rows.flatMap((row) => row.slice(j, j + 3))) };
 		}
 	}
 	return uniforms;

@@ -17,9 +17,9 @@ uniform vec3 horizonLow[5];
 uniform vec3 horizonHigh[5];
 
 #ifdef CURVES // curves 0..2 and 3..5 as polynomials: a column each, matrices for (u², v², uv), (u, v, 1), (w, uw, vw)
-uniform mat3 flatLow[3];
+uniform mat3 polynomialLow[3];
 #ifdef TWO_PLANES
-uniform mat3 flatHigh[3];
+uniform mat3 polynomialHigh[3];
 #endif
 #endif
 
@@ -105,9 +105,9 @@ void addBent(inout Moments moments, Radiance radiance, Bending bending) {
 	addFrom(change, radiance, bending, vec3(-0.43473824, -0.43473824, 0.78867513));
 	addFrom(change, radiance, bending, vec3(0.43473824, -0.43473824, 0.78867513));
 #ifdef CURVES
-	moments.low += change.square * flatLow[0] + change.plain * flatLow[1] + change.steep * flatLow[2];
+	moments.low += change.square * polynomialLow[0] + change.plain * polynomialLow[1] + change.steep * polynomialLow[2];
 #ifdef TWO_PLANES
-	moments.high += change.square * flatHigh[0] + change.plain * flatHigh[1] + change.steep * flatHigh[2];
+	moments.high += change.square * polynomialHigh[0] + change.plain * polynomialHigh[1] + change.steep * polynomialHigh[2];
 #endif
 #else
 	moments.low += change.square;
