@@ -27,6 +27,9 @@ TILES = 2
 THINNEST = 1e-6
 """Radius below which no hair falls, tile widths."""
 
+LLVM = "llvm_ad_mono"
+"""Mitsuba's variant that compiles what it renders."""
+
 ABOVE = 8.0
 """Height of the orthographic camera above the skin, tile widths. Fur is at most 4 long."""
 
@@ -35,15 +38,22 @@ class VerifyError(ValueError):
     """A bake that cannot be verified; one sentence that says why, and what would help."""
 
 
-def load() -> Any:
-    """Mitsuba, ready to render. Raises VerifyError where it is not installed."""
+def load(fast: bool = False) -> Any:
+    """Mitsuba, ready to render; fast : by LLVM, where its library is found. Raises VerifyError where it is missing."""
     try:
         mitsuba: Any = importlib.import_module("mitsuba")
     except ImportError as error:
         raise VerifyError(f"mitsuba: {error}, expected the optional extra: pip install 'furbake[verify]'") from error
-    mitsuba.set_variant("scalar_rgb")
+    mitsuba.set_variant(LLVM if fast and _has_llvm(mitsuba) else "scalar_rgb")
     mitsuba.set_log_level(mitsuba.LogLevel.Error)
     return mitsuba
+
+
+def _has_llvm(mitsuba: Any) -> bool:
+    if LLVM not in mitsuba.variants():
+        return False
+    drjit: Any = importlib.import_module("drjit")
+    return bool(drjit.has_backend(drjit.JitBackend.LLVM))
 
 
 def control_points(strands: Strands) -> Array:

@@ -1,0 +1,149 @@
+"""How like the truth a furry body is on the page: the very strands, path-traced, beside the page's own shader.
+
+Both show linear light of one distant lamp, hairs of one grey on diffuse skin, nothing around. No scale is fitted.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from furbake.asset.read import Asset, read_asset
+from furbake.groom.ground import read_skin
+from furbake.groom.strands import groom, recorded
+from furbake.likeness.cells import PLANS, Cell, Floats, Frame, cells, frame
+from furbake.likeness.figures import correlation, figures, overlap
+from furbake.likeness.page import Shown, show
+from furbake.likeness.sheet import write_sheets
+from furbake.likeness.truth import Scene, Traced, trace
+from furbake.pathtrace import VerifyError, load
+
+Progress = Callable[[str, float], None]
+
+METHODS = ("ptm", "ptm-bare", "lengyel", "shadow-layers", "unlit")
+"""Ways to light the fur: its own with shadow map, without it, and its rivals."""
+
+SIZE, SPP = 480, 256
+"""Pixels across, and paths per pixel."""
+
+STAGES = ("strands", "trace", "page")
+
+ROUND = ("sphere", "torus")
+"""Built-in shapes that have cells of their own."""
+
+
+@dataclass(frozen=True)
+class Options:
+    """How the comparison is made.
+
+    plan : of `PLANS`, None: by the model; methods : some of `METHODS`; size : pixels across; spp : paths per pixel
+    truth : file that keeps what was traced, for the next time the same strands are seen
+    """
+
+    plan: str | None = None
+    methods: tuple[str, ...] = METHODS
+    size: int = SIZE
+    spp: int = SPP
+    truth: Path | None = None
+
+    def check(self) -> None:
+        """Raise VerifyError for the first value that is out of range."""
+        if self.plan is not None and self.plan not in PLANS:
+            raise VerifyError(f"plan: got {self.plan!r}, expected {' or '.join(PLANS)}")
+        if unknown := [name for name in self.methods if name not in METHODS]:
+            raise VerifyError(f"methods: got {unknown[0]!r}, expected some of {', '.join(METHODS)}")
+        if not 32 <= self.size <= 2048:
+            raise VerifyError(f"size: got {self.size}, expected 32 to 2048")
+        if self.spp < 2:
+            raise VerifyError(f"spp: got {self.spp}, expected at least 2")
+
+
+def verify_body(
+    folder: Path,
+    options: Options | None = None,
+    *,
+    picture: Path | None = None,
+    progress: Progress = lambda stage, fraction: None,
+) -> dict[str, Any]:
+    """Trace the strands of a baked fur on its body and compare with the page's pictures; plain data.
+
+    picture : optional PNG: a row per cell, page | truth | difference; of each further method FILE-METHOD.png
+    progress : called with a stage of `STAGES` and the fraction of it that is done
+
+    Raises VerifyError where Mitsuba, Node or a browser is missing, AssetError where the folder is no whole asset.
+    """
+    options = options or Options()
+    options.check()
+    load(fast=True)
+    asset = read_asset(folder)
+    coat = recorded(asset).coat
+    name = options.plan or ("round" if str(asset.record.get("input", {}).get("name")).split(":")[0] in ROUND else "body")
+    vertices, faces = read_skin(asset)
+    seen = frame(vertices, float(asset.fur["length"]), PLANS[name], options.size)
+    wanted = cells(PLANS[name], seen)
+    strands = groom(folder, lambda stage, fraction: progress("strands", fraction * (0.5 if stage == "roots" else 1)))
+    scene = Scene(strands, vertices, faces, coat.albedo, coat.skin)
+    traced = _traced(scene, seen, wanted, options, lambda fraction: progress("trace", fraction))
+    shown = show(
+        asset, coat.albedo, coat.skin, seen, wanted, options.methods, lambda fraction: progress("page", fraction)
+    )
+    if picture is not None:
+        write_sheets(picture, shown, traced, wanted, options.methods)
+    return {
+        "model": str(asset.record.get("input", {}).get("name")),
+        "hairs": len(strands.points),
+        "plan": name,
+        "size": [seen.width, seen.height],
+        "spp": options.spp,
+        "cells": [_cell(cell, shown, one, options.methods) for cell, one in zip(wanted, traced, strict=True)],
+    }
+
+
+def _cell(cell: Cell, shown: Shown, traced: Traced, methods: Sequence[str]) -> dict[str, Any]:
+    """Figures of a cell by every method; of the pixels that either picture covers, but for eyes and the like."""
+    cosine = shown.normal[cell.view] @ cell.to_lamp
+    free = ~shown.feature[cell.view]
+    white = max(float(np.percentile(traced.light[traced.cover > 0.5], 99)), 1e-9)
+    halves = correlation(*(half[free & (traced.cover > 0.5)] for half in traced.halves))
+    found: dict[str, Any] = {"name": cell.name, "view": cell.view, "lamp": cell.lamp, "methods": {}}
+    # Spearman and Brown: of all paths against as many others.
+    found["r_noise"] = 2 * halves / (1 + halves)
+    for method in methods:
+        light, cover = shown.light[cell.name, method], shown.cover[cell.name, method]
+        over = free & ((cover > 0.5) | (traced.cover > 0.5))
+        found["outline"] = overlap(cover * free, traced.cover * free)
+        found["methods"][method] = figures(light, traced.light, over, cosine, white)
+    return found
+
+
+def _traced(
+    scene: Scene, seen: Frame, wanted: list[Cell], options: Options, step: Callable[[float], None]
+) -> list[Traced]:
+    """What the tracer shows, or what the file of an earlier run has of just this."""
+    key = _key(scene, seen, wanted, options.spp)
+    if options.truth is not None and options.truth.exists():
+        with np.load(options.truth, allow_pickle=False) as kept:
+            if str(kept["key"]) == key:
+                step(1.0)
+                return [Traced(light, cover, (one, two)) for light, cover, one, two in kept["pictures"].astype(float)]
+    traced = trace(scene, seen, wanted, options.spp, step=step)
+    if options.truth is not None:
+        pictures = np.stack([[one.light, one.cover, *one.halves] for one in traced]).astype(np.float32)
+        with options.truth.open("wb") as file:
+            np.savez_compressed(file, key=key, pictures=pictures)
+    return traced
+
+
+def _key(scene: Scene, seen: Frame, wanted: list[Cell], spp: int) -> str:
+    """SHA-256 of all that decides what is traced."""
+    parts: list[Floats] = [scene.vertices, seen.centre, *(part for cell in wanted for part in (cell.eye, cell.to_lamp))]
+    found = hashlib.sha256(json.dumps([seen.width, seen.height, spp, scene.albedo, scene.skin]).encode())
+    for part in (scene.groom.points, scene.groom.radius, *parts):
+        found.update(np.ascontiguousarray(part).tobytes())
+    return found.hexdigest()

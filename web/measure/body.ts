@@ -1,0 +1,194 @@
+/** A furry body as the page shows it, for figures beside a path tracer's: one lamp, black surroundings, linear floats. */
+
+import {
+	DirectionalLight,
+	FloatType,
+	Mesh,
+	MeshBasicMaterial,
+	PerspectiveCamera,
+	Scene,
+	ShaderMaterial,
+	Sphere,
+	Vector3,
+	WebGLRenderer,
+	WebGLRenderTarget,
+} from 'three';
+import { type Fur, fitShadow, furMethod, type MethodName } from '../fur/index.ts';
+import { loadFur, renderFloats } from './studio.ts';
+
+/** An eye and a lamp. */
+export interface BodyCell {
+	name: string;
+	/** Name of the eye. */
+	view: string;
+	/** World units. */
+	eye: readonly [number, number, number];
+	/** Unit vector towards the lamp, world axes. */
+	lamp: readonly [number, number, number];
+}
+
+/** What is drawn; written by `furbake verify --body`. */
+export interface BodyJob {
+	width: number;
+	height: number;
+	/** Degrees, from the picture's lower to its upper edge. */
+	fieldOfView: number;
+	/** What every eye looks at, and the radius of the skin around it, world units. */
+	centre: readonly [number, number, number];
+	radius: number;
+	/** Of the lamp, across its rays. */
+	irradiance: number;
+	cells: readonly BodyCell[];
+	/** A method's name, with `-bare` after it where no shadow map is wanted. */
+	methods: readonly string[];
+}
+
+const BARE = '-bare';
+
+/** World normals of what is hit; alpha 1 there. */
+const NORMALS = {
+	vertexShader: `varying vec3 n;
+		void main() {
+			n = mat3(modelMatrix) * normal;
+			gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+		}`,
+	fragmentShader: `varying vec3 n;
+		void main() { gl_FragColor = vec4(normalize(n), 1.0); }`,
+};
+
+/** The body of a job, ready to be drawn in any of its cells. */
+export class BodyScene {
+	readonly #renderer = new WebGLRenderer({ antialias: false });
+	readonly #scene = new Scene();
+	readonly #camera: PerspectiveCamera;
+	readonly #lamp: DirectionalLight;
+	readonly #target: WebGLRenderTarget;
+	readonly #centre: Vector3;
+	/** Eyes, a nose and the like. */
+	readonly #features: Mesh[] = [];
+	/** The body itself. */
+	readonly #skin: Mesh[] = [];
+
+	constructor(
+		readonly job: BodyJob,
+		readonly fur: Fur,
+	) {
+		const { width, height, fieldOfView, centre, radius, irradiance } = job;
+		this.#renderer.shadowMap.enabled = true;
+		this.#centre = new Vector3(...centre);
+		this.#camera = new PerspectiveCamera(fieldOfView, width / height, 0.1 * radius, 100 * radius);
+		this.#target = new WebGLRenderTarget(width, height, { type: FloatType });
+		this.#lamp = new DirectionalLight(0xffffff, irradiance);
+		this.#lamp.target.position.copy(this.#centre);
+		const body = fur.skin.parent ?? fur.skin;
+		body.traverse((piece) => {
+			if (!(piece instanceof Mesh) || piece === fur.shells || piece === fur.fins) return;
+			let top = piece.parent;
+			while (top && top !== fur.skin) top = top.parent;
+			(piece === fur.skin || top ? this.#skin : this.#features).push(piece);
+		});
+		for (const feature of this.#features) feature.visible = false;
+		this.#scene.add(body, this.#lamp, this.#lamp.target);
+		// Highlights, light from behind and the sky are not baked. The colour of bare skin is no colour of hairs.
+		Object.assign(fur.material, { environment: false, gloss: 0, backlight: 0 });
+		fur.material.skinColour.set(1, 1, 1);
+	}
+
+	/** Rows from the bottom: light of the picture, premultiplied, then its coverage. */
+	draw(cell: number, method: string): Float32Array {
+		const { lamp, eye } = this.job.cells[cell] as BodyCell;
+		this.#look(eye);
+		const bare = method.endsWith(BARE);
+		const light = this.#lamp;
+		light.position
+			.set(...lamp)
+			.multiplyScalar(4 * this.job.radius)
+			.add(this.#centre);
+		fitShadow(light, new Sphere(this.#centre, this.job.radius + this.fur.asset.length), this.fur.asset.length);
+		light.castShadow = !bare;
+		const name = (bare ? method.slice(0, -BARE.length) : method) as MethodName;
+		// Without a lamp: a hair is as bright as one with L = 1.
+		const worn = furMethod(name, this.fur, { brightness: this.job.irradiance / (4 * Math.PI) });
+		worn.wear();
+		this.#scene.updateMatrixWorld(true);
+		worn.before(this.#renderer, light);
+		const pixels = this.#render();
+		worn.dispose();
+		return pairs(pixels);
+	}
+
+	/** Rows from the bottom, four numbers a pixel: the skin's normal, and 1 where it is hit. */
+	normals(cell: number): Float32Array {
+		const material = new ShaderMaterial(NORMALS);
+		const pixels = this.#plainly(cell, this.#skin, () => material);
+		material.dispose();
+		return pixels;
+	}
+
+	/** Rows from the bottom: 1 and 1 where an eye or the like is seen past the skin, else 0. */
+	features(cell: number): Float32Array {
+		const [hidden, shown] = [new MeshBasicMaterial({ colorWrite: false }), new MeshBasicMaterial()];
+		const pixels = this.#plainly(cell, [...this.#skin, ...this.#features], (piece) =>
+			this.#features.includes(piece) ? shown : hidden,
+		);
+		hidden.dispose();
+		shown.dispose();
+		return pairs(pixels);
+	}
+
+	dispose(): void {
+		this.fur.dispose();
+		this.#target.dispose();
+		this.#lamp.dispose();
+		this.#renderer.dispose();
+	}
+
+	#look(eye: BodyCell['eye']): void {
+		this.#camera.position.set(...eye);
+		this.#camera.lookAt(this.#centre);
+	}
+
+	#render(): Float32Array {
+		return renderFloats(this.#renderer, this.#scene, this.#camera, this.#target);
+	}
+
+	/** Some pieces alone, in other materials, without fur. */
+	#plainly(cell: number, pieces: readonly Mesh[], dress: (piece: Mesh) => Mesh['material']): Float32Array {
+		this.#look((this.job.cells[cell] as BodyCell).eye);
+		const { shells, fins } = this.fur;
+		const before = pieces.map(({ material, visible }) => ({ material, visible }));
+		for (const piece of pieces) Object.assign(piece, { material: dress(piece), visible: true });
+		for (const part of [shells, fins]) if (part) part.visible = false;
+		const pixels = this.#render();
+		for (const part of [shells, fins]) if (part) part.visible = true;
+		for (const [i, piece] of pieces.entries()) Object.assign(piece, before[i]);
+		return pixels;
+	}
+}
+
+/** @param url of an asset's model.gltf */
+export async function openBody(url: string, job: BodyJob): Promise<BodyScene> {
+	return new BodyScene(job, await loadFur(url));
+}
+
+/** Mean of red, green and blue, and alpha. */
+function pairs(rgba: Float32Array): Float32Array {
+	const found = new Float32Array(rgba.length / 2);
+	for (let i = 0; i < found.length; i += 2) {
+		const at = 2 * i;
+		found[i] = ((rgba[at] ?? 0) + (rgba[at + 1] ?? 0) + (rgba[at + 2] ?? 0)) / 3;
+		found[i + 1] = rgba[at + 3] ?? 0;
+	}
+	return found;
+}
+
+/** Floats as text, for those who open the page. */
+export async function encoded(floats: Float32Array): Promise<string> {
+	const url = await new Promise<string>((resolve, reject) => {
+		const reader = new FileReader();
+		reader.onload = () => resolve(reader.result as string);
+		reader.onerror = () => reject(reader.error);
+		reader.readAsDataURL(new Blob([floats as BlobPart]));
+	});
+	return url.slice(url.indexOf(',') + 1);
+}
