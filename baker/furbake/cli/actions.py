@@ -16,15 +16,20 @@ from furbake.asset.read import AssetError, read_asset
 from furbake.asset.validate import validate
 from furbake.bake import STAGES, bake
 from furbake.cli.progress import shown
+from furbake.groom.files import write_groom
+from furbake.groom.strands import STAGES as GROOM_STAGES
+from furbake.groom.strands import groom
 from furbake.identity import bake_key
 from furbake.lesson import STAGES as LESSON_STAGES
 from furbake.lesson import fresh as fresh_lesson
 from furbake.lesson import write as write_lesson
+from furbake.likeness import verify as body
+from furbake.likeness.tables import lines as body_lines
 from furbake.options import BakeOptions, OptionError, as_toml, override, preset, preset_names, preset_summary
 from furbake.report import STAGES as REPORT_STAGES
 from furbake.report import write as write_report
 from furbake.swatch import save
-from furbake.verify import lines, verify
+from furbake.verify import SAMPLES, lines, verify
 
 GIVEN = (
     "layers", "size", "lights", "basis", "coefficients", "length", "tile", "height", "seed", "flat", "guide",
@@ -197,15 +202,48 @@ def run_lesson(args: argparse.Namespace) -> int:
     return 0
 
 
+def run_groom(args: argparse.Namespace) -> int:
+    """Write the strands of a baked fur on its body."""
+    out = Path(args.out)
+    with shown(GROOM_STAGES, args.quiet) as progress:
+        strands = groom(Path(args.folder), progress)
+        write_groom(out, strands)
+    count, points = strands.points.shape[:2]
+    if args.json:
+        print(json.dumps({"file": str(out), "hairs": count, "points": points, "bytes": out.stat().st_size}))
+    elif not args.quiet:
+        print(f"{out}: {count} hairs of {points} points, {out.stat().st_size / 1e6:.1f} MB")
+    return 0
+
+
 def run_verify(args: argparse.Namespace) -> int:
     """Compare a bake with a path tracer."""
     picture = Path(args.out) if args.out else None
+    if args.body:
+        return _verify_body(args, picture)
     with shown(VERIFY_STAGES, args.quiet) as progress:
-        figures = verify(Path(args.folder), picture=picture, spp=args.spp, progress=progress)
+        figures = verify(Path(args.folder), picture=picture, spp=args.spp or SAMPLES, progress=progress)
     if args.json:
         print(json.dumps(figures))
     elif not args.quiet:
         print("\n".join(lines(figures)))
+    return 0
+
+
+def _verify_body(args: argparse.Namespace, picture: Path | None) -> int:
+    options = body.Options(
+        plan=args.plan,
+        methods=args.methods,
+        size=args.size,
+        spp=args.spp or body.SPP,
+        truth=Path(args.truth) if args.truth else None,
+    )
+    with shown(body.STAGES, args.quiet) as progress:
+        figures = body.verify_body(Path(args.folder), options, picture=picture, progress=progress)
+    if args.json:
+        print(json.dumps(figures))
+    elif not args.quiet:
+        print("\n".join(body_lines(figures)))
     return 0
 
 

@@ -12,6 +12,8 @@ from furbake.cli import actions, tables
 from furbake.pelt.states import WETNESS
 from furbake.swatch import FROM_THE_SIDE
 from furbake.trim import LENGTHS
+from furbake.likeness.cells import PLANS
+from furbake.likeness.verify import METHODS, SIZE, SPP
 from furbake.verify import SAMPLES
 
 
@@ -23,7 +25,7 @@ class _Parser(argparse.ArgumentParser):
     """Says what is wrong in the words of all other errors, instead of printing usage."""
 
     shape = (
-        "furbake bake, inspect, validate, presets, report, swatch, lesson, verify, compare, "
+        "furbake bake, groom, inspect, validate, presets, report, swatch, lesson, verify, compare, "
         "states, trim, bend or patches"
     )
 
@@ -93,6 +95,10 @@ def _states(text: str) -> tuple[str, ...]:
     return tuple(WETNESS) if text == "dry..wet" else tuple(name.strip() for name in text.split(","))
 
 
+def _names(text: str) -> tuple[str, ...]:
+    return tuple(name.strip() for name in text.split(","))
+
+
 def _path(text: str) -> str:
     if not text or "\0" in text:
         raise argparse.ArgumentTypeError(f"got {text!r}, expected a path")
@@ -114,6 +120,7 @@ def parser() -> argparse.ArgumentParser:
         return command
 
     _bake_arguments(add("bake", actions.run_bake, "MODEL -o DIR", "bake a mesh into a folder"))
+    _groom_arguments(add("groom", actions.run_groom, "DIR -o FILE.npz", "write the strands of a baked fur on its body"))
     inspect = add("inspect", actions.run_inspect, "DIR", "say what is in a baked folder")
     inspect.add_argument("folder", metavar="DIR", type=_path)
     inspect.add_argument("--json", action="store_true", help="as one JSON object")
@@ -244,10 +251,26 @@ def _lesson_arguments(parser: _Parser) -> None:
     add("--quiet", action="store_true", help="no progress, no summary")
 
 
+def _groom_arguments(parser: _Parser) -> None:
+    add = parser.add_argument
+    add("folder", metavar="DIR", type=_path)
+    add("-o", "--out", metavar="FILE.npz|FILE.usdc", required=True, type=_path, help="file to write")
+    add("--json", action="store_true", help="what was written as one JSON object")
+    add("--quiet", action="store_true", help="no progress, no summary")
+
+
 def _verify_arguments(parser: _Parser) -> None:
     add = parser.add_argument
     add("folder", metavar="DIR", type=_path)
-    add("-o", "--out", metavar="FILE.png", type=_path, help="picture with both side by side")
-    add("--spp", metavar="N", type=_whole, default=SAMPLES, help=f"paths per pixel (default: {SAMPLES})")
+    add("--body", action="store_true", help="the strands on their body, beside the page's own shader (needs Node)")
+    add("-o", "--out", "--picture", metavar="FILE.png", type=_path, help="picture with both side by side")
+    add("--spp", metavar="N", type=_whole, help=f"paths per pixel (default: {SAMPLES}, with --body {SPP})")
+    add("--size", metavar="N", type=_whole, default=SIZE, help=f"with --body: pixels across (default: {SIZE})")
+    add(
+        "--methods", metavar="NAME,...", type=_names, default=METHODS,
+        help=f"with --body: ways to light the fur (default: {','.join(METHODS)})",
+    )  # fmt: skip
+    add("--plan", metavar="|".join(PLANS), help="with --body: eyes and lamps (default: round of sphere and torus)")
+    add("--truth", metavar="FILE.npz", type=_path, help="with --body: keeps what was traced for the next run")
     add("--json", action="store_true", help="figures as one JSON object")
     add("--quiet", action="store_true", help="no progress, no summary")

@@ -12,6 +12,7 @@ from furbake.asset.read import AssetError
 from furbake.asset.store import StoreError
 from furbake.cli.actions import INVALID
 from furbake.cli.arguments import UsageError, parser
+from furbake.groom.files import GroomError
 from furbake.options import OptionError
 from furbake.pathtrace import VerifyError
 from furbake.surface.mesh import MeshError
@@ -29,7 +30,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         run: Callable[[argparse.Namespace], int] = args.run
         status = run(args)
         sys.stdout.flush()
-    except (UsageError, OptionError, MeshError, StoreError, AssetError, PlaneError, VerifyError) as error:
+    except (UsageError, OptionError, MeshError, StoreError, AssetError, PlaneError, VerifyError, GroomError) as error:
         return _fail(str(error))
     except BrokenPipeError:  # whoever read the output has gone
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
