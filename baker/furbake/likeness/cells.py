@@ -47,7 +47,7 @@ class Plan:
 
 PLANS = {
     "body": Plan(
-        {"front": (0.0, 8.0), "back": (180.0, 8.0)},
+        {"front": (-20.0, 10.0), "back": (160.0, 10.0)},
         {"frontleft": (-0.55, 0.55, 0.63), "side": (1.0, 0.3, 0.05), "behind": (0.35, 0.5, -0.8)},
     ),
     "round": Plan(
