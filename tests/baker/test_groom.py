@@ -101,9 +101,7 @@ def test_patches_that_overlap_have_as_many_hairs_as_one() -> None:
     laid = both(replace(one, weight=blend), replace(two, weight=1 - blend))
     roots = place_roots(laid, SEEDS, KINDS, 3)
     assert len(roots.hair) == pytest.approx(64 * 100, rel=0.01)
-    places = np.einsum(
-        "ij,ijk->ik", barycentric(laid, roots.face, roots.uv), laid.vertices[laid.faces[roots.face]]
-    )
+    places = np.einsum("ij,ijk->ik", barycentric(laid, roots.face, roots.uv), laid.vertices[laid.faces[roots.face]])
     count = np.histogram(places[:, 1], bins=8, range=(0, 1))[0]
     assert count == pytest.approx(800, rel=0.06), "everywhere, not on the mean alone"
 
@@ -128,7 +126,7 @@ def test_a_patch_that_closes_on_itself_is_walked_round() -> None:
     ring = 12
     angle = 2 * np.pi * np.arange(ring + 1) / ring
     low = np.stack([np.cos(angle), np.sin(angle), 0 * angle], 1).round(12)
-    places = np.concatenate([low, low + [0, 0, 1]])
+    places = np.concatenate([low, low + np.array([0, 0, 1])])
     uv = np.concatenate([np.stack([np.arange(ring + 1) * 3 / ring, row + 0 * angle], 1) for row in (0.0, 0.5)])
     i = np.arange(ring)
     faces = np.concatenate([np.stack([i, i + 1, i + ring + 2], 1), np.stack([i, i + ring + 2, i + ring + 1], 1)])

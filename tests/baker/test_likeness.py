@@ -6,7 +6,7 @@ import sys
 import warnings
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import pytest
@@ -187,7 +187,7 @@ class Told:
             )
             np.zeros((count, 2), "<f4").tofile(folder / f"{one['view']}.features.f32")
 
-    def __enter__(self) -> Told:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *error: object) -> None:
@@ -242,7 +242,7 @@ class TestWithMitsuba:
     def test_a_hair_is_as_wide_and_as_bright_as_the_cylinder_says(self, phi: float) -> None:
         """A Lambertian cylinder of albedo ϖ has 4π·radiance/(ϖ·E) = sinφ + (π − φ)cosφ on the mean of its width."""
         away = replace(NEAR, radius=5.0)
-        scene = Scene(self.hair(0.1), self.WALL + [0, 0, -900], self.FACES, 0.85, 0.0)
+        scene = Scene(self.hair(0.1), self.WALL + np.array([0, 0, -900]), self.FACES, 0.85, 0.0)
         light = cell((0.0, np.sin(phi), np.cos(phi)))
         (seen,) = trace(scene, away, [light], 64, depth=2)
         column = seen.light[:, 20:40].mean(axis=1)

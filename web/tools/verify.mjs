@@ -2,7 +2,7 @@
  * `npm run verify -- DIR [options]`: the body of a baked folder, path-traced and beside it as the page shows it; the
  * same as `furbake verify DIR --body`, which draws the page's part by `--job FOLDER` of this very command.
  *
- * FOLDER has job.json (`BodyJob` of measure/body.ts) and the model in baked/; every picture is written beside them as raw
+ * FOLDER has job.json (`BodyJob` of measure/bodyJob.ts) and the model in baked/; every picture is written beside them as raw
  * 32-bit floats, little-endian, rows from the bottom: CELL.METHOD.f32 and VIEW.features.f32 of two numbers a pixel,
  * VIEW.normals.f32 of four.
  */
@@ -12,7 +12,7 @@ import { ensureNode, ensurePython, runFurbake } from './environment.mjs';
 import { folderOf, inPage } from './measure.mjs';
 import { command, Failure, say } from './process.mjs';
 
-/** @import { BodyJob } from '../measure/body.ts' */
+/** @import { BodyJob } from '../measure/bodyJob.ts' */
 
 /** @param {string} folder */
 async function drawJob(folder) {

@@ -9,11 +9,11 @@ from typing import Any, NoReturn
 
 from furbake.bend import AZIMUTHS, TIPS
 from furbake.cli import actions, tables
+from furbake.likeness.cells import PLANS
+from furbake.likeness.verify import METHODS, SIZE, SPP
 from furbake.pelt.states import WETNESS
 from furbake.swatch import FROM_THE_SIDE
 from furbake.trim import LENGTHS
-from furbake.likeness.cells import PLANS
-from furbake.likeness.verify import METHODS, SIZE, SPP
 from furbake.verify import SAMPLES
 
 

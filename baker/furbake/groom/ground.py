@@ -84,7 +84,7 @@ def number(asset: Asset, index: int) -> Floats:
     """An accessor as numbers, normalised integers as glTF means them."""
     values = asset.accessor(index)
     if asset.document["accessors"][index].get("normalized"):
-        return np.maximum(values / float(np.iinfo(values.dtype).max), -1.0)
+        return np.asarray(np.maximum(values / float(np.iinfo(values.dtype).max), -1.0))
     return np.asarray(values, np.float64)
 
 
@@ -95,8 +95,9 @@ def unit(vectors: Floats) -> Floats:
 
 def _placed(asset: Asset, node: int, position: int) -> Floats:
     """(n, 3) an accessor of positions where the node puts them."""
-    places = number(asset, position) * np.asarray(asset.document["nodes"][node].get("scale", [1, 1, 1]), np.float64)
-    return _turned(asset, node, places) + np.asarray(asset.document["nodes"][node].get("translation", [0, 0, 0]))
+    place = asset.document["nodes"][node]
+    scale, offset = (np.array(place.get(name, [one] * 3), np.float64) for name, one in (("scale", 1), ("translation", 0)))
+    return np.asarray(_turned(asset, node, number(asset, position) * scale) + offset)
 
 
 def _turned(asset: Asset, node: int, vectors: Floats) -> Floats:

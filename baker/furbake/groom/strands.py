@@ -89,9 +89,7 @@ def on_body(
     hues : whether hairs differ in hue by themselves, besides what the body says
     """
     roots = place_roots(ground, strands.points[:, 0, :2], kinds, seed)
-    long = np.einsum(
-        "ij,ij->i", barycentric(ground, roots.face, roots.uv), ground.reach[ground.faces[roots.face]]
-    )
+    long = np.einsum("ij,ij->i", barycentric(ground, roots.face, roots.uv), ground.reach[ground.faces[roots.face]])
     stands = long > BARE * ground.reach.max(initial=0.0)
     hair, face, uv = roots.hair[stands], roots.face[stands], roots.uv[stands]
     progress("roots", 1.0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -31,11 +32,12 @@ def figures(page: Floats, truth: Floats, over: Mask, cosine: Floats, white: floa
     over : pixels that count; cosine : n·l of the skin, NaN where there is none
     white : how bright the brightest is, for SSIM
     """
+    small_page, small_truth, small_over = _quarter(page), _quarter(truth), _quarter(over) > 0.5
     return {
         "r": correlation(page[over], truth[over]),
         "ssim": similarity(page, truth, over, white),
-        "ssim_quarter": similarity(*(_quarter(part) for part in (page, truth)), _quarter(over) > 0.5, white),
-        "r_quarter": correlation(*(_quarter(part)[_quarter(over) > 0.5] for part in (page, truth))),
+        "r_quarter": correlation(small_page[small_over], small_truth[small_over]),
+        "ssim_quarter": similarity(small_page, small_truth, small_over, white),
         "brightness": float(page[over].sum() / max(float(truth[over].sum()), 1e-12)),
         "bins": bins(page, truth, over, cosine),
     }
@@ -44,7 +46,7 @@ def figures(page: Floats, truth: Floats, over: Mask, cosine: Floats, white: floa
 def bins(page: Floats, truth: Floats, over: Mask, cosine: Floats) -> list[dict[str, float]]:
     """Mean brightness of both by n·l, of the bins that have pixels."""
     found = []
-    for low, high in zip(BINS[:-1], BINS[1:], strict=True):
+    for low, high in pairwise(BINS):
         inside = over & (cosine >= low) & (cosine < high if high < 1 else cosine <= high)
         if inside.sum() >= FEWEST:
             means = {"page": float(page[inside].mean()), "truth": float(truth[inside].mean())}

@@ -8,9 +8,9 @@ from typing import Any
 def lines(found: dict[str, Any]) -> list[str]:
     """All figures, a line each: every cell by every method, then brightness by bins of n·l of the first method."""
     width, height = found["size"]
+    what = f"{found['model']}: {found['hairs']} hairs, {width} x {height} pixels, {found['spp']} paths a pixel"
     text = [
-        f"{found['model']}: {found['hairs']} hairs, {width} x {height} pixels, {found['spp']} paths a pixel; "
-        "brightness is page over truth",
+        f"{what}; brightness is page over truth",
         "",
         "| cell | method | r | r, quarter | SSIM | SSIM, quarter | brightness |",
         "|---|---|---|---|---|---|---|",
@@ -24,7 +24,10 @@ def lines(found: dict[str, Any]) -> list[str]:
     first = next(iter(found["cells"][0]["methods"]))
     edges = sorted({row["from"] for cell in found["cells"] for row in cell["methods"][first]["bins"]})
     text += ["", f"Brightness of {first} by n·l, page / truth, in the unit of L", ""]
-    text += [f"| n·l from | {' | '.join(cell['name'] for cell in found['cells'])} |", "|---" * (1 + len(found["cells"])) + "|"]
+    text += [
+        f"| n·l from | {' | '.join(cell['name'] for cell in found['cells'])} |",
+        "|---" * (1 + len(found["cells"])) + "|",
+    ]
     for edge in edges:
         row = [_bin(cell["methods"][first]["bins"], edge) for cell in found["cells"]]
         text.append(f"| {edge:.1f} | {' | '.join(row)} |")

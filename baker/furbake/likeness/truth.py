@@ -84,10 +84,8 @@ def trace(
 
 def write_curves(path: Path, strands: Groom) -> None:
     """The hairs as Mitsuba's text of curves: a line per control point, a gap per hair."""
-    numbers = Strands(
-        strands.points.astype(np.float64), strands.radius.astype(np.float64), strands.tint, strands.tint
-    )
-    control = control_points(numbers)
+    points, radius = strands.points.astype(np.float64), strands.radius.astype(np.float64)
+    control = control_points(Strands(points, radius, tint=radius, hue=radius))
     line = "\n".join(["%.7g %.7g %.7g %.6g"] * control.shape[1]) + "\n"
     with path.open("w", encoding="ascii") as file:
         np.savetxt(file, control.reshape(len(control), -1), fmt=line)

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from furbake.asset.read import Asset, read_asset
+from furbake.asset.read import read_asset
 from furbake.groom.ground import read_skin
 from furbake.groom.strands import groom, recorded
 from furbake.likeness.cells import PLANS, Cell, Floats, Frame, cells, frame
@@ -83,7 +83,9 @@ def verify_body(
     load(fast=True)
     asset = read_asset(folder)
     coat = recorded(asset).coat
-    name = options.plan or ("round" if str(asset.record.get("input", {}).get("name")).split(":")[0] in ROUND else "body")
+    name = options.plan or (
+        "round" if str(asset.record.get("input", {}).get("name")).split(":")[0] in ROUND else "body"
+    )
     vertices, faces = read_skin(asset)
     seen = frame(vertices, float(asset.fur["length"]), PLANS[name], options.size)
     wanted = cells(PLANS[name], seen)
