@@ -15,12 +15,12 @@ import {
 } from 'three';
 import { hairChunks, lampChunks, skyChunks, texelChunks } from './chunks.ts';
 import { BODY_RADIUS, smoothSum } from './moments.ts';
+import { curveTable, SlabLight, standInWeights, type Weights } from './SlabLight.ts';
 import colour from './shaders/colour.glsl?raw';
 import lightIn from './shaders/light.frag.glsl?raw';
 import lightOut from './shaders/light.vert.glsl?raw';
 import output from './shaders/output.glsl?raw';
 import ptm from './shaders/ptm.glsl?raw';
-import { curveTable, SlabLight, standInWeights, type Weights } from './SlabLight.ts';
 import { type Stained, stain, stainUniforms } from './stains.ts';
 import { switchPart } from './switches.ts';
 import { TrimLight } from './TrimLight.ts';
@@ -105,7 +105,7 @@ export class PeltMaterial extends ShaderMaterial {
 					TERMS: (basis.degree + 1) ** 2 + 2,
 					'CURVES(c)': smoothSum(basis.degree),
 				}),
-				...(means && { MEAN_CURVES: '', POLYNOMIALS: '' }),
+				...(means && { MEAN_CURVES: '' }),
 				...(texels.scale.length > 3 && { TWO_PLANES: '' }),
 				...(textures.colour && { COLOUR_PLANE: '' }),
 				SKY: '',

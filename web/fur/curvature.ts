@@ -125,7 +125,7 @@ export class BodyCurvature {
 				other.fromArray(normal, 3 * j);
 				for (const [c, axis] of axes.entries()) turnInto(axis.set(0, 0, 0).setComponent(c, 1), other, own);
 				for (const [a, b, part] of order)
-					add(after, i, axes[a], axes[b], ((0.5 / (to - from)) * (before[6 * j + part] as number)));
+					add(after, i, axes[a], axes[b], (0.5 / (to - from)) * (before[6 * j + part] as number));
 			}
 		}
 		this.#tensors = after;
@@ -190,7 +190,11 @@ export class BodyCurvature {
 		}).sort((a, b) => a.radius - b.radius);
 		const half = radii.reduce((sum, { weight }) => sum + weight, 0) / 2;
 		let below = 0;
-		return radii.find(({ weight }) => (below += weight) >= half)?.radius ?? heldRadius(Number.POSITIVE_INFINITY);
+		const middle = radii.find(({ weight }) => {
+			below += weight;
+			return below >= half;
+		});
+		return middle?.radius ?? heldRadius(Number.POSITIVE_INFINITY);
 	}
 }
 
@@ -202,9 +206,7 @@ function turnInto(vector: Vector3, from: Vector3, to: Vector3): void {
 	if (whole < 1e-6) return;
 	// Rodrigues, for both unit vectors: v − (from + to)·((from + to)·v) / whole + 2·to·(from·v).
 	const [along, ahead] = [(from.dot(vector) + to.dot(vector)) / whole, 2 * from.dot(vector)];
-	vector
-		.addScaledVector(from, -along)
-		.addScaledVector(to, ahead - along);
+	vector.addScaledVector(from, -along).addScaledVector(to, ahead - along);
 }
 
 /** Adds weight·a·bᵀ, of which the caller adds the transposed part too. */

@@ -58,14 +58,6 @@ export function curveValues({ even, along }: Curves, height: number, lean: numbe
 	return even.map((table, q) => lookUp(table, x, held) + lean * lookUp(along[q] ?? [], x, held));
 }
 
-/** m_k: what Σ a·φ of a slab's texel is multiplied by; never negative. @param weights of the slab, one per curve */
-export function meanLight(weights: readonly number[], values: readonly number[]): number {
-	return Math.max(
-		weights.reduce((sum, weight, q) => sum + weight * (values[q] ?? 0), 0),
-		0,
-	);
-}
-
 /**
  * Moments of a light of irradiance 1 from any direction for a slab.
  *
@@ -84,7 +76,8 @@ export function curvedMoments(
 	const [u, v, z] = heldLight(light);
 	// What of the lean is along u points to either side of a fin.
 	const lean = fin ? u * way[1] : u * way[0] + v * way[1];
-	const mean = meanLight(weights, curveValues(curves, light[2], lean, radius));
+	const values = curveValues(curves, light[2], lean, radius);
+	const mean = weights.reduce((sum, weight, q) => sum + weight * (values[q] ?? 0), 0);
 	return evaluateBasis(basis, fin ? [u, z, v] : [u, v, z]).map((phi) => phi * mean);
 }
 

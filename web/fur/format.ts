@@ -164,8 +164,8 @@ export function parseFur(extension: unknown): FurAsset | undefined {
 	const asset = extension as FurAsset;
 	for (const [name, rows, wanted] of [
 		['drift', asset.drift.length, asset.layers] satisfies Count,
-		...lightCounts('', asset, asset.coefficients, asset.curves !== undefined),
 		...curveCounts(asset),
+		...lightCounts('', asset, asset.coefficients, asset.curves !== undefined),
 		...asset.pelts.flatMap((pelt) => [
 			...texelCounts(pelt.name, pelt, asset.coefficients),
 			...(pelt.fin ? finCounts(`${pelt.name}.fin`, pelt.fin, asset.curves !== undefined) : []),

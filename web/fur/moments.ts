@@ -128,19 +128,18 @@ export class PolynomialFit {
 	 * @param fin (u, v, w) are a fin's (along the edge, N, across it), not (T, B, N)
 	 */
 	rows(fin = false): number[][] {
-		return this.#sums.map(
-			([one = 0, rise = 0, bow = 0, side = 0, uv = 0, u = 0, v = 0, uw = 0, vw = 0]) =>
-				fin
-					? [
-							...[2 * side, 6 * bow + side, uw],
-							...[u - (3 / 8) * uw, 2 * rise - 6 * bow, one - rise + bow - side],
-							...[v - (3 / 8) * vw, uv, vw],
-						]
-					: [
-							...[side - 6 * bow, -side - 6 * bow, uv],
-							...[u - (3 / 8) * uw, v - (3 / 8) * vw, one - rise + 7 * bow],
-							...[2 * rise - 6 * bow, uw, vw],
-						],
+		return this.#sums.map(([one = 0, rise = 0, bow = 0, side = 0, uv = 0, u = 0, v = 0, uw = 0, vw = 0]) =>
+			fin
+				? [
+						...[2 * side, 6 * bow + side, uw],
+						...[u - (3 / 8) * uw, 2 * rise - 6 * bow, one - rise + bow - side],
+						...[v - (3 / 8) * vw, uv, vw],
+					]
+				: [
+						...[side - 6 * bow, -side - 6 * bow, uv],
+						...[u - (3 / 8) * uw, v - (3 / 8) * vw, one - rise + 7 * bow],
+						...[2 * rise - 6 * bow, uw, vw],
+					],
 		);
 	}
 }

@@ -62,7 +62,7 @@ float horizonDip(FurPoint point, float radius) {
 	return sqrt(2.0 * radius + 1.0) / (radius + 1.0);
 }
 
-// What Σ a·φ of the slab's texels is multiplied by.
+// What Σ a·φ of the slab's texels is multiplied by; where it is nearly dark a little below 0, so that it stays a sum.
 // height: of the light over the horizon, −1..1. fade: share of the dip that is left, 1 above. lightTS: held on the horizon.
 float meanLight(FurPoint point, float height, float fade, float radius, vec3 lightTS) {
 	float x = height < 0.0 ? 6.0 * fade * fade : 6.0 + 10.0 * sqrt(height);
@@ -73,5 +73,5 @@ float meanLight(FurPoint point, float height, float fade, float radius, vec3 lig
 	float along = dot(leanTS(), lightTS);
 #endif
 	vec4 curves = texture(curveTable, at / vec2(1.0, 6.0)) + along * texture(curveTable, vec2(at.x, (at.y + 3.0) / 6.0));
-	return max(dot(ofSlab(point, WEIGHTS), curves), 0.0);
+	return dot(ofSlab(point, WEIGHTS), curves);
 }
