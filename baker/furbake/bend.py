@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from furbake.bake import fit_pelt, grown, light, under
 from furbake.knobs import within
 from furbake.options import BakeOptions
-from furbake.pelt.basis import PTM, Basis
+from furbake.pelt.basis import held
 from furbake.pelt.bent import bent, factor, fit_bends, general, sheared
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.quantise import dequantise
@@ -130,14 +130,20 @@ def check(tips: Sequence[float], azimuths: int) -> None:
     within("azimuths", azimuths, 1, 64)
 
 
-def relit(pelt: Pelt, lights: Array, tip: Array, lean: Array, law: Law) -> Single:
-    """L of the stored texels by a law, clamped at 0 as the shader does, (n, K, N, N)."""
+def relit(pelt: Pelt, lights: Array, tip: Array, lean: Array, law: Law, beta: float = BODY_RADIUS) -> Single:
+    """L of the stored texels by a law, clamped at 0 as the shader does, (n, K, N, N).
+
+    Slabs with mean curves know how far below the horizon a light is; all else of it is that of the light held there.
+    """
     coefficients = dequantise(pelt.codes, pelt.scale, pelt.bias)
-    basis = PTM if pelt.matrix is None else Basis(pelt.kind, pelt.degree, pelt.matrix)
+    below = lights[:, 2:] < 0
     layers = []
     for k, texels in enumerate(coefficients):
-        ways, factor = law(lights, tip, lean, (k + 0.5) / pelt.layers)
-        phi = (basis(ways) * factor[:, None]).astype(np.float32)
+        ways, factor = law(lights if pelt.curves is None else held(lights), tip, lean, (k + 0.5) / pelt.layers)
+        mean = pelt.mean(np.where(below, lights, ways), beta)
+        if mean is not None:
+            factor = factor * mean[:, k]
+        phi = (pelt.basis(ways) * factor[:, None]).astype(np.float32)
         layers.append(np.maximum(np.tensordot(phi, texels.astype(np.float32), (1, 2)), 0))
     return np.stack(layers, 1)
 

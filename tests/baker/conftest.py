@@ -79,7 +79,6 @@ def make_pelt() -> Callable[..., Pelt]:
             kind=kind,
             degree=4 if kind == "eigen" else None,
             matrix=chance.normal(size=(coefficients, 27)) if kind == "eigen" else None,
-            environment=chance.normal(size=(coefficients, 9)),
             drift=chance.normal(size=(layers, 2)),
             height=0.6,
             ramp=Ramp(),

@@ -14,10 +14,14 @@ from furbake.asset.stored import read_pelt
 from furbake.asset.validate import validate
 from furbake.bend import law, relit
 from furbake.pelt.basis import PTM, Basis
+from furbake.pelt.curves import at_heights
+from furbake.pelt.fin import polynomial
 from furbake.pelt.fit import relight
+from furbake.pelt.pelt import Pelt
 from furbake.pelt.quantise import dequantise
 
 GOLDEN = Path(__file__).parents[1] / "golden"
+CURVED = GOLDEN / "ptm-6-curves"
 NAMES = ("ptm-6", "eigen-6", "eigen-3")
 
 
@@ -40,7 +44,7 @@ def test_stored_bytes_give_the_expected_light(name: str) -> None:
     assert expected.max() > 1
 
 
-@pytest.mark.parametrize("name", [*NAMES, "states"])
+@pytest.mark.parametrize("name", [*NAMES, "ptm-6-curves", "states"])
 def test_golden_assets_are_valid_but_for_the_record_of_a_bake(name: str) -> None:
     problems = validate(GOLDEN / name)
     assert [problem for problem in problems if not problem.startswith("bake.json")] == []
@@ -68,3 +72,52 @@ def test_stored_bytes_give_the_expected_light_of_bent_fur() -> None:
     for tip, light in zip(given["bends"], expected, strict=True):
         found = relit(pelt, np.array([given["light"]]), np.array(tip), lean, law)
         np.testing.assert_allclose(found[0, -1], light, atol=1e-4)
+
+
+@pytest.fixture(scope="module")
+def curved() -> Pelt:
+    """The golden pelt of version 2.0."""
+    return read_pelt(read_asset(CURVED))
+
+
+def test_stored_bytes_give_the_expected_light_on_bodies(curved: Pelt) -> None:
+    given = json.loads((CURVED / "lights.json").read_text("utf-8"))
+    lights = np.array(given["lights"])
+    expected = np.fromfile(CURVED / "light.f32", "<f4").reshape(-1, len(lights), *curved.codes.shape[:3])
+    coefficients = dequantise(curved.codes, curved.scale, curved.bias)
+    for beta, light in zip(given["bodies"], expected, strict=True):
+        found = relight(coefficients, curved.basis, lights, curved.mean(lights, beta))
+        np.testing.assert_allclose(found, light, atol=1e-4)
+    assert expected.max() > 1
+    assert (expected[0] != expected[1]).any()
+
+
+def test_stored_bytes_of_the_fin_give_the_expected_light_on_bodies(curved: Pelt) -> None:
+    assert curved.fin is not None and curved.curves is not None and curved.weights is not None
+    given = json.loads((CURVED / "lights.json").read_text("utf-8"))
+    t, w, n = np.array(given["lights"]).T
+    lights = np.stack([w, t, n], axis=1)  # in the tile's frame
+    rows = len(curved.fin.alpha)
+    weights = at_heights(curved.weights, (np.arange(rows) + 0.5) / rows)
+    expected = np.fromfile(CURVED / "fin.f32", "<f4").reshape(-1, len(lights), *curved.fin.alpha.shape)
+    coefficients = dequantise(curved.fin.codes, curved.fin.scale, curved.fin.bias)
+    for beta, light in zip(given["bodies"], expected, strict=True):
+        mean = curved.curves.of_fin().mean(lights, weights, beta)
+        np.testing.assert_allclose(relight(coefficients, polynomial, lights, mean), light, atol=1e-4)
+
+
+def test_stored_bytes_give_the_expected_light_of_bent_fur_on_bodies(curved: Pelt) -> None:
+    given = json.loads((CURVED / "bent.json").read_text("utf-8"))
+    shape = len(given["lights"]), len(given["bends"]), curved.size, curved.size
+    lights, lean = np.array(given["lights"]), curved.drift[-1] / curved.height
+    for beta, expected in zip((1, 4, 7, 16), np.fromfile(CURVED / "bent.f32", "<f4").reshape(-1, *shape), strict=True):
+        for i, tip in enumerate(given["bends"]):
+            found = relit(curved, lights, np.array(tip), lean, law, beta)
+            np.testing.assert_allclose(found[:, -1], expected[:, i], atol=1e-4)
+
+
+def test_curves_give_the_expected_moments_of_an_environment(curved: Pelt) -> None:
+    assert curved.curves is not None
+    given = json.loads((CURVED / "environment.json").read_text("utf-8"))
+    for beta, expected in zip(given["bodies"], given["shells"], strict=True):
+        np.testing.assert_allclose(curved.curves.environment(PTM, beta), expected, atol=2e-4)

@@ -16,12 +16,14 @@ export interface UnderDome {
 /**
  * @param combs displacements of the tips along T and B, share of the length
  * @param harmonics of the radiance to order 2, world axes
+ * @param radius of the body, lengths of fur of half a unit, where its curvature counts
  */
 export async function underDome(
 	url: string,
 	layer: number,
 	combs: number[][],
 	harmonics: number[],
+	radius?: number,
 ): Promise<UnderDome[]> {
 	const probe = new LightProbe();
 	for (const [j, coefficient] of probe.sh.coefficients.entries()) coefficient.setScalar(harmonics[j] ?? 0);
@@ -36,6 +38,10 @@ export async function underDome(
 		return lamp;
 	});
 	const flat = new Flat(await loadFur(url));
+	if (radius) {
+		flat.attribute('curvature', [2 / radius, 2 / radius, 0]);
+		flat.fur.material.bodyRadius = radius;
+	}
 	flat.add(probe, ...lamps);
 	const lit = (on: (light: Light, i: number) => boolean) => {
 		for (const [i, light] of [...lamps, probe].entries()) light.visible = on(light, i);

@@ -3,6 +3,7 @@
 import {
 	AmbientLight,
 	BufferAttribute,
+	BufferGeometry,
 	DirectionalLight,
 	EquirectangularReflectionMapping,
 	FloatType,
@@ -50,8 +51,9 @@ const stage = {
 	},
 
 	/** The light of every texel of a golden asset under each of the lights, base64 of float32 [light, layer, row, column]. */
-	async light(url: string, lights: number[][]): Promise<string> {
+	async light(url: string, lights: number[][], attributes: Record<string, number[]> = {}): Promise<string> {
 		const flat = new Flat(await loadFur(url));
+		for (const [name, value] of Object.entries(attributes)) flat.attribute(name, value);
 		const lamp = new DirectionalLight(0xffffff, 4 * Math.PI);
 		flat.add(lamp, lamp.target);
 		const { layers, size } = flat.fur.asset;
@@ -204,6 +206,79 @@ const stage = {
 		});
 		fur.dispose();
 		return { light: toBase64(new Uint8Array(light.buffer)), alpha: toBase64(new Uint8Array(alpha.buffer)) };
+	},
+
+	/**
+	 * A fin of a golden asset, laid over the picture as that of `fin` is, with vertices in the middle of every row.
+	 *
+	 * @returns L, [light, row, column], base64
+	 */
+	async heights(url: string, lights: number[][], curvature: number[]): Promise<string> {
+		const fur = await loadFur(url);
+		const { fins, asset } = fur;
+		const fin = asset.pelts[0]?.fin;
+		if (!fins || !fin) throw new Error('no fins');
+		// One quad along x at z = 0.
+		const rows = 2 * fin.height;
+		const [position, uv, normal, tangent, edge, curved] = [3, 2, 3, 4, 4, 3].map(
+			(size) => new BufferAttribute(new Float32Array(2 * (rows + 1) * size), size),
+		) as BufferAttribute[];
+		const corners: number[] = [];
+		for (let i = 0; i < 2 * (rows + 1); i++) {
+			position?.setXYZ(i, (i % 2) - 0.5, 0, 0);
+			uv?.setXY(i, (i % 2) / (asset.tiles ?? 1), Math.floor(i / 2) / rows / (asset.tiles ?? 1));
+			normal?.setXYZ(i, 0, 1, 0);
+			tangent?.setXYZW(i, 1, 0, 0, 1);
+			edge?.setXYZW(i, 0.5, -0.5, 0, 0);
+			curved?.setXYZ(i, curvature[0] ?? 0, curvature[1] ?? 0, curvature[2] ?? 0);
+			if (i % 2 === 0 && i < 2 * rows) corners.push(i, i + 1, i + 3, i, i + 3, i + 2);
+		}
+		const geometry = new BufferGeometry().setIndex(corners);
+		for (const [name, attribute] of Object.entries({ position, uv, normal, tangent, _edge: edge, curvature: curved }))
+			if (attribute) geometry.setAttribute(name, attribute);
+		fins.geometry = geometry;
+		fins.position.set(0, 0, 0);
+		fins.scale.setScalar(1);
+		fins.material.finHeights = asset.tiles ?? 1;
+		fins.frustumCulled = false;
+		const scene = new Scene();
+		const lamp = new DirectionalLight(0xffffff, 4 * Math.PI);
+		scene.add(fins, lamp);
+		fins.material.blending = NoBlending;
+		fins.material.finLength = 1;
+		const tall = fur.shells.material.furLength;
+		const camera = new OrthographicCamera(-0.5, 0.5, tall, 0, 0.1, 10);
+		camera.position.z = 5;
+		const target = new WebGLRenderTarget(fin.width, fin.height, { type: FloatType });
+		const light = new Float32Array(lights.length * fin.width * fin.height);
+		lights.forEach((direction, i) => {
+			lamp.position.fromArray(direction);
+			light.set(uncovered(renderFloats(renderer, scene, camera, target)), i * fin.width * fin.height);
+		});
+		fur.dispose();
+		return toBase64(new Uint8Array(light.buffer));
+	},
+
+	/** The top layer of a golden asset under a lamp and a sky, lamps summed per vertex and per fragment. */
+	async bothWays(url: string): Promise<number[][]> {
+		const flat = new Flat(await loadFur(url));
+		flat.attribute('curvature', [0.7, 0.2, 0.1]);
+		flat.attribute('_comb', [0.2, 0.3]);
+		const lamps = [
+			[0.6, 0.6, 0.5],
+			[-0.9, 0.3, -0.1],
+		].map((to) => {
+			const lamp = new DirectionalLight(0xffffff, 4 * Math.PI);
+			lamp.position.copy(flat.world(to));
+			return lamp;
+		});
+		flat.add(new AmbientLight(0xffffff, 1), ...lamps);
+		const both = [false, true].map((on) => {
+			flat.fur.shells.material.lampsPerFragment = on;
+			return [...flat.light(3)].filter((value) => !Number.isNaN(value));
+		});
+		flat.fur.dispose();
+		return both;
 	},
 
 	/**

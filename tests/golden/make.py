@@ -14,6 +14,13 @@ dirt; `weather.f32` has, for each of these, the red part of radiance · 4π of e
 `ptm-6` has fins, too: a quad on every edge and a side view of 16 × 8 random texels. `fin.f32` holds its L under the
 same 64 vectors taken in the fin's frame as (l·t, l·w, l·n): [light, row, column]. `bent.f32` holds L of the top layer
 where hairs are bent by each of `BENDS` (tips along T and B, shares of the length) under one light: [bend, row, column].
+
+`ptm-6-curves` is of version 2.0: three random curves, random weights, a fur that leans aside of v, and fins. Its
+`lights.json` has 32 of those vectors and of lower ones, and `bodies`: the radii β, in lengths of fur, for which `light.f32`
+[body, light, layer, row, column] and `fin.f32` [body, light, row, column] are worked out. `bent.json` has two lights, of
+which one is below the horizon: `bent.f32` is [body, light, bend, row, column] of its top layer. `environment.json` has, for
+each body, the integrals over the sphere of harmonics × φ × curve: `shells` [body][curve][coefficient][9] and `fins`, by
+plain sums over 512 × 256 directions.
 """
 
 from __future__ import annotations
@@ -26,8 +33,8 @@ from pathlib import Path
 import numpy as np
 
 from furbake.asset.gltf import write_gltf
-from furbake.pelt.basis import Basis, environment
-from furbake.pelt.fin import fin_environment
+from furbake.pelt.basis import Basis
+from furbake.pelt.curves import Curves
 from furbake.pelt.pelt import FinPelt, Pelt, Ramp, State
 from furbake.surface.charts import laid
 from furbake.surface.coat import VertexFur
@@ -48,6 +55,8 @@ STATES = (
     State("dirty", dirt=1.0, mud=(0.25, 0.2, 0.1)),
 )
 WEATHERS = ((0.0, 0.0), (0.25, 0.0), (0.5, 0.0), (0.625, 0.0), (1.0, 0.0), (0.75, 1.0), (0.75, 0.5))
+BODIES = [1.0, 4.0, 7.0, 16.0]
+BENT_LIGHTS = [BENT_LIGHT, [0.66, 0.72, -0.2144761059]]
 FILM = 0.6
 """Mud on the hairs between its crumbs, as the shader has it."""
 
@@ -92,6 +101,126 @@ def expected_bent(pelt: Pelt) -> np.ndarray:
         light = texels @ phi(pelt.kind, pelt.matrix, way / np.sqrt(way @ way))
         out.append(np.maximum(light * max(factor, 0.1), 0))
     return np.array(out)
+
+
+def curve_values(curves: Curves, light: np.ndarray, along: float, beta: float) -> np.ndarray:
+    """b_q of one light at its own height, (Q,); along : l_h·m of the direction at which the polynomial is taken."""
+    z = light[2]
+    x = 6 + 10 * np.sqrt(z) if z >= 0 else 6 * max(1 + z * (beta + 1) / np.sqrt(2 * beta + 1), 0.0)
+    knot = min(int(x), 15)
+    place = min(max(np.log2(beta) / 2, 0.0), 2.0)
+    body = min(int(place), 1)
+    out = []
+    for even, lean in zip(curves.even, curves.along, strict=True):
+        value = 0.0
+        for r, share in ((body, 1 - (place - body)), (body + 1, place - body)):
+            low, high = even[r] + along * lean[r], 1 - (x - knot)
+            value += share * (high * low[knot] + (1 - high) * low[knot + 1])
+        out.append(value)
+    return np.array(out)
+
+
+def on_horizon(light: np.ndarray) -> np.ndarray:
+    """The light, held on the horizon where it is below."""
+    return np.array(light) if light[2] >= 0 else np.array([*(light[:2] / np.hypot(*light[:2])), 0.0])
+
+
+def expected_curves(pelt: Pelt, lights: np.ndarray) -> np.ndarray:
+    """L, (bodies, n, K, N, N), by the law of version 2.0."""
+    coefficients = pelt.scale * (pelt.codes.astype(float) - pelt.bias)
+    m = pelt.drift[-1] / np.hypot(*pelt.drift[-1])
+    out = np.zeros((len(BODIES), len(lights), LAYERS, SIZE, SIZE))
+    for b, beta in enumerate(BODIES):
+        for n, light in enumerate(lights):
+            seen = on_horizon(light)
+            curve = curve_values(pelt.curves, light, seen[:2] @ m, beta)
+            for k in range(LAYERS):
+                mean = pelt.weights[k] @ curve
+                out[b, n, k] = np.maximum(mean * (coefficients[k] @ phi(pelt.kind, pelt.matrix, seen)), 0)
+    return out
+
+
+def expected_curves_bent(pelt: Pelt) -> np.ndarray:
+    """L of the top layer, (bodies, lights, bends, N, N)."""
+    texels = (pelt.scale * (pelt.codes.astype(float) - pelt.bias))[-1]
+    s = (LAYERS - 0.5) / LAYERS
+    lean = pelt.drift[-1] / pelt.height
+    m = lean / np.hypot(*lean)
+    out = np.zeros((len(BODIES), len(BENT_LIGHTS), len(BENDS), SIZE, SIZE))
+    for b, beta in enumerate(BODIES):
+        for n, light in enumerate(BENT_LIGHTS):
+            u, v, up = on_horizon(np.array(light))
+            for i, (x, y) in enumerate(BENDS):
+                square, along = x * x + y * y, u * x + v * y
+                rise = np.sqrt(1 - square)
+                way = np.array([u - (1 + s) / rise * up * x, v - (1 + s) / rise * up * y, up / rise])
+                way /= np.sqrt(way @ way)
+                factor = 1 - 0.5 * (x * lean[0] + y * lean[1]) + s * (square * (2.7 * up - 1.5) - 1.8 * along * up)
+                height = way if light[2] >= 0 else np.array(light)
+                mean = pelt.weights[-1] @ curve_values(pelt.curves, height, way[:2] @ m, beta)
+                value = texels @ phi(pelt.kind, pelt.matrix, way)
+                out[b, n, i] = np.maximum(value * mean * max(factor, 0.1), 0)
+    return out
+
+
+def expected_curves_fin(pelt: Pelt, lights: np.ndarray) -> np.ndarray:
+    """L, (bodies, n, H, W), of lights (l·t, l·w, l·n); rows between two slabs' middles have mixed weights."""
+    fin = pelt.fin
+    coefficients = fin.scale * (fin.codes.astype(float) - fin.bias)
+    rows = len(coefficients)
+    lean = pelt.drift[-1][1] / np.hypot(*pelt.drift[-1])
+    out = np.zeros((len(BODIES), len(lights), *fin.alpha.shape))
+    for b, beta in enumerate(BODIES):
+        for i, light in enumerate(lights):
+            t, _, n = on_horizon(light)
+            curve = curve_values(pelt.curves, light, lean * t, beta)
+            for row in range(rows):
+                place = min(max((row + 0.5) / rows * LAYERS - 0.5, 0.0), LAYERS - 1.0)
+                low = min(int(place), LAYERS - 2)
+                weights = (1 - (place - low)) * pelt.weights[low] + (place - low) * pelt.weights[low + 1]
+                value = coefficients[row] @ np.array([t * t, n * n, t * n, t, n, 1.0])
+                out[b, i, row] = np.maximum(weights @ curve * value, 0)
+    return out
+
+
+def expected_environment(pelt: Pelt, rings: int = 512, spokes: int = 256) -> dict[str, list]:
+    """∫ Y·φ·b over the sphere, of shells and fins, by sums over equal steps of height and azimuth."""
+    m = pelt.drift[-1] / np.hypot(*pelt.drift[-1])
+    azimuth = (np.arange(spokes) + 0.5) * 2 * np.pi / spokes
+    found: dict[str, list] = {"bodies": BODIES, "shells": [], "fins": []}
+    for beta in BODIES:
+        low = -np.sqrt(2 * beta + 1) / (beta + 1)
+        shells, fins = np.zeros((3, 6, 9)), np.zeros((3, 6, 9))
+        edges = np.concatenate([np.linspace(low, 0, rings // 4 + 1), (np.arange(1, rings + 1) / rings) ** 2])
+        for z, step in zip((edges[1:] + edges[:-1]) / 2, np.diff(edges), strict=True):
+            across = np.sqrt(1 - z * z)
+            x, y = across * np.cos(azimuth), across * np.sin(azimuth)
+            u, v = (x, y) if z >= 0 else (x / across, y / across)
+            up, one = max(z, 0.0), np.ones(spokes)
+            # Curves are linear in l·m: their values there and back give both parts.
+            fore, back = (curve_values(pelt.curves, np.array([0, 0, z]), a, beta) for a in (1.0, -1.0))
+            even, lean = (fore + back) / 2, (fore - back) / 2
+            area = step * 2 * np.pi / spokes
+            parts = (
+                (shells, (u * u, v * v, u * v, u, v, one), u * m[0] + v * m[1], (x, y, z * one)),
+                (fins, (v * v, up * up * one, v * up, v, up * one, one), v * m[1], (y, z * one, x)),
+            )
+            for total, terms, along, frame in parts:
+                curve = even[:, None] + lean[:, None] * along
+                total += area * np.einsum("qa,ca,ja->qcj", curve, np.array(terms), nine(*frame))
+        found["shells"].append(np.round(shells, 5).tolist())
+        found["fins"].append(np.round(fins, 5).tolist())
+    return found
+
+
+def nine(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """The real harmonics to order 2 as the format has them, (9, n)."""
+    c = np.sqrt(1 / np.pi)
+    return np.array([
+        c / 2 + 0 * x, c * np.sqrt(3) / 2 * y, c * np.sqrt(3) / 2 * z, c * np.sqrt(3) / 2 * x,
+        c * np.sqrt(15) / 2 * x * y, c * np.sqrt(15) / 2 * y * z, c * np.sqrt(5) / 4 * (3 * z * z - 1),
+        c * np.sqrt(15) / 2 * x * z, c * np.sqrt(15) / 4 * (x * x - y * y),
+    ])  # fmt: skip
 
 
 def expected_fin(fin: FinPelt, lights: np.ndarray) -> np.ndarray:
@@ -152,7 +281,6 @@ def golden_fin(seed: int = 8) -> FinPelt:
         colour=None,
         scale=rng.uniform(0.004, 0.012, 6),
         bias=rng.uniform(60, 130, 6),
-        environment=fin_environment(),
     )
 
 
@@ -172,11 +300,32 @@ def golden_pelt(kind: str, count: int) -> Pelt:
         kind=basis.kind,
         degree=basis.degree,
         matrix=matrix,
-        environment=environment(basis),
         drift=np.stack([np.zeros(LAYERS), np.linspace(0, 0.2, LAYERS)], -1),
         height=0.5,
         ramp=Ramp((1.0, 1.0, 1.0), (1.0, 1.0, 1.0), (1.0, 1.0, 1.0), 1.0),
     )
+
+
+def golden_curves(pelt: Pelt) -> Pelt:
+    """The pelt with three random curves and random weights, light up to about 3, and a lean of (3, 4) parts."""
+    rng = np.random.default_rng(17)
+    x = np.arange(17)
+    rise = np.where(x == 0, 0, (x / 16) ** rng.uniform(0.5, 3, (3, 3, 1)))
+    even = rise * rng.uniform(0.5, 1, (3, 3, 17))
+    along = np.minimum(x, 16 - x) / 8 * even * rng.uniform(-0.8, 0.8, (3, 3, 1))
+    tables = (np.array([float(f"{value:.4g}") for value in part.ravel()]).reshape(3, 3, 17) for part in (even, along))
+    weights = np.round(rng.uniform(0.1, 0.7, (LAYERS, 3)), 4)
+    drift = np.linspace(0, 0.2, LAYERS)[:, None] * [0.6, 0.8]
+    return replace(pelt, drift=drift, curves=Curves(*tables, np.array([0.6, 0.8])), weights=weights)
+
+
+def lower_lights() -> np.ndarray:
+    """20 unit vectors above the horizon and 12 below, down to where no tip of fur as long as its body's radius sees them."""
+    rng = np.random.default_rng(32)
+    z = np.concatenate([rng.uniform(0.0001, 1, 20), rng.uniform(-0.9, -0.001, 12)])
+    azimuth = rng.uniform(0, 2 * np.pi, 32)
+    across = np.sqrt(1 - z * z)
+    return np.stack([across * np.cos(azimuth), across * np.sin(azimuth), z], -1)
 
 
 def golden_lights() -> np.ndarray:
@@ -209,6 +358,22 @@ def main() -> None:
         (folder / "lights.json").write_text(json.dumps(lights.tolist()) + "\n", "utf-8")
         expected(pelt, lights).astype("<f4").tofile(folder / "light.f32")
 
+    folder = HERE / "ptm-6-curves"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    lights = lower_lights()
+    pelt = golden_curves(replace(golden_pelt("ptm", 6), fin=golden_fin()))
+    fins = build_fins(surface, laid(charts, surface.normals), 1.0, 0.2)
+    write_gltf(folder, surface, charts, VertexFur.even(len(surface.vertices)), pelt, 0.5, fins)
+    told = {"bodies": BODIES, "lights": lights.tolist()}
+    (folder / "lights.json").write_text(json.dumps(told) + "\n", "utf-8")
+    bends = {"bends": BENDS, "lights": BENT_LIGHTS}
+    (folder / "bent.json").write_text(json.dumps(bends) + "\n", "utf-8")
+    (folder / "environment.json").write_text(json.dumps(expected_environment(pelt)) + "\n", "utf-8")
+    expected_curves(pelt, lights).astype("<f4").tofile(folder / "light.f32")
+    expected_curves_bent(pelt).astype("<f4").tofile(folder / "bent.f32")
+    expected_curves_fin(pelt, lights).astype("<f4").tofile(folder / "fin.f32")
+
     folder = HERE / "states"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir()
@@ -217,7 +382,7 @@ def main() -> None:
     write_gltf(
         folder, surface, charts, VertexFur.even(len(surface.vertices)), pelts[0], 0.5, fins, states=tuple(pelts[1:])
     )
-    few = lights[::4]
+    few = golden_lights()[::4]
     weathers = [{"wetness": wetness, "dirt": dirt} for wetness, dirt in WEATHERS]
     (folder / "weather.json").write_text(json.dumps({"lights": few.tolist(), "weathers": weathers}) + "\n", "utf-8")
     radiance = [expected_weather(pelts, wetness, dirt, few) for wetness, dirt in WEATHERS]

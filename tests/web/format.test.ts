@@ -25,11 +25,13 @@ const withFins = (name = 'ptm-6'): FurAsset & Record<string, unknown> => {
 const withStates = (): FurAsset =>
 	JSON.parse(readFileSync(new URL('../golden/states/model.gltf', import.meta.url), 'utf8')).extensions.FUR_ptm_shells;
 
-const golden = (): FurAsset & Record<string, unknown> =>
-	JSON.parse(readFileSync(new URL('../golden/ptm-6/model.gltf', import.meta.url), 'utf8')).extensions.FUR_ptm_shells;
+const golden = (name = 'ptm-6'): FurAsset & Record<string, unknown> =>
+	JSON.parse(readFileSync(new URL(`../golden/${name}/model.gltf`, import.meta.url), 'utf8')).extensions.FUR_ptm_shells;
+
+const zeros = (rows: number) => Array.from({ length: rows }, () => new Array(9).fill(0));
 
 describe('parseFur', () => {
-	it.each(['ptm-6', 'eigen-6', 'eigen-3'])('takes what the baker writes: %s', (name) => {
+	it.each(['ptm-6', 'eigen-6', 'eigen-3', 'ptm-6-curves'])('takes what the baker writes: %s', (name) => {
 		const gltf = JSON.parse(readFileSync(new URL(`../golden/${name}/model.gltf`, import.meta.url), 'utf8'));
 		expect(parseFur(gltf.extensions.FUR_ptm_shells)).toEqual(gltf.extensions.FUR_ptm_shells);
 	});
@@ -41,7 +43,7 @@ describe('parseFur', () => {
 	it.each<[string, (fur: FurAsset) => void, RegExp]>([
 		['a side view without a width', (fur) => Reflect.deleteProperty(fur.pelts[0]?.fin ?? {}, 'width'), /fin/],
 		['a scale too few', (fur) => fur.pelts[0]?.fin?.scale.pop(), /fin.scale: got 5 entries, expected 6/],
-		['an environment too short', (fur) => fur.pelts[0]?.fin?.environment.pop(), /fin.environment: got 5 entries/],
+		['an environment too short', (fur) => fur.pelts[0]?.fin?.environment?.pop(), /fin.environment: got 5 entries/],
 		['a plane too few', (fur) => fur.pelts[0]?.fin?.planes.pop(), /fin.planes: got 1 entries, expected 2/],
 		['tiles below one', (fur) => Object.assign(fur, { tiles: 0.5 }), /tiles/],
 	])('refuses %s of fins in one sentence', (_, breakIt, message) => {
@@ -114,7 +116,7 @@ describe('parseFur', () => {
 	});
 
 	it('leaves a newer major version alone and takes a newer minor one', () => {
-		expect(parseFur({ version: '2.0', whatever: 1 })).toBeUndefined();
+		expect(parseFur({ version: '3.0', whatever: 1 })).toBeUndefined();
 		expect(parseFur({ ...golden(), version: '1.7' })).toBeDefined();
 	});
 
@@ -127,12 +129,43 @@ describe('parseFur', () => {
 		['too little drift', (fur) => fur.drift.pop(), /drift: got 3 entries, expected 4/],
 		['a scale too few', (fur) => fur.pelts[0]?.scale.pop(), /scale/],
 		['a plane too few', (fur) => fur.pelts[0]?.planes.pop(), /planes/],
-		['an environment too short', (fur) => fur.environment.pop(), /environment/],
+		['an environment too short', (fur) => fur.environment?.pop(), /environment/],
 		['null', () => undefined, /FUR_ptm_shells/],
 	])('refuses %s in one sentence', (what, breakIt, message) => {
 		const fur = golden();
 		breakIt(fur);
 		expect(() => parseFur(what === 'null' ? null : fur)).toThrow(message);
+	});
+});
+
+describe('parseFur of format 2.0', () => {
+	it.each<[string, (fur: FurAsset) => void, RegExp]>([
+		['no curves', (fur) => Reflect.deleteProperty(fur, 'curves'), /curves/],
+		['a pelt without weights', (fur) => Reflect.deleteProperty(fur.pelts[0] ?? {}, 'weights'), /pelts\/0|weights/],
+		['weights of too few slabs', (fur) => fur.pelts[0]?.weights?.pop(), /dry.weights: got 3 entries, expected 4/],
+		['a weight too few', (fur) => fur.pelts[0]?.weights?.[2]?.pop(), /dry.weights.2: got 2 entries, expected 3/],
+		['a table too few', (fur) => fur.curves?.along.pop(), /curves.along: got 2 entries, expected 3/],
+		['a radius too few', (fur) => fur.curves?.even[1]?.pop(), /curves\/even\/1/],
+		['a knot too few', (fur) => fur.curves?.even[1]?.[0]?.pop(), /curves\/even\/1\/0/],
+		[
+			'an environment',
+			(fur) => Object.assign(fur, { environment: zeros(6) }),
+			/environment: got 6 entries, expected 0/,
+		],
+		[
+			"a fin's environment",
+			(fur) => Object.assign(fur.pelts[0]?.fin ?? {}, { environment: zeros(6) }),
+			/fin.environment: got 6 entries, expected 0/,
+		],
+	])('refuses %s in one sentence', (_, breakIt, message) => {
+		const fur = golden('ptm-6-curves');
+		breakIt(fur);
+		expect(() => parseFur(fur)).toThrow(message);
+	});
+
+	it('refuses curves in 1.x', () => {
+		const { curves } = golden('ptm-6-curves');
+		expect(() => parseFur({ ...golden(), curves })).toThrow(/curves: got 1 entries, expected 0/);
 	});
 });
 

@@ -49,7 +49,7 @@ describe.each(['ptm-6', 'eigen-6', 'eigen-3'])('golden %s', (name) => {
 
 describe.each(['ptm-6', 'eigen-6', 'eigen-3'])('environmentMoments of %s', (name) => {
 	const gltf = JSON.parse(readFileSync(golden(name, 'model.gltf'), 'utf8'));
-	const { basis, environment }: FurAsset = gltf.extensions.FUR_ptm_shells;
+	const { basis, environment = [] }: FurAsset = gltf.extensions.FUR_ptm_shells;
 
 	it.each([0.1, 0.5, 1])('are those of as many lamps all around, at height %f', (s) => {
 		const harmonics = [1.2, 0.2, -0.3, 0.25, 0.15, -0.1, 0.12, 0.18, -0.14];

@@ -41,7 +41,7 @@ export class FinMaterial extends PeltMaterial {
 	constructor(fin: Fin, textures: FurTextures, shells: FurMaterial, parameters: FinMaterialParameters = {}) {
 		const shared = SHARED.map((name) => [name, shells.uniforms[name]] as [string, IUniform]);
 		super(
-			fin,
+			{ ...fin, means: shells.means },
 			textures,
 			{
 				name: 'FinMaterial',

@@ -1,5 +1,5 @@
 import { Color, type ShaderMaterialParameters, Vector4 } from 'three';
-import { bentWeights, leanOf } from './bent.ts';
+import { bentWeights, leanOf, wayOf } from './bent.ts';
 import type { FurAsset } from './format.ts';
 import { ALPHA_CUT } from './lod.ts';
 import { type FurTextures, PeltMaterial } from './PeltMaterial.ts';
@@ -18,7 +18,7 @@ export interface FurMaterialParameters extends ShaderMaterialParameters {
 	shellCount?: number;
 	/** Coverage below which a fragment is dropped, 0..1; FurShells sets it for every picture. */
 	alphaCut?: number;
-	/** Radius of the body in lengths of its fur: where tips lose the light when it sinks below their horizon. */
+	/** {@inheritDoc FurMaterial.bodyRadius} */
 	bodyRadius?: number;
 	/** Base colour of the model, which multiplies the fur's. */
 	skinColour?: Color;
@@ -52,7 +52,6 @@ const MIRRORED = [
 	'furLength',
 	'shellCount',
 	'alphaCut',
-	'bodyRadius',
 	'skinColour',
 	'root',
 	'tip',
@@ -75,8 +74,6 @@ export class FurMaterial extends PeltMaterial {
 	declare shellCount: number;
 	/** {@inheritDoc FurMaterialParameters.alphaCut} */
 	declare alphaCut: number;
-	/** {@inheritDoc FurMaterialParameters.bodyRadius} */
-	declare bodyRadius: number;
 	/** {@inheritDoc FurMaterialParameters.skinColour} */
 	declare skinColour: Color;
 	/** {@inheritDoc FurMaterialParameters.root} */
@@ -95,9 +92,10 @@ export class FurMaterial extends PeltMaterial {
 	constructor(asset: FurAsset, textures: FurTextures, parameters: FurMaterialParameters = {}) {
 		const pelt = asset.pelts[0];
 		if (!pelt) throw new Error('FUR_ptm_shells/pelts: got none, expected at least one');
-		const { basis, environment, ramp } = asset;
+		const { basis, environment, curves, ramp } = asset;
+		const means = curves && { curves, way: wayOf(asset), weights: pelt.weights ?? [] };
 		super(
-			{ ...pelt, basis, environment },
+			{ ...pelt, basis, environment, means },
 			textures,
 			{
 				name: 'FurMaterial',

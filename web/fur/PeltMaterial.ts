@@ -13,18 +13,18 @@ import {
 	Vector2,
 	ZeroFactor,
 } from 'three';
-import { hairChunks, lampChunks, texelChunks } from './chunks.ts';
+import { hairChunks, lampChunks, skyChunks, texelChunks } from './chunks.ts';
 import { BODY_RADIUS, smoothSum } from './moments.ts';
+import { curveTable, SlabLight, standInWeights, type Weights } from './SlabLight.ts';
 import colour from './shaders/colour.glsl?raw';
 import lightIn from './shaders/light.frag.glsl?raw';
 import lightOut from './shaders/light.vert.glsl?raw';
 import output from './shaders/output.glsl?raw';
 import ptm from './shaders/ptm.glsl?raw';
-import sky from './shaders/sky.glsl?raw';
 import { type Stained, stain, stainUniforms } from './stains.ts';
 import { switchPart } from './switches.ts';
 import { TrimLight } from './TrimLight.ts';
-import { decoder, momentUniforms, type Texels } from './texels.ts';
+import { basisUniforms, decoder, momentUniforms, type SlabMeanCurves, type Texels } from './texels.ts';
 
 /** An asset's planes as texture arrays, a slab per layer. */
 export interface FurTextures {
@@ -45,6 +45,13 @@ export class PeltMaterial extends ShaderMaterial {
 	readonly #texels: Texels;
 	readonly #planes: readonly Texture[];
 	#trimLight: TrimLight | undefined;
+	/** Of format 2.x: mean curves of all slabs and states. */
+	readonly means: SlabMeanCurves | undefined;
+	readonly #slabLight: SlabLight | undefined;
+	/** Weights of the states that the textures hold. */
+	#weights: readonly Weights[];
+	/** Stand-ins of the slabs of cut fur. */
+	#places: ArrayLike<number> | undefined;
 
 	/**
 	 * @param parameters own shaders (after the common chunks), uniforms and defines
@@ -59,6 +66,9 @@ export class PeltMaterial extends ShaderMaterial {
 		leader?: PeltMaterial,
 	) {
 		const { scale, offset } = decoder(texels.scale, texels.bias);
+		const { means, basis } = texels;
+		const fin = 'FIN' in (defines ?? {});
+		const slabLight = means && new SlabLight(basis, means, [means.weights], BODY_RADIUS, fin);
 		super({
 			glslVersion: GLSL3,
 			lights: true,
@@ -71,7 +81,13 @@ export class PeltMaterial extends ShaderMaterial {
 				offset0: { value: offset[0] },
 				scale1: { value: new Vector2(scale[1]?.x, scale[1]?.y) },
 				offset1: { value: new Vector2(offset[1]?.x, offset[1]?.y) },
-				...momentUniforms(texels, 'FIN' in (defines ?? {})),
+				...basisUniforms(basis),
+				...(means
+					? {
+							curveTable: leader?.uniforms.curveTable ?? { value: curveTable(means.curves) },
+							slabLight: { value: slabLight?.texture },
+						}
+					: momentUniforms(texels, fin)),
 				bodyRadius: { value: BODY_RADIUS },
 				lean: { value: new Vector2() },
 				gloss: { value: 0 },
@@ -85,17 +101,27 @@ export class PeltMaterial extends ShaderMaterial {
 				...uniforms,
 			},
 			defines: {
-				...(texels.basis.kind === 'eigen' && {
-					TERMS: (texels.basis.degree + 1) ** 2 + 2,
-					'CURVES(c)': smoothSum(texels.basis.degree),
+				...(basis.kind === 'eigen' && {
+					TERMS: (basis.degree + 1) ** 2 + 2,
+					'CURVES(c)': smoothSum(basis.degree),
 				}),
+				...(means && { MEAN_CURVES: '' }),
 				...(texels.scale.length > 3 && { TWO_PLANES: '' }),
 				...(textures.colour && { COLOUR_PLANE: '' }),
 				SKY: '',
 				...defines,
 			},
-			vertexShader: [...hairChunks, ...lampChunks, sky, lightOut, colour, vertexShader].join('\n'),
-			fragmentShader: [...texelChunks, ...lampChunks, lightIn, ptm, colour, output, fragmentShader].join('\n'),
+			vertexShader: [
+				...hairChunks,
+				...lampChunks(means !== undefined),
+				...skyChunks(means !== undefined),
+				...[lightOut, colour, vertexShader],
+			].join('\n'),
+			fragmentShader: [
+				...texelChunks,
+				...lampChunks(means !== undefined),
+				...[lightIn, ptm, colour, output, fragmentShader],
+			].join('\n'),
 			transparent: true,
 			blending: CustomBlending,
 			blendSrc: OneFactor,
@@ -111,6 +137,7 @@ export class PeltMaterial extends ShaderMaterial {
 			_comb: [0, 0, 0],
 			_edge: [0, 0, 0, 0],
 			follicle: [0],
+			curvature: [0, 0, 0],
 		});
 		for (const name of mirrored) {
 			const uniform = this.uniforms[name];
@@ -126,6 +153,9 @@ export class PeltMaterial extends ShaderMaterial {
 		this.#texels = texels;
 		this.#planes = [textures.plane0, textures.plane1].filter((plane) => plane !== undefined);
 		this.#leader = leader;
+		this.means = means;
+		this.#slabLight = slabLight;
+		this.#weights = means ? [means.weights] : [];
 		this.setTextures(textures);
 		if (leader) leader.#followers.push(this);
 	}
@@ -185,6 +215,20 @@ export class PeltMaterial extends ShaderMaterial {
 	}
 
 	/**
+	 * β, radius of the body as a whole in lengths of its fur: how far below the horizon of its tips the sky is seen. Lamps of
+	 * format 2.x go by the surface's own curvature, those of 1.x by this.
+	 */
+	get bodyRadius(): number {
+		return this.uniforms.bodyRadius?.value;
+	}
+
+	set bodyRadius(radius: number) {
+		const { bodyRadius } = this.uniforms;
+		if (bodyRadius) bodyRadius.value = radius;
+		for (const material of [this, ...this.#followers]) if (material.#slabLight) material.#slabLight.radius = radius;
+	}
+
+	/**
 	 * Share of the hairs that is left when they are cut, above 0 to 1: the lowest slabs, as thick as they were, in the light
 	 * that they get when the hair above is gone. 1 costs nothing.
 	 */
@@ -200,8 +244,22 @@ export class PeltMaterial extends ShaderMaterial {
 		if (share < 1) {
 			const places = this.#light().places(share);
 			for (const material of [this, ...this.#followers]) material.#light().set(places);
-		}
+			this.#weigh(places);
+		} else this.#weigh(undefined);
 		this.#switch('TRIMMED', share < 1);
+	}
+
+	/** Has slabs, of states that the textures hold, the mean curves of those that stand in for them. */
+	#weigh(places: ArrayLike<number> | undefined, weights = this.#weights): void {
+		this.#places = places;
+		this.#weights = weights;
+		const states = places ? weights.map((own) => standInWeights(own, places)) : weights;
+		for (const material of [this, ...this.#followers]) {
+			const [slabLight, uniform] = [material.#slabLight, material.uniforms.slabLight];
+			if (!slabLight || !uniform) continue;
+			slabLight.states = states;
+			uniform.value = slabLight.texture;
+		}
 	}
 
 	/** Made from the texels that the material was made with: other states of the fur have their light changed alike. */
@@ -218,6 +276,8 @@ export class PeltMaterial extends ShaderMaterial {
 	override dispose(): void {
 		super.dispose();
 		this.#trimLight?.texture.dispose();
+		this.#slabLight?.texture.dispose();
+		if (!this.#leader) (this.uniforms.curveTable as IUniform<Texture> | undefined)?.value.dispose();
 	}
 
 	/**
@@ -271,6 +331,9 @@ export class PeltMaterial extends ShaderMaterial {
 	setStains(stained: Stained | undefined): void {
 		const parts = stain(this.uniforms, stained);
 		for (const [define, value] of Object.entries(parts)) this.#compile(define, value);
+		if (!this.means) return;
+		const { weights: dry } = this.means;
+		this.#weigh(this.#places, parts.WET ? (stained?.wet ?? []).map(({ weights = dry }) => weights) : [dry]);
 	}
 
 	/** Other planes of the same shape, or of several states of the fur, one after the other. */

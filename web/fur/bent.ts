@@ -8,6 +8,13 @@ export function leanOf({ drift, height }: Pick<FurAsset, 'drift' | 'height'>): V
 	return new Vector2(...(drift.at(-1) ?? [0, 0])).divideScalar(height);
 }
 
+/** m: the way that the fur leans, a unit vector in tile axes. */
+export function wayOf({ drift }: Pick<FurAsset, 'drift'>): [number, number] {
+	const [u, v] = drift.at(-1) ?? [0, 0];
+	const length = Math.hypot(u, v);
+	return length > 0 ? [u / length, v / length] : [0, 1];
+}
+
 /** Weights of eight terms, two vectors for each of 1, s and s²: as baked, or such as suit any fur. */
 export function bentWeights(asset: Pick<FurAsset, 'drift' | 'height' | 'bent'>): Vector4[] {
 	const rows = asset.bent ?? [

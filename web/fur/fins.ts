@@ -1,6 +1,6 @@
 import {
 	BufferAttribute,
-	type BufferGeometry,
+	BufferGeometry,
 	type InterleavedBufferAttribute,
 	Matrix4,
 	Mesh,
@@ -73,6 +73,36 @@ export class FurFins extends Mesh<BufferGeometry, FinMaterial> {
 		super.dispose();
 		this.geometry.dispose();
 	}
+}
+
+/**
+ * The same fins cut into strips from root to tip, so that light between them follows the height.
+ *
+ * @param quads four vertices per edge: root, root, tip, tip, first end before second
+ */
+export function cutFins(quads: BufferGeometry, strips: number): BufferGeometry {
+	if (quads.userData.strips === strips) return quads;
+	const cut = new BufferGeometry();
+	const rows = strips + 1;
+	const edges = quads.getAttribute('position').count / 4;
+	for (const [name, attribute] of Object.entries(quads.attributes)) {
+		const { itemSize } = attribute;
+		const values = new Float32Array(edges * rows * 2 * itemSize);
+		for (let vertex = 0, at = 0; vertex < edges * rows * 2; vertex++) {
+			const share = (Math.floor(vertex / 2) % rows) / strips;
+			const root = 4 * Math.floor(vertex / (2 * rows)) + (vertex % 2);
+			for (let c = 0; c < itemSize; c++, at++)
+				values[at] = attribute.getComponent(root, c) * (1 - share) + attribute.getComponent(root + 2, c) * share;
+		}
+		cut.setAttribute(name, new BufferAttribute(values, itemSize));
+	}
+	const corners = Array.from({ length: edges * strips }, (_, i) => {
+		const first = 2 * (Math.floor(i / strips) * rows + (i % strips));
+		return [first, first + 1, first + 3, first, first + 3, first + 2];
+	});
+	cut.setIndex(corners.flat());
+	cut.userData.strips = strips;
+	return cut;
 }
 
 function transformed(position: BufferAttribute | InterleavedBufferAttribute, matrix: Matrix4): BufferAttribute {

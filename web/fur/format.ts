@@ -7,7 +7,7 @@ import schema from '../../baker/furbake/asset/schema/FUR_ptm_shells.schema.json'
 export const EXTENSION = 'FUR_ptm_shells';
 
 /** The newest version that this reader knows; a higher major version shows the skin alone. */
-export const VERSION = '1.1';
+export const VERSION = '2.0';
 
 /** What the coefficients multiply: the paper's eq. (2), or weights of the smooth functions, a row per coefficient. */
 export type Basis =
@@ -43,8 +43,25 @@ export interface Fin {
 	bias: number[];
 	/** Its own, in the fin's frame. */
 	basis: Basis;
-	/** Harmonics in the fin's frame, over the half sphere around the normal. */
-	environment: number[][];
+	/** Harmonics in the fin's frame, over the half sphere around the normal; in 1.x only. */
+	environment?: number[][];
+}
+
+/** How many knots a mean curve has along the height of the light. */
+export const KNOTS = 17;
+
+/** Radii of bodies, in lengths of their fur, for which mean curves are tabulated. */
+export const RADII = [1, 4, 16] as const;
+
+/**
+ * Mean light of a slab over directions: Σ_q weights[q]·(even[q] + along[q]·(l·m)), m being the way that the fur leans.
+ * Each is [curve][radius][knot].
+ */
+export interface Curves {
+	/** The part that is the same at all azimuths. */
+	even: number[][][];
+	/** The part that changes with the light's share along m. */
+	along: number[][][];
 }
 
 /** One state of the fur. */
@@ -61,6 +78,8 @@ export interface Pelt {
 	scale: number[];
 	/** The paper's Ω. */
 	bias: number[];
+	/** A row per slab, slab 0 first: weights of the mean curves; in 2.x only. */
+	weights?: number[][];
 	/** Its side view, where the asset has fins. */
 	fin?: Fin;
 	/** How wet this state of the fur is, 0 where absent, to 1: soaked. Of dirty ones 0. */
@@ -101,8 +120,10 @@ export interface FurAsset {
 	height: number;
 	/** What the coefficients of all pelts multiply. */
 	basis: Basis;
-	/** A row of 9 per coefficient: spherical harmonics of the radiance → light moments. */
-	environment: number[][];
+	/** A row of 9 per coefficient: spherical harmonics of the radiance → light moments; in 1.x only. */
+	environment?: number[][];
+	/** Mean curves of all states; in 2.x only. */
+	curves?: Curves;
 	/** Per slab: mean displacement of the hairs at its middle, tile widths. */
 	drift: [number, number][];
 	/** Light on bent hairs: rows for 1, s and s², in each the weights of eight terms; where absent, of any fur. */
@@ -143,10 +164,11 @@ export function parseFur(extension: unknown): FurAsset | undefined {
 	const asset = extension as FurAsset;
 	for (const [name, rows, wanted] of [
 		['drift', asset.drift.length, asset.layers] satisfies Count,
-		...lightCounts('', asset, asset.coefficients),
+		...curveCounts(asset),
+		...lightCounts('', asset, asset.coefficients, asset.curves !== undefined),
 		...asset.pelts.flatMap((pelt) => [
 			...texelCounts(pelt.name, pelt, asset.coefficients),
-			...(pelt.fin ? finCounts(`${pelt.name}.fin`, pelt.fin) : []),
+			...(pelt.fin ? finCounts(`${pelt.name}.fin`, pelt.fin, asset.curves !== undefined) : []),
 		]),
 	]) {
 		if (rows !== wanted) throw new Error(`${EXTENSION}/${name}: got ${rows} entries, expected ${wanted}`);
@@ -199,14 +221,35 @@ function checkStates({ pelts, coefficients, mud }: FurAsset): void {
 /** What is counted, how many there are, how many there have to be. */
 type Count = [name: string, rows: number, wanted: number];
 
+/** @param curved whether mean curves stand for the environment */
 function lightCounts(
 	prefix: string,
-	{ basis, environment }: Pick<Fin, 'basis' | 'environment'>,
+	{ basis, environment = [] }: Pick<Fin, 'basis' | 'environment'>,
 	wanted: number,
+	curved: boolean,
 ): Count[] {
 	return [
-		[`${prefix}environment`, environment.length, wanted],
+		[`${prefix}environment`, environment.length, curved ? 0 : wanted],
 		[`${prefix}basis.matrix`, basis.kind === 'eigen' ? basis.matrix.length : 6, wanted],
+	];
+}
+
+/** Tables of the curves, and the weights of every pelt. */
+function curveCounts({ version, curves, pelts, layers }: FurAsset): Count[] {
+	const count = curves?.even.length ?? 0;
+	return [
+		['curves', curves ? 1 : 0, Number.parseInt(version, 10) > 1 ? 1 : 0],
+		['curves.along', curves?.along.length ?? 0, count],
+		...Object.entries(curves ?? {}).flatMap(([name, tables]) =>
+			(tables as number[][][]).flatMap((table, q): Count[] => [
+				[`curves.${name}.${q}`, table.length, RADII.length],
+				...table.map((knots, b): Count => [`curves.${name}.${q}.${b}`, knots.length, KNOTS]),
+			]),
+		),
+		...pelts.flatMap(({ name, weights = [] }): Count[] => [
+			[`${name}.weights`, weights.length, curves ? layers : 0],
+			...weights.map((row, k): Count => [`${name}.weights.${k}`, row.length, count]),
+		]),
 	];
 }
 
@@ -219,8 +262,8 @@ function texelCounts(name: string, { scale, bias, planes }: Omit<Pelt, 'name'>, 
 }
 
 /** A fin has six coefficients, of whatever number the pelt's own basis is. */
-function finCounts(name: string, fin: Fin): Count[] {
-	return [...lightCounts(`${name}.`, fin, 6), ...texelCounts(name, fin, 6)];
+function finCounts(name: string, fin: Fin, curved: boolean): Count[] {
+	return [...lightCounts(`${name}.`, fin, 6, curved), ...texelCounts(name, fin, 6)];
 }
 
 /** Where a number of a texel is stored. */

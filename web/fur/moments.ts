@@ -100,29 +100,61 @@ const ORTHOGONAL: readonly (readonly [square: number, of: (light: Direction) => 
 	[19 / 960, ([, v, w]) => v * (w - 3 / 8)],
 ];
 
-/**
- * Light curves above the horizon as polynomials of degree 2, by least squares: φ_c ≈ Σ_j rows[c][j]·p_j for
- * p = (u², v², uv, u, v, 1, w, uw, vw).
- */
+/** Functions over the half sphere as polynomials of degree 2, by least squares. */
+export class PolynomialFit {
+	readonly #sums: number[][];
+
+	/** @param count of the functions */
+	constructor(count: number) {
+		this.#sums = Array.from({ length: count }, () => ORTHOGONAL.map(() => 0));
+	}
+
+	/**
+	 * @param light in (T, B, N); of a fin (along the edge, across it, N)
+	 * @param values of the functions there
+	 * @param share of the half sphere that it stands for
+	 */
+	add(light: Direction, values: readonly number[], share: number): void {
+		const terms = ORTHOGONAL.map(([square, of]) => (share * of(light)) / square);
+		for (const [c, sums] of this.#sums.entries()) {
+			const value = values[c] ?? 0;
+			for (const [t, term] of terms.entries()) sums[t] = (sums[t] as number) + value * term;
+		}
+	}
+
+	/**
+	 * A row of nine per function, of p = (u², v², uv, u, v, 1, w, uw, vw).
+	 *
+	 * @param fin (u, v, w) are a fin's (along the edge, N, across it), not (T, B, N)
+	 */
+	rows(fin = false): number[][] {
+		return this.#sums.map(([one = 0, rise = 0, bow = 0, side = 0, uv = 0, u = 0, v = 0, uw = 0, vw = 0]) =>
+			fin
+				? [
+						...[2 * side, 6 * bow + side, uw],
+						...[u - (3 / 8) * uw, 2 * rise - 6 * bow, one - rise + bow - side],
+						...[v - (3 / 8) * vw, uv, vw],
+					]
+				: [
+						...[side - 6 * bow, -side - 6 * bow, uv],
+						...[u - (3 / 8) * uw, v - (3 / 8) * vw, one - rise + 7 * bow],
+						...[2 * rise - 6 * bow, uw, vw],
+					],
+		);
+	}
+}
+
+/** Light curves above the horizon as polynomials: φ_c ≈ Σ_j rows[c][j]·p_j, p as of `PolynomialFit`. */
 export function polynomialCurves(basis: Basis): number[][] {
 	const [heights, spokes] = [64, 32];
-	const lights = Array.from({ length: heights * spokes }, (_, i): Direction => {
+	const fit = new PolynomialFit(basis.kind === 'ptm' ? 6 : basis.matrix.length);
+	for (let i = 0; i < heights * spokes; i++) {
 		const w = (Math.floor(i / spokes) + 0.5) / heights;
 		const [level, psi] = [Math.sqrt(1 - w * w), (2 * Math.PI * (i % spokes)) / spokes];
-		return [level * Math.cos(psi), level * Math.sin(psi), w];
-	});
-	const curves = lights.map((light) => evaluateBasis(basis, light));
-	return (curves[0] ?? []).map((_, c) => {
-		const [one = 0, rise = 0, bow = 0, side = 0, uv = 0, u = 0, v = 0, uw = 0, vw = 0] = ORTHOGONAL.map(
-			([square, of]) =>
-				lights.reduce((sum, light, i) => sum + (curves[i]?.[c] ?? 0) * of(light), 0) / lights.length / square,
-		);
-		return [
-			...[side - 6 * bow, -side - 6 * bow, uv],
-			...[u - (3 / 8) * uw, v - (3 / 8) * vw, one - rise + 7 * bow],
-			...[2 * rise - 6 * bow, uw, vw],
-		];
-	});
+		const light: Direction = [level * Math.cos(psi), level * Math.sin(psi), w];
+		fit.add(light, evaluateBasis(basis, light), 1 / (heights * spokes));
+	}
+	return fit.rows();
 }
 
 /**

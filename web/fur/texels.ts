@@ -1,6 +1,7 @@
 /** What a texel's bytes and coefficients mean, as uniforms. */
 
 import { type IUniform, Vector3, Vector4 } from 'three';
+import type { MeanCurves } from './curves.ts';
 import { type Basis, channelOf } from './format.ts';
 import { horizonMoments, polynomialCurves } from './moments.ts';
 
@@ -9,15 +10,34 @@ export interface Texels {
 	scale: number[];
 	bias: number[];
 	basis: Basis;
-	environment: number[][];
+	/** In format 1.x only. */
+	environment?: number[][] | undefined;
+	/** In format 2.x only. */
+	means?: SlabMeanCurves | undefined;
+}
+
+/** Mean curves and their weights in the dry pelt, a row per slab. */
+export interface SlabMeanCurves extends MeanCurves {
+	weights: readonly (readonly number[])[];
+}
+
+/** Weights of the smooth functions in curves of light, as uniforms; none of a PTM. */
+export function basisUniforms(basis: Basis): Record<string, IUniform> {
+	if (basis.kind === 'ptm') return {};
+	const uniform = (first: number) => ({
+		value: (basis.matrix[0] ?? []).map(
+			(_, t) => new Vector3(...[0, 1, 2].map((i) => basis.matrix[first + i]?.[t] ?? 0)),
+		),
+	});
+	return { curvesLow: uniform(0), curvesHigh: uniform(3) };
 }
 
 /**
- * The light moments' matrices, coefficients 0..2 in `Low` and 3..5 in `High`, absent ones 0.
+ * The light moments' matrices in format 1.x, coefficients 0..2 in `Low` and 3..5 in `High`, absent ones 0.
  *
  * @param fin whose normal is the frame's second axis, not the third
  */
-export function momentUniforms({ environment, basis }: Texels, fin: boolean): Record<string, IUniform> {
+export function momentUniforms({ environment = [], basis }: Texels, fin: boolean): Record<string, IUniform> {
 	const uniforms: Record<string, IUniform> = {};
 	const around = horizonMoments(basis, fin ? (psi) => [Math.cos(psi), 0, Math.sin(psi)] : undefined);
 	const polynomials = basis.kind === 'eigen' ? polynomialCurves(basis) : [];
@@ -34,11 +54,6 @@ export function momentUniforms({ environment, basis }: Texels, fin: boolean): Re
 			value: around.map((row) => new Vector3(row[first] ?? 0, row[first + 1] ?? 0, row[first + 2] ?? 0)),
 		};
 		if (basis.kind === 'eigen') {
-			const curves = [0, 1, 2].map((i) => basis.matrix[first + i]);
-			const terms = basis.matrix[0]?.length ?? 0;
-			uniforms[`curves${part}`] = {
-				value: Array.from({ length: terms }, (_, t) => new Vector3(...curves.map((row) => row?.[t] ?? 0))),
-			};
 			const rows = [0, 1, 2].map((i) => polynomials[first + i] ?? zeros);
 			uniforms[`polynomial${part}`] = { value: [0, 3, 6].flatMap((j) => rows.flatMap((row) => row.slice(j, j + 3))) };
 		}

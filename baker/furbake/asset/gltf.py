@@ -10,11 +10,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from furbake.asset.buffer import Buffer, numbers
 from furbake.asset.planes import pack, pack_fin, write_png
 from furbake.asset.skin import Looks, feature_nodes, fur_colour, skin_primitives
 from furbake.asset.vertices import fin_vertices, grid, quantise_positions, settle, shell_vertices, tiles_across
+from furbake.pelt.basis import environment
+from furbake.pelt.fin import fin_environment
 from furbake.pelt.pelt import Pelt
 from furbake.surface.charts import Charts
 from furbake.surface.coat import VertexFur
@@ -23,10 +26,11 @@ from furbake.surface.fins import Fins
 from furbake.surface.mesh import Surface
 
 Record = dict[str, Any]
+Floats = NDArray[np.float64]
 
 EXTENSION = "FUR_ptm_shells"
-VERSION, VERSION_STATES = "1.0", "1.1"
-"""Of assets with one pelt, and of those that have several states of it."""
+VERSION, VERSION_STATES, VERSION_CURVES = "1.0", "1.1", "2.0"
+"""Of assets with one pelt, of those that have several states of it, and of all that have mean curves."""
 
 QUANTIZATION = "KHR_mesh_quantization"
 
@@ -114,8 +118,13 @@ def extension(pelts: Sequence[Pelt], length: float, tiles: float, images: list[s
             raise ValueError("basis: got eigen without its matrix, expected a row of weights per coefficient")
         basis |= {"degree": pelt.degree, "matrix": [numbers(row) for row in pelt.matrix]}
     mud = next((each.state.mud for each in pelts if each.state.mud is not None), None)
+    version = VERSION if len(pelts) == 1 else VERSION_STATES
+    lit: Record = {"environment": [numbers(row) for row in environment(pelt.basis)]}
+    if pelt.curves is not None:
+        version = VERSION_CURVES
+        lit = {"curves": {"even": _tables(pelt.curves.even), "along": _tables(pelt.curves.along)}}
     return {
-        "version": VERSION if len(pelts) == 1 else VERSION_STATES,
+        "version": version,
         **{name: i for i, name in enumerate(nodes)},
         "layers": pelt.layers,
         "size": pelt.size,
@@ -124,7 +133,7 @@ def extension(pelts: Sequence[Pelt], length: float, tiles: float, images: list[s
         "height": numbers(np.array([pelt.height]))[0],
         "tiles": tiles,
         "basis": basis,
-        "environment": [numbers(row) for row in pelt.environment],
+        **lit,
         "drift": [numbers(row) for row in pelt.drift],
         **({} if pelt.bent is None else {"bent": [numbers(row) for row in pelt.bent]}),
         "ramp": {
@@ -148,6 +157,8 @@ def _state(pelt: Pelt, images: list[str], prefix: str, several: bool) -> Record:
         "scale": numbers(pelt.scale),
         "bias": numbers(pelt.bias),
     }
+    if pelt.weights is not None:
+        state["weights"] = [numbers(row) for row in pelt.weights]
     for role in ("colour", "direction"):
         if f"{prefix}{role}.png" in images:
             state[role] = images.index(f"{prefix}{role}.png")
@@ -160,11 +171,17 @@ def _state(pelt: Pelt, images: list[str], prefix: str, several: bool) -> Record:
             "scale": numbers(pelt.fin.scale),
             "bias": numbers(pelt.fin.bias),
             "basis": {"kind": "ptm"},
-            "environment": [numbers(row) for row in pelt.fin.environment],
         }
+        if pelt.curves is None:
+            state["fin"]["environment"] = [numbers(row) for row in fin_environment()]
         if f"{prefix}fin-colour.png" in images:
             state["fin"]["colour"] = images.index(f"{prefix}fin-colour.png")
     return state
+
+
+def _tables(tables: Floats) -> list[Any]:
+    """(Q, 3, 17) as lists."""
+    return [[numbers(row) for row in table] for table in tables]
 
 
 def _prefix(pelt: Pelt, dry: Pelt) -> str:

@@ -11,6 +11,7 @@ from furbake.asset.gltf import STATE
 from furbake.asset.planes import PlaneError, Planes, unpack, unpack_fin
 from furbake.asset.read import Asset, AssetError
 from furbake.pelt.basis import smooth_terms
+from furbake.pelt.curves import KNOTS, RADII, Curves, unit
 from furbake.pelt.pelt import FinPelt, Pelt, Ramp, State
 
 Floats = NDArray[np.float64]
@@ -63,6 +64,11 @@ def _pelt(fur: dict[str, Any], asset: Asset, index: int) -> Pelt:
         raise AssetError(f"model.gltf: basis {basis['kind']!r}, expected ptm or eigen")
     eigen = basis["kind"] == "eigen"
     ramp, state = fur["ramp"], _state(stored, fur)
+    drift, curves = _array(fur["drift"], layers, 2), None
+    if "curves" in fur:
+        many = len(fur["curves"]["even"]), len(RADII), KNOTS
+        even, along = (_array(fur["curves"][name], *many) for name in ("even", "along"))
+        curves = Curves(even, along, unit(drift[-1]))
     return Pelt(
         codes=texels.codes,
         alpha=texels.alpha,
@@ -73,13 +79,14 @@ def _pelt(fur: dict[str, Any], asset: Asset, index: int) -> Pelt:
         kind="eigen" if eigen else "ptm",
         degree=int(basis["degree"]) if eigen else None,
         matrix=_array(basis["matrix"], count, smooth_terms(int(basis["degree"]))) if eigen else None,
-        environment=_array(fur["environment"], count, 9),
-        drift=_array(fur["drift"], layers, 2),
+        drift=drift,
         height=float(fur["height"]) * state.length,
         ramp=Ramp(_rgb(ramp["root"]), _rgb(ramp["tip"]), _rgb(ramp["tip2"]), float(ramp["power"])),
         fin=_fin(stored["fin"], asset) if "fin" in stored else None,
         direction=texels.direction,
         bent=_array(fur["bent"], 3, 8) if "bent" in fur else None,
+        curves=curves,
+        weights=None if curves is None else _array(stored["weights"], layers, curves.count),
         state=state,
     )
 
@@ -105,7 +112,6 @@ def _fin(stored: dict[str, Any], asset: Asset) -> FinPelt:
         colour=texels.colour,
         scale=_array(stored["scale"], count),
         bias=_array(stored["bias"], count),
-        environment=_array(stored["environment"], count, 9),
     )
 
 

@@ -29,7 +29,9 @@ def pelts(asset: Asset) -> Iterator[str]:
         yield f"{EXTENSION}: size {size}, expected a power of two"
     wrong = list(_basis(fur["basis"], count))
     yield from wrong
-    lists = {"environment": (fur["environment"], count), "drift": (fur["drift"], layers)}
+    lists = {"drift": (fur["drift"], layers)}
+    if "environment" in fur:
+        lists["environment"] = (fur["environment"], count)
     if "bent" in fur:
         lists["bent"] = (fur["bent"], 3)
     if fur["basis"]["kind"] == "eigen" and not wrong:
@@ -44,11 +46,35 @@ def pelts(asset: Asset) -> Iterator[str]:
                 yield from _image(asset, pelt[role], (layers * size, size, 3))
         if "fin" in pelt:
             yield from _fin(asset, pelt["fin"])
+    if fur["version"].startswith("2."):
+        yield from _curves(fur)
+    elif "curves" in fur:
+        yield f"{EXTENSION}: curves in version {fur['version']}, expected 2.0"
     for name, (values, expected) in lists.items():
         if len(values) != expected:
             yield f"{EXTENSION}: {name} has {len(values)} rows, expected {expected}"
         elif not np.isfinite(np.array(values, dtype=np.float64)).all():
             yield f"{EXTENSION}: {name} is not finite, expected numbers"
+
+
+def _curves(fur: dict[str, Any]) -> Iterator[str]:
+    """As many tables of either kind as there are weights in each slab of each pelt; dark at the first knot."""
+    even, along = (fur["curves"][name] for name in ("even", "along"))
+    if len(along) != len(even):
+        yield f"{EXTENSION}: curves.along has {len(along)} tables, expected {len(even)} as curves.even"
+    for name, tables in (("even", even), ("along", along)):
+        if any(row[0] != 0 for table in tables for row in table):
+            yield f"{EXTENSION}: curves.{name} is not 0 at the first knot, expected darkness where no tip sees the light"
+    for i, pelt in enumerate(fur["pelts"]):
+        rows = pelt["weights"]
+        if len(rows) != fur["layers"]:
+            yield f"{EXTENSION}: pelts[{i}].weights has {len(rows)} rows, expected {fur['layers']}"
+        for length in sorted({len(row) for row in rows} - {len(even)}):
+            yield f"{EXTENSION}: pelts[{i}].weights has a row of {length} numbers, expected {len(even)}"
+        if pelt.get("dirt", 0) and rows != fur["pelts"][0]["weights"]:
+            yield f"{EXTENSION}: pelts[{i}].weights differs though it is dirty, expected that of pelts[0]"
+    if "environment" in fur or any("environment" in pelt.get("fin", {}) for pelt in fur["pelts"]):
+        yield f"{EXTENSION}: environment in version {fur['version']}, expected none: it follows from basis and curves"
 
 
 def states(asset: Asset) -> Iterator[str]:
@@ -99,6 +125,8 @@ def _fin(asset: Asset, fin: dict[str, Any]) -> Iterator[str]:
     if "colour" in fin:
         yield from _image(asset, fin["colour"], (*shape, 3))
     for key, expected in (("planes", 2), ("scale", 6), ("bias", 6), ("environment", 6)):
+        if key not in fin:
+            continue
         if len(fin[key]) != expected:
             yield f"{EXTENSION}: fin.{key} has {len(fin[key])} rows, expected {expected}"
         elif not np.isfinite(np.array(fin[key], dtype=np.float64)).all():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -9,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Functions = Callable[[Array], Array]
+"""Of the light's direction, (n, 3) → (n, C)."""
 
 PTM_TERMS = 6
 DEGREE = 6
@@ -19,6 +22,14 @@ def ptm(lights: Array) -> Array:
     """Rows of the paper's eq. (2): [lu², lv², lu·lv, lu, lv, 1], (n, 3) → (n, 6). No factors 2 (those of eq. (1))."""
     u, v = lights[:, 0], lights[:, 1]
     return np.stack([u * u, v * v, u * v, u, v, np.ones_like(u)], 1)
+
+
+def held(lights: Array) -> Array:
+    """Directions with those below the horizon held on it: (lu, lv) made unit where lz < 0, (n, 3)."""
+    below = lights[:, 2] < 0
+    across = np.hypot(lights[:, 0], lights[:, 1])
+    flat = np.stack([lights[:, 0], lights[:, 1], np.zeros_like(across)], 1) / np.maximum(across, 1e-9)[:, None]
+    return np.asarray(np.where(below[:, None], flat, lights))
 
 
 def smooth_terms(degree: int) -> int:

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.pelt.basis import PTM, Basis
+from furbake.pelt.curves import unit
 from furbake.pelt.fill import fill
 from furbake.pelt.fit import fit, relight
 from furbake.pelt.pelt import Pelt
@@ -50,12 +51,6 @@ RIDGE = 1e-3
 
 MONOMIALS = np.array([[1.0, 0, 0], [-1, 2, 0], [1, -6, 6]])
 """Legendre polynomials in 2s − 1 as rows of weights of 1, s, s²."""
-
-
-def unit(lean: Array) -> Array:
-    """Direction in which the fur leans; along v where it does not."""
-    length = float(np.hypot(*lean))
-    return lean / length if length > 1e-6 else np.array([0.0, 1.0])
 
 
 def terms(lights: Array, tip: Array, lean: Array) -> Array:

@@ -69,6 +69,11 @@ class SideView:
     light: Array
 
 
+def polynomial(lights: Array) -> Array:
+    """φ of a fin, lights (n, 3) in the tile's frame → (n, 6)."""
+    return PTM(lights[:, FIN_FRAME])
+
+
 def fin_shape(size: int, height: float) -> tuple[int, int]:
     """Rows and columns of the texture: the tile's texels along the fin, about square ones, rows a power of two."""
     return int(np.clip(2 ** round(np.log2(size * height)), 8, min(size, MOST_ROWS))), size
@@ -240,7 +245,6 @@ def fit_fins(views: Sequence[SideView], lights: Array, colours: Sequence[Array |
             colour=None if colour is None else srgb_bytes(fill_fin(colour, view.alpha)),
             scale=scale,
             bias=bias,
-            environment=fin_environment(),
         )
         for view, coefficients, colour in zip(views, filled, colours, strict=True)
     ]

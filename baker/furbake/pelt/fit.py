@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.pelt.basis import Basis
+from furbake.pelt.basis import Functions, held
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
@@ -16,23 +16,38 @@ VISIBLE = 0.05
 """Coverage above which a texel's samples set the scale of the figures."""
 
 
-def fit(samples: NDArray[np.floating], basis: Basis, lights: Array) -> Array:
+def fit(samples: NDArray[np.floating], basis: Functions, lights: Array, mean: Array | None = None) -> Array:
     """Least squares of eq. (2) for all texels at once, (n, K, N, N) → (K, N, N, C).
 
     The singular value decomposition of the light matrix is made once; its pseudo-inverse times all samples is the
-    rest.
+    rest. mean : (n, K) curves by which a slab's polynomials are multiplied; then once a slab.
     """
-    inverse = np.linalg.pinv(basis(lights))
+    phi = basis(lights)
+    if mean is not None:
+        slabs = [_solved(samples[:, k], curve[:, None] * phi) for k, curve in enumerate(mean.T)]
+        return np.stack(slabs)
+    return _solved(samples, phi)
+
+
+def _solved(samples: NDArray[np.floating], phi: Array) -> Array:
+    """Least squares of (n, ...) in the columns of φ (n, C), (..., C)."""
+    inverse = np.linalg.pinv(phi)
     count, *shape = samples.shape
     coefficients = inverse.astype(samples.dtype) @ samples.reshape(count, -1)
     return np.ascontiguousarray(np.moveaxis(coefficients.reshape(-1, *shape), 0, -1), np.float64)
 
 
-def relight(coefficients: Array, basis: Basis, lights: Array) -> Single:
-    """L of all texels, clamped at 0 as the shader does, (K, N, N, C) → (n, K, N, N) float32."""
+def relight(coefficients: Array, basis: Functions, lights: Array, mean: Array | None = None) -> Single:
+    """L of all texels, clamped at 0 as the shader does, (K, N, N, C) → (n, K, N, N) float32.
+
+    mean : (n, K) curves by which a slab's polynomials are multiplied; then lights may be below the horizon
+    """
     *shape, count = coefficients.shape
-    light = basis(lights).astype(np.float32) @ coefficients.reshape(-1, count).T.astype(np.float32)
-    return np.maximum(light, 0).reshape(len(lights), *shape)
+    phi = basis(lights if mean is None else held(lights)).astype(np.float32)
+    light = (phi @ coefficients.reshape(-1, count).T.astype(np.float32)).reshape(len(lights), *shape)
+    if mean is not None:
+        light *= mean.astype(np.float32).reshape(*mean.shape, *[1] * (len(shape) - 1))
+    return np.maximum(light, 0)
 
 
 def decibels(error: float) -> float:

@@ -8,6 +8,10 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from furbake.pelt.basis import Basis
+from furbake.pelt.curves import Curves
+from furbake.pelt.transport import BODY_RADIUS
+
 Bytes = NDArray[np.uint8]
 Floats = NDArray[np.float64]
 RGB = tuple[float, float, float]
@@ -60,7 +64,6 @@ class FinPelt:
     alpha, tint : (H, W) bytes / 255
     colour : (H, W, 3) sRGB bytes, the texel's original colour, or None
     scale, bias : (6,) λ and Ω
-    environment : (6, 9) spherical harmonics of the radiance over t, n, t × n → light moments
     """
 
     codes: Bytes
@@ -69,7 +72,6 @@ class FinPelt:
     colour: Bytes | None
     scale: Floats
     bias: Floats
-    environment: Floats
 
 
 @dataclass(frozen=True)
@@ -81,12 +83,13 @@ class Pelt:
     colour : (K, N, N, 3) sRGB bytes, the texel's original colour, or None   (paper, eq. 4)
     scale, bias : (C,) the paper's λ and Ω
     kind, degree, matrix : the basis: "ptm", or "eigen" with (C, T) weights of the smooth functions
-    environment : (C, 9) spherical harmonics of the radiance → light moments
     drift : (K, 2) mean sideways displacement of the hairs at each slab's middle, tile widths
     height : of the fur, tile widths
     fin : its side view, or None
     bent : (3, 8) numbers of the law of bent hairs, or None
     direction : (K, N, N, 3) bytes of the hairs' mean tangent, or None
+    curves, weights : the slabs' mean curves, of all states, and the (K, Q) weights of this one; None: the texels'
+        polynomials are all of their light
     state : dry unless the fur has others; in a dirty one `tint` is the mud's share of the coverage, here and in the fin
     """
 
@@ -99,14 +102,25 @@ class Pelt:
     kind: Literal["ptm", "eigen"]
     degree: int | None
     matrix: Floats | None
-    environment: Floats
     drift: Floats
     height: float
     ramp: Ramp
     fin: FinPelt | None = None
     direction: Bytes | None = None
     bent: Floats | None = None
+    curves: Curves | None = None
+    weights: Floats | None = None
     state: State = State()
+
+    @property
+    def basis(self) -> Basis:
+        return Basis(self.kind, self.degree, self.matrix)
+
+    def mean(self, lights: Floats, beta: float = BODY_RADIUS) -> Floats | None:
+        """Mean curves of the slabs under lights (n, 3) on a body of radius β, (n, K); None where there are none."""
+        if self.curves is None or self.weights is None:
+            return None
+        return self.curves.mean(lights, self.weights, beta)
 
     @property
     def layers(self) -> int:

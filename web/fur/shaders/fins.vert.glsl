@@ -46,7 +46,9 @@ void main() {
 #endif
 	if (vFade > 0.0) {
 		vec3 tip = position + n * (furLength * _fur.y);
-		passLight(FurPoint(turn * frame, comb * frame, pointVS, (bodyModel() * vec4(tip, 1.0)).xyz, s), _fur.z);
+		float slab = clamp(s * float(LAYERS) - 0.5, 0.0, float(LAYERS) - 1.0);
+		vec3 tipWS = (bodyModel() * vec4(tip, 1.0)).xyz;
+		passLight(FurPoint(turn * frame, comb * frame, pointVS, tipWS, s, slab, furCurvature(_fur.y)), _fur.z);
 	} else {
 		passDarkness();
 	}

@@ -49,8 +49,17 @@ vec2 highlights(vec3 strand, vec3 normalVS, vec3 light, vec3 viewer) {
 
 void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bending, vec3 lightVS, vec3 irradiance) {
 	vec3 lightTS = lightVS * point.frameVS;
-	irradiance *= horizon(lightTS, point.s);
-	vec3 low, high, lit = irradiance * bentLight(lightTS, bending);
+	float radius = radiusTowards(point, lightTS), height = lightTS.UP, fade = 1.0;
+	if (height < 0.0) {
+		// Held on the horizon; the light fades over the dip.
+		fade = sqrt(clamp(1.0 + height / horizonDip(point, radius), 0.0, 1.0));
+		lightTS.UP = 0.0;
+		lightTS /= max(length(lightTS), 1e-4);
+	}
+	float gain = bentLight(lightTS, bending);
+	gain *= meanLight(point, height < 0.0 ? height : lightTS.UP, fade, radius, lightTS);
+	vec3 low, high, lit = irradiance * gain;
+	irradiance *= fade;
 	basis(lightTS, low, high);
 	lamps.moments.low += outerProduct(lit, low);
 	lamps.moments.high += outerProduct(lit, high);

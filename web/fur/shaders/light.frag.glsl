@@ -11,6 +11,12 @@ in mat3 vFrame;
 in vec3 vPoint;
 in vec3 vTip;
 in float vS;
+#ifdef MEAN_CURVES
+in float vSlab;
+in float vCurvatureX;
+in float vCurvatureY;
+in float vCurvatureXY;
+#endif
 in float vCombX;
 in float vCombY;
 #else
@@ -34,7 +40,12 @@ Lamps receivedLamps() {
 #ifdef LAMPS_PER_FRAGMENT
 	vec3 comb = vec3(vCombX, 0.0, 0.0);
 	comb[LEVEL] = vCombY;
-	return lampsAt(FurPoint(vFrame, comb, vPoint, vTip, vS), bendingOf(comb, vS));
+#ifdef MEAN_CURVES
+	FurPoint point = FurPoint(vFrame, comb, vPoint, vTip, vS, vSlab, vec3(vCurvatureX, vCurvatureY, vCurvatureXY));
+#else
+	FurPoint point = FurPoint(vFrame, comb, vPoint, vTip, vS, 0.0, vec3(0.0));
+#endif
+	return lampsAt(point, bendingOf(comb, vS));
 #else
 	Lamps lamps = DARKNESS;
 	lamps.moments.low = vLampLow;

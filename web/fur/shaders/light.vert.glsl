@@ -1,5 +1,6 @@
 // What of the light goes from vertex to fragment: moments, summed here; or, where lamps are summed per fragment, the point.
-// WebGL2 promises no more than 15 vectors: of a shell four matrices and three vec3, with eleven scalars in their gaps.
+// WebGL2 promises no more than 15 vectors: of a shell four matrices and three vec3, with eleven scalars in their gaps; where lamps are summed per
+// fragment three matrices, four vec3 and fifteen scalars.
 
 #ifdef SKY
 out mat3 vSkyLow;
@@ -12,6 +13,12 @@ out mat3 vFrame;
 out vec3 vPoint;
 out vec3 vTip;
 out float vS;
+#ifdef MEAN_CURVES
+out float vSlab;
+out float vCurvatureX;
+out float vCurvatureY;
+out float vCurvatureXY;
+#endif
 out float vCombX; // along the first axis of the frame
 out float vCombY; // along the other level one
 #else
@@ -32,6 +39,16 @@ out float vPower; // irradiance
 #endif
 #endif
 
+layout(location = 10) in vec3 curvature; // of the skin, per the mesh's own unit: along the frame's first axis, along the other level one, mixed
+
+// Per length of the hair, which is this share of the longest.
+vec3 furCurvature(float lengthShare) {
+#ifdef WET
+	lengthShare *= furTraits.x;
+#endif
+	return curvature * (furLength * lengthShare);
+}
+
 // openness: to the sky, 0..1.
 void passLight(FurPoint point, float openness) {
 	Bending bending = bendingOf(point.comb, point.s);
@@ -49,6 +66,12 @@ void passLight(FurPoint point, float openness) {
 	vPoint = point.pointVS;
 	vTip = point.tipWS;
 	vS = point.s;
+#ifdef MEAN_CURVES
+	vSlab = point.slab;
+	vCurvatureX = point.curvature.x;
+	vCurvatureY = point.curvature.y;
+	vCurvatureXY = point.curvature.z;
+#endif
 #else
 	Lamps lamps = lampsAt(point, bending);
 	vLampLow = lamps.moments.low;
@@ -80,6 +103,9 @@ void passDarkness() {
 	vFrame = mat3(1.0);
 	vPoint = vTip = vec3(0.0);
 	vS = vCombX = vCombY = 0.0;
+#ifdef MEAN_CURVES
+	vSlab = vCurvatureX = vCurvatureY = vCurvatureXY = 0.0;
+#endif
 #else
 	vLampLow = mat3(0.0);
 #ifdef TWO_PLANES

@@ -19,6 +19,13 @@ struct Moments {
 	mat3 high;
 };
 
+// R = constant + gradient·ω + ωᵀ·form·ω in the tangent frame.
+struct Radiance {
+	vec3 constant;
+	mat3 gradient; // a column per axis
+	mat3 form[3]; // traceless, one for each channel
+};
+
 // A point of the fur that is lit.
 struct FurPoint {
 	mat3 frameVS; // (T, B, N) of the skin; of a fin (along the edge, N, across it)
@@ -26,9 +33,11 @@ struct FurPoint {
 	vec3 pointVS;
 	vec3 tipWS; // the hair's end, where shadows of others are caught
 	float s; // 0 at the skin, 1 at the tip
+	float slab; // that is shown; of a fin the place between slabs' middles
+	vec3 curvature; // of the skin, per length of the hair here: along the frame's first axis, along the other level one, mixed
 };
 
-uniform float bodyRadius; // β, in lengths of the fur: where tips lose the light when it sinks below their horizon
+uniform float bodyRadius; // β, in lengths of the fur, of the body as a whole
 
 #ifdef CURVES // (weights): the sum of smooth functions of u, v, w, √w and ∜w, written out
 uniform vec3 curvesLow[TERMS]; // weights of each smooth function in light curves 0..2 and 3..5
@@ -52,19 +61,4 @@ void basis(vec3 lightTS, out vec3 low, out vec3 high) {
 	low = vec3(u * u, v * v, u * v);
 	high = vec3(u, v, 1.0);
 #endif
-}
-
-// How far below its horizon a point at height s sees: −sin of that angle's lowest.
-float horizonDip(float s) {
-	float cosine = bodyRadius / (bodyRadius + s);
-	return max(sqrt(1.0 - cosine * cosine), 1e-4);
-}
-
-// A light below the horizon is held on it and fades out over the dip that a point at height s sees.
-float horizon(inout vec3 lightTS, float s) {
-	if (lightTS.UP >= 0.0) return 1.0;
-	float fade = sqrt(clamp(1.0 + lightTS.UP / horizonDip(s), 0.0, 1.0));
-	lightTS.UP = 0.0;
-	lightTS /= max(length(lightTS), 1e-4);
-	return fade;
 }

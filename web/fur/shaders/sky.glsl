@@ -1,72 +1,5 @@
 // Light of the environment: order-2 harmonics of the radiance → light moments.
 
-// Spherical harmonics of the radiance → moments, for coefficients 0..2 (low) and 3..5 (high): a column per coefficient,
-// the fourth unused (three sends square matrices only).
-uniform mat4 environmentLow0; // harmonics 0..3
-uniform mat4 environmentHigh0;
-#ifdef USE_LIGHT_PROBES
-uniform mat4 environmentLow1; // harmonics 4..7
-uniform mat4 environmentHigh1;
-uniform vec3 environmentLow2; // harmonic 8
-uniform vec3 environmentHigh2;
-#endif
-
-// ∫φ(ψ)·h(ψ)dψ around the horizon for h = 1, cos ψ, sin ψ, cos 2ψ, sin 2ψ; ψ grows from the frame's first axis to its other
-// level one.
-uniform vec3 horizonLow[5];
-uniform vec3 horizonHigh[5];
-
-#ifdef CURVES // curves 0..2 and 3..5 as polynomials: a column each, matrices for (u², v², uv), (u, v, 1), (w, uw, vw)
-uniform mat3 polynomialLow[3];
-#ifdef TWO_PLANES
-uniform mat3 polynomialHigh[3];
-#endif
-#endif
-
-// R = constant + gradient·ω + ωᵀ·form·ω in the tangent frame.
-struct Radiance {
-	vec3 constant;
-	mat3 gradient; // a column per axis
-	mat3 form[3]; // traceless, one for each channel
-};
-
-// A product around the horizon: light times what bent fur makes of it, in the harmonics of horizonLow.
-vec3[5] bentRing(vec3 light[5], Bending bending) {
-	mat3 q = bending.form;
-	float even = bending.even + 0.5 * (q[0][0] + q[LEVEL][LEVEL]), x = bending.gradient[0], y = bending.gradient[LEVEL];
-	float xx = 0.5 * (q[0][0] - q[LEVEL][LEVEL]), xy = 0.5 * (q[0][LEVEL] + q[LEVEL][0]);
-	return vec3[5](
-		even * light[0] + 0.5 * (x * light[1] + y * light[2] + xx * light[3] + xy * light[4]),
-		even * light[1] + x * light[0] + 0.5 * (x * light[3] + y * light[4] + xx * light[1] + xy * light[2]),
-		even * light[2] + y * light[0] + 0.5 * (x * light[4] - y * light[3] - xx * light[2] + xy * light[1]),
-		even * light[3] + xx * light[0] + 0.5 * (x * light[1] - y * light[2]),
-		even * light[4] + xy * light[0] + 0.5 * (x * light[2] + y * light[1])
-	);
-}
-
-// Light from below the horizon is held on it and fades as a lamp's does: Σ_h horizon[h]·∫√(1 + z/dip)·(R's part in h)dz.
-void addDip(inout Moments moments, Radiance radiance, Bending bending, float s) {
-	float dip = horizonDip(s);
-	// ∫√(1 + z/dip)·{1, z, z²}dz over −dip..0; times √(1 − z²) to its second term.
-	float i0 = 2.0 / 3.0 * dip, i1 = -4.0 / 15.0 * dip * dip, i2 = 16.0 / 105.0 * dip * dip * dip;
-	float level0 = i0 - 0.5 * i2, level1 = i1 + 16.0 / 315.0 * dip * dip * dip * dip;
-	mat3 gradient = radiance.gradient;
-	vec3 ring[5] = vec3[5](radiance.constant * i0 + gradient[UPRIGHT] * i1, gradient[0] * level0, gradient[LEVEL] * level0, vec3(0.0), vec3(0.0));
-	for (int c = 0; c < 3; c++) {
-		mat3 q = radiance.form[c];
-		ring[0][c] += q[UPRIGHT][UPRIGHT] * (1.5 * i2 - 0.5 * i0);
-		ring[1][c] += 2.0 * q[0][UPRIGHT] * level1;
-		ring[2][c] += 2.0 * q[LEVEL][UPRIGHT] * level1;
-		ring[3][c] = 0.5 * (q[0][0] - q[LEVEL][LEVEL]) * (i0 - i2);
-		ring[4][c] = q[0][LEVEL] * (i0 - i2);
-	}
-	if (bending.there) ring = bentRing(ring, bending);
-	for (int h = 0; h < 5; h++) {
-		moments.low += outerProduct(ring[h], horizonLow[h]);
-		moments.high += outerProduct(ring[h], horizonHigh[h]);
-	}
-}
-
 // Change of moments, of a PTM's polynomials (u², v², uv) and (u, v, 1), and for other curves of (w, uw, vw).
 struct Change {
 	mat3 square;
@@ -86,14 +19,14 @@ void addFrom(inout Change change, Radiance radiance, Bending bending, vec3 at) {
 	float gain = bentLight(way, bending);
 	change.square += outerProduct(light, gain * way.xyx * way.xyy - at.xyx * at.xyy);
 	change.plain += outerProduct(light, gain * vec3(way.xy, 1.0) - vec3(at.xy, 1.0));
-#ifdef CURVES
+#ifdef POLYNOMIALS
 	change.steep += outerProduct(light, gain * way.z * vec3(1.0, way.xy) - at.z * vec3(1.0, at.xy));
 #endif
 }
 
 // What bending changes of the light from above, ∫R·(factor·φ(sheared ω) − φ(ω))dω, by a sum over eight directions: exact
 // where fur stands as it was baked, 1 to 2 % of the light off where its tips are displaced by half of their length.
-void addBent(inout Moments moments, Radiance radiance, Bending bending) {
+void addBent(inout Moments moments, FurPoint point, Radiance radiance, Bending bending) {
 	Change change = Change(mat3(0.0), mat3(0.0), mat3(0.0));
 	// Two heights of Gauss and Legendre's, four spokes each. Written out: a loop costs a software rasteriser 6 % of the frame.
 	addFrom(change, radiance, bending, vec3(0.97741619, 0.0, 0.21132487));
@@ -104,10 +37,10 @@ void addBent(inout Moments moments, Radiance radiance, Bending bending) {
 	addFrom(change, radiance, bending, vec3(-0.43473824, 0.43473824, 0.78867513));
 	addFrom(change, radiance, bending, vec3(-0.43473824, -0.43473824, 0.78867513));
 	addFrom(change, radiance, bending, vec3(0.43473824, -0.43473824, 0.78867513));
-#ifdef CURVES
-	moments.low += change.square * polynomialLow[0] + change.plain * polynomialLow[1] + change.steep * polynomialLow[2];
+#ifdef POLYNOMIALS
+	moments.low += change.square * POLYNOMIAL_LOW(0) + change.plain * POLYNOMIAL_LOW(1) + change.steep * POLYNOMIAL_LOW(2);
 #ifdef TWO_PLANES
-	moments.high += change.square * polynomialHigh[0] + change.plain * polynomialHigh[1] + change.steep * polynomialHigh[2];
+	moments.high += change.square * POLYNOMIAL_HIGH(0) + change.plain * POLYNOMIAL_HIGH(1) + change.steep * POLYNOMIAL_HIGH(2);
 #endif
 #else
 	moments.low += change.square;
@@ -152,15 +85,23 @@ Moments environmentMoments(FurPoint point, Bending bending) {
 		last[channel] = (q[0][0] - q[1][1]) / C1;
 	}
 #endif
-	moments.low = radiance * mat3x4(environmentLow0);
-	moments.high = radiance * mat3x4(environmentHigh0);
+	moments.low = radiance * ENVIRONMENT_LOW0;
+#ifdef TWO_PLANES
+	moments.high = radiance * ENVIRONMENT_HIGH0;
+#else
+	moments.high = mat3(0.0);
+#endif
 #ifdef USE_LIGHT_PROBES
-	moments.low += transpose(order2) * mat3x4(environmentLow1) + outerProduct(last, environmentLow2);
-	moments.high += transpose(order2) * mat3x4(environmentHigh1) + outerProduct(last, environmentHigh2);
+	moments.low += transpose(order2) * ENVIRONMENT_LOW1 + outerProduct(last, ENVIRONMENT_LOW2);
+#ifdef TWO_PLANES
+	moments.high += transpose(order2) * ENVIRONMENT_HIGH1 + outerProduct(last, ENVIRONMENT_HIGH2);
+#endif
 #endif
 	Radiance around = Radiance(Y0 * radiance[0], Y1 * mat3(radiance[3], radiance[1], radiance[2]), form);
-	addDip(moments, around, bending, point.s);
-	if (bending.there) addBent(moments, around, bending);
+#ifndef MEAN_CURVES
+	addDip(moments, point, around, bending);
+#endif
+	if (bending.there) addBent(moments, point, around, bending);
 #ifdef TRIMMED
 	moments = trimmed(moments, point.s);
 #endif

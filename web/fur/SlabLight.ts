@@ -1,0 +1,111 @@
+import { ClampToEdgeWrapping, DataTexture, DataUtils, FloatType, HalfFloatType, LinearFilter, RGBAFormat } from 'three';
+import { type CurveSky, curveSkies, type MeanCurves } from './curves.ts';
+import { type Basis, type Curves, KNOTS, RADII } from './format.ts';
+
+/** Texels of a row: see shaders/curves.glsl. */
+const ROW = 33;
+
+/** A row per slab, one weight per curve. */
+export type Weights = readonly (readonly number[])[];
+
+/** Mean curves as shaders look them up: `even` at three radii, then `along`; RGBA are up to four curves, along x their knots. */
+export function curveTable({ even, along }: Curves): DataTexture {
+	const data = new Uint16Array(4 * KNOTS * 2 * RADII.length);
+	for (const [part, tables] of [even, along].entries())
+		for (const [q, table] of tables.entries())
+			for (const [b, knots] of table.entries())
+				for (const [i, value] of knots.entries())
+					data[4 * (KNOTS * (RADII.length * part + b) + i) + q] = DataUtils.toHalfFloat(value);
+	const texture = new DataTexture(data, KNOTS, 2 * RADII.length, RGBAFormat, HalfFloatType);
+	texture.magFilter = texture.minFilter = LinearFilter;
+	texture.wrapS = texture.wrapT = ClampToEdgeWrapping;
+	texture.needsUpdate = true;
+	return texture;
+}
+
+/** What shaders look up of slabs: weights of the mean curves, and the sky's light that these give. */
+export class SlabLight {
+	/** A row per slab, of one state after the other. */
+	texture: DataTexture;
+	readonly #basis: Basis;
+	readonly #means: MeanCurves;
+	readonly #fin: boolean;
+	#skies: CurveSky[] = [];
+	#radius = Number.NaN;
+	#states: readonly Weights[];
+
+	/** @param fin whether the frame is a fin's */
+	constructor(basis: Basis, means: MeanCurves, states: readonly Weights[], radius: number, fin: boolean) {
+		this.#basis = basis;
+		this.#means = means;
+		this.#fin = fin;
+		this.#states = states;
+		this.texture = tableOf(states);
+		this.radius = radius;
+	}
+
+	/** β of the body as a whole, for the sky. */
+	get radius(): number {
+		return this.#radius;
+	}
+
+	set radius(radius: number) {
+		if (radius === this.#radius) return;
+		this.#radius = radius;
+		this.#skies = curveSkies(this.#basis, this.#means, radius, this.#fin);
+		this.#fill();
+	}
+
+	/** Weights of the states that the pelt's textures hold, the driest first. */
+	set states(states: readonly Weights[]) {
+		const rows = states.reduce((sum, { length }) => sum + length, 0);
+		this.#states = states;
+		if (rows !== this.texture.image.height) {
+			this.texture.dispose();
+			this.texture = tableOf(states);
+		}
+		this.#fill();
+	}
+
+	#fill(): void {
+		const data = this.texture.image.data as Float32Array;
+		data.fill(0);
+		for (const [k, weights] of this.#states.flat().entries()) {
+			const row = data.subarray(4 * ROW * k, 4 * ROW * (k + 1));
+			row.set(weights);
+			for (const [q, weight] of weights.entries()) this.#add(row, weight, this.#skies[q]);
+		}
+		this.texture.needsUpdate = true;
+	}
+
+	#add(row: Float32Array, weight: number, sky: CurveSky | undefined): void {
+		const add = (texel: number, channel: number, value = 0) => {
+			const at = 4 * texel + channel;
+			row[at] = (row[at] as number) + weight * value;
+		};
+		for (const [c, own] of sky?.environment.entries() ?? []) {
+			for (let j = 0; j < 4; j++) {
+				add(1 + c, j, own[j]);
+				add(7 + c, j, own[4 + j]);
+			}
+			add(13 + Math.floor(c / 3), c % 3, own[8]);
+		}
+		for (const [c, own] of sky?.polynomials.entries() ?? [])
+			for (let j = 0; j < 9; j++) add(15 + 9 * Math.floor(c / 3) + 3 * Math.floor(j / 3) + (c % 3), j % 3, own[j]);
+	}
+}
+
+function tableOf(states: readonly Weights[]): DataTexture {
+	const rows = states.reduce((sum, { length }) => sum + length, 0);
+	return new DataTexture(new Float32Array(4 * ROW * rows), ROW, rows, RGBAFormat, FloatType);
+}
+
+/** Weights of slabs that stand in for those of cut fur: rows mixed linearly. @param places as from `standIns` */
+export function standInWeights(weights: Weights, places: ArrayLike<number>): Weights {
+	return weights.map((_, k) => {
+		const place = places[Math.min(k, places.length - 1)] ?? k;
+		const [from, share] = [Math.floor(place), place % 1];
+		const next = weights[Math.min(from + 1, weights.length - 1)];
+		return (weights[from] ?? []).map((weight, q) => weight + share * ((next?.[q] ?? 0) - weight));
+	});
+}

@@ -1,0 +1,224 @@
+/** How a body is curved below its fur: where its fur has a horizon, and how far below it tips see. */
+
+import { BufferAttribute, BufferGeometry, type InterleavedBufferAttribute, Matrix3, Vector3 } from 'three';
+import { heldRadius } from './curves.ts';
+import { Follicles } from './follicles.ts';
+
+/** How often curvature is averaged with its neighbours': normals are stored in bytes. */
+const ROUNDS = 2;
+
+type Attribute = BufferAttribute | InterleavedBufferAttribute;
+
+const known = new WeakMap<Attribute, BodyCurvature>();
+
+/**
+ * Curvature tensors of a surface, from its positions and normals. S. Rusinkiewicz: Estimating Curvatures and Their
+ * Derivatives on Triangle Meshes, 3DPVT 2004. Positive where the surface is convex.
+ */
+export class BodyCurvature {
+	readonly #follicles: Follicles;
+	/** Of each follicle: xx, yy, zz, xy, xz, yz of the tensor, per unit of the mesh. */
+	#tensors: Float64Array;
+	/** A third of the faces around each follicle. */
+	readonly #areas: Float64Array;
+
+	/** Those of a surface. Furs of one body have them in common. */
+	static of(surface: BufferGeometry): BodyCurvature {
+		const position = surface.getAttribute('position');
+		const curvature = known.get(position) ?? new BodyCurvature(surface);
+		known.set(position, curvature);
+		return curvature;
+	}
+
+	private constructor(surface: BufferGeometry) {
+		this.#follicles = Follicles.of(surface);
+		const { count } = this.#follicles;
+		this.#areas = new Float64Array(count);
+		this.#tensors = this.#gather(surface);
+		for (let round = 0; round < ROUNDS; round++) this.#smooth();
+	}
+
+	/** Area-weighted means of the faces' tensors, each turned into the tangent plane of the follicle. */
+	#gather(surface: BufferGeometry): Float64Array {
+		const { index } = surface;
+		const at = this.#marks(surface);
+		const corners = index?.count ?? at.count;
+		const sums = new Float64Array(6 * this.#follicles.count);
+		const points = [0, 1, 2].map(() => ({ i: 0, position: new Vector3(), normal: new Vector3() }));
+		const [u, v, n] = [new Vector3(), new Vector3(), new Vector3()];
+		const [side, turn, across] = [new Vector3(), new Vector3(), new Vector3()];
+		const [turned, beside] = [new Vector3(), new Vector3()];
+		for (let first = 0; first + 2 < corners; first += 3) {
+			for (const [c, point] of points.entries()) {
+				point.i = at.getX(index?.getX(first + c) ?? first + c);
+				point.position.fromArray(this.#follicles.position, 3 * point.i);
+				point.normal.fromArray(this.#follicles.normal, 3 * point.i);
+			}
+			const [a, b, c] = points as [(typeof points)[0], (typeof points)[0], (typeof points)[0]];
+			u.subVectors(b.position, a.position);
+			v.subVectors(c.position, a.position);
+			n.crossVectors(u, v);
+			const area = 0.5 * n.length();
+			if (!(area > 0)) continue;
+			n.normalize();
+			u.normalize();
+			v.crossVectors(n, u);
+			// Least squares of Δn = II·Δp along the three sides: unknown are L, M, N in the axes u, v.
+			let [aa, ab, bb, p, q, r] = [0, 0, 0, 0, 0, 0];
+			for (const [from, to] of [
+				[a, b],
+				[b, c],
+				[c, a],
+			] as const) {
+				side.subVectors(to.position, from.position);
+				turn.subVectors(to.normal, from.normal);
+				const [x, y, du, dv] = [side.dot(u), side.dot(v), turn.dot(u), turn.dot(v)];
+				aa += x * x;
+				ab += x * y;
+				bb += y * y;
+				p += x * du;
+				q += y * du + x * dv;
+				r += y * dv;
+			}
+			const solved = across
+				.set(p, q, r)
+				.applyMatrix3(new Matrix3().set(aa, ab, 0, ab, aa + bb, ab, 0, ab, bb).invert());
+			const [l, m, k] = solved.toArray();
+			for (const { i, normal } of points) {
+				turnInto(turned.copy(u), n, normal);
+				turnInto(beside.copy(v), n, normal);
+				add(sums, i, turned, turned, area * l);
+				add(sums, i, beside, beside, area * k);
+				add(sums, i, turned, beside, area * m);
+				add(sums, i, beside, turned, area * m);
+				this.#areas[i] = (this.#areas[i] as number) + area;
+			}
+		}
+		return sums.map((sum, j) => sum / (this.#areas[Math.floor(j / 6)] || 1));
+	}
+
+	/** Takes the mean of each follicle's own tensor and that of its neighbours', turned into its tangent plane. */
+	#smooth(): void {
+		const { count, normal, first, links } = this.#follicles;
+		const before = this.#tensors;
+		const after = new Float64Array(before.length);
+		const [own, other] = [new Vector3(), new Vector3()];
+		const axes = [new Vector3(), new Vector3(), new Vector3()] as const;
+		const order = [
+			[0, 0, 0],
+			[1, 1, 1],
+			[2, 2, 2],
+			[0, 1, 3],
+			[1, 0, 3],
+			[0, 2, 4],
+			[2, 0, 4],
+			[1, 2, 5],
+			[2, 1, 5],
+		] as const;
+		for (let i = 0; i < count; i++) {
+			const [from, to] = [first[i] as number, first[i + 1] as number];
+			const share = to > from ? 0.5 : 1;
+			for (let j = 0; j < 6; j++) after[6 * i + j] = share * (before[6 * i + j] as number);
+			own.fromArray(normal, 3 * i);
+			for (let link = from; link < to; link++) {
+				const j = links[link] as number;
+				other.fromArray(normal, 3 * j);
+				for (const [c, axis] of axes.entries()) turnInto(axis.set(0, 0, 0).setComponent(c, 1), other, own);
+				for (const [a, b, part] of order)
+					add(after, i, axes[a], axes[b], (0.5 / (to - from)) * (before[6 * j + part] as number));
+			}
+		}
+		this.#tensors = after;
+	}
+
+	/** The follicle at every vertex of a geometry in the axes of the surface, without a trace in it. */
+	#marks(geometry: BufferGeometry): Attribute {
+		const stands = new BufferGeometry();
+		for (const name of ['position', 'normal']) stands.setAttribute(name, geometry.getAttribute(name));
+		this.#follicles.mark(stands);
+		return stands.getAttribute('follicle');
+	}
+
+	/**
+	 * Gives a geometry the attribute `curvature` if it has not got it: three numbers per vertex, per unit of the mesh, along
+	 * its tangent, across it, and mixed.
+	 *
+	 * @param geometry the surface, or one in its axes: there it is that of the nearest point
+	 * @param hand of the axis across: w·hand·(normal × tangent)
+	 */
+	mark(geometry: BufferGeometry, hand: 1 | -1 = 1): void {
+		if (geometry.hasAttribute('curvature')) return;
+		const [normal, tangent] = [geometry.getAttribute('normal'), geometry.getAttribute('tangent')];
+		const at = this.#marks(geometry);
+		const values = new Float32Array(3 * at.count);
+		const [n, t, b] = [new Vector3(), new Vector3(), new Vector3()];
+		for (let i = 0; i < at.count; i++) {
+			n.fromBufferAttribute(normal, i).normalize();
+			t.fromBufferAttribute(tangent, i).addScaledVector(n, -n.dot(t)).normalize();
+			b.crossVectors(n, t).multiplyScalar(hand * tangent.getW(i));
+			const f = at.getX(i);
+			values.set([this.#along(f, t, t), this.#along(f, b, b), this.#along(f, t, b)], 3 * i);
+		}
+		geometry.setAttribute('curvature', new BufferAttribute(values, 3));
+	}
+
+	#along(i: number, a: Vector3, b: Vector3): number {
+		const [xx, yy, zz, xy, xz, yz] = this.#tensors.subarray(6 * i, 6 * i + 6) as unknown as Six;
+		return (
+			xx * a.x * b.x +
+			yy * a.y * b.y +
+			zz * a.z * b.z +
+			xy * (a.x * b.y + a.y * b.x) +
+			xz * (a.x * b.z + a.z * b.x) +
+			yz * (a.y * b.z + a.z * b.y)
+		);
+	}
+
+	/**
+	 * β of the body as a whole, in lengths of its fur, within what curves are tabulated for: half of its furry surface has a
+	 * larger one, by the mean of all azimuths.
+	 *
+	 * @param length of the longest fur, units of the mesh
+	 */
+	typicalRadius(length: number): number {
+		const { count, length: shares } = this.#follicles;
+		const radii = Array.from({ length: count }, (_, i) => {
+			const trace = [0, 1, 2].reduce((sum, j) => sum + (this.#tensors[6 * i + j] as number), 0);
+			const share = shares[i] as number;
+			const radius = heldRadius(1 / Math.max((trace / 2) * length * share, 1e-9));
+			return { radius, weight: (this.#areas[i] as number) * share };
+		}).sort((a, b) => a.radius - b.radius);
+		const half = radii.reduce((sum, { weight }) => sum + weight, 0) / 2;
+		let below = 0;
+		const middle = radii.find(({ weight }) => {
+			below += weight;
+			return below >= half;
+		});
+		return middle?.radius ?? heldRadius(Number.POSITIVE_INFINITY);
+	}
+}
+
+type Six = [number, number, number, number, number, number];
+
+/** Turns a vector by the smallest rotation that takes one unit vector to another. */
+function turnInto(vector: Vector3, from: Vector3, to: Vector3): void {
+	const whole = 1 + from.dot(to);
+	if (whole < 1e-6) return;
+	// Rodrigues, for both unit vectors: v − (from + to)·((from + to)·v) / whole + 2·to·(from·v).
+	const [along, ahead] = [(from.dot(vector) + to.dot(vector)) / whole, 2 * from.dot(vector)];
+	vector.addScaledVector(from, -along).addScaledVector(to, ahead - along);
+}
+
+/** Adds weight·a·bᵀ, of which the caller adds the transposed part too. */
+function add(tensors: Float64Array, i: number, a: Vector3, b: Vector3, weight: number): void {
+	const mixed = 0.5 * weight;
+	const parts = [
+		weight * a.x * b.x,
+		weight * a.y * b.y,
+		weight * a.z * b.z,
+		mixed * (a.x * b.y + a.y * b.x),
+		mixed * (a.x * b.z + a.z * b.x),
+		mixed * (a.y * b.z + a.z * b.y),
+	];
+	for (const [j, part] of parts.entries()) tensors[6 * i + j] = (tensors[6 * i + j] as number) + part;
+}

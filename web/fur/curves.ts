@@ -1,0 +1,136 @@
+/** Mean curves: how bright a slab is on the mean under a light from any direction, below its horizon too. Knows no three. */
+
+import { type Basis, type Curves, KNOTS, RADII } from './format.ts';
+import { type Direction, evaluateBasis, PolynomialFit } from './moments.ts';
+
+/** What mean curves are evaluated by. */
+export interface MeanCurves {
+	curves: Curves;
+	/** m: unit vector along which the fur leans, tile axes u and v. */
+	way: readonly [number, number];
+}
+
+/** Harmonics to order 2, real and orthonormal, in the order of the format. */
+const harmonics = (x: number, y: number, z: number) => [
+	0.28209479,
+	0.48860251 * y,
+	0.48860251 * z,
+	0.48860251 * x,
+	1.09254843 * x * y,
+	1.09254843 * y * z,
+	0.31539157 * (3 * z * z - 1),
+	1.09254843 * x * z,
+	0.54627422 * (x * x - y * y),
+];
+
+/** How far below its horizon the tips of fur on a ball see: −z of the lowest direction. @param radius β, lengths of the fur */
+export const dipOf = (radius: number): number => Math.sqrt(2 * radius + 1) / (radius + 1);
+
+/** β as curves are tabulated for it: no less than the first of `RADII`, no more than the last. */
+export const heldRadius = (radius: number): number => Math.min(Math.max(radius, RADII[0]), RADII[2]);
+
+/** A direction that lies below the horizon, held on it. */
+export function heldLight([u, v, z]: Direction): Direction {
+	if (z >= 0) return [u, v, z];
+	const across = Math.max(Math.hypot(u, v), 1e-4);
+	return [u / across, v / across, 0];
+}
+
+/** Linear between tables' knots and, in log β, between their radii. @param x 0..16 */
+function lookUp(table: readonly (readonly number[])[], x: number, radius: number): number {
+	const place = Math.log2(radius) / 2;
+	const [b, i] = [Math.min(Math.floor(place), RADII.length - 2), Math.min(Math.floor(x), KNOTS - 2)];
+	const along = (knots: readonly number[] = []) => (knots[i] ?? 0) + (x - i) * ((knots[i + 1] ?? 0) - (knots[i] ?? 0));
+	const [smaller, larger] = [along(table[b]), along(table[b + 1])];
+	return smaller + (place - b) * (larger - smaller);
+}
+
+/**
+ * b_q of a light: every curve's value, of which a slab has a weighted sum.
+ *
+ * @param height l·N, −1..1
+ * @param lean l·m of the light held on the horizon
+ * @param radius β of the body there
+ */
+export function curveValues({ even, along }: Curves, height: number, lean: number, radius: number): number[] {
+	const held = heldRadius(radius);
+	const x = height >= 0 ? 6 + 10 * Math.sqrt(height) : 6 * Math.max(1 + height / dipOf(held), 0);
+	return even.map((table, q) => lookUp(table, x, held) + lean * lookUp(along[q] ?? [], x, held));
+}
+
+/**
+ * Moments of a light of irradiance 1 from any direction for a slab.
+ *
+ * @param light unit vector in (T, B, N); of a fin (along the edge, across it, N)
+ * @param weights of the slab, or a fin's at its height
+ * @param fin whether φ takes the light along the edge and along the normal
+ */
+export function curvedMoments(
+	basis: Basis,
+	{ curves, way }: MeanCurves,
+	light: Direction,
+	weights: readonly number[],
+	radius: number,
+	fin = false,
+): number[] {
+	const [u, v, z] = heldLight(light);
+	// What of the lean is along u points to either side of a fin.
+	const lean = fin ? u * way[1] : u * way[0] + v * way[1];
+	const values = curveValues(curves, light[2], lean, radius);
+	const mean = weights.reduce((sum, weight, q) => sum + weight * (values[q] ?? 0), 0);
+	return evaluateBasis(basis, fin ? [u, z, v] : [u, v, z]).map((phi) => phi * mean);
+}
+
+/** Directions that stand for a part of the sphere each: rings between two heights, of equal steps of a root of it. */
+function* directions(radius: number): Generator<{ light: Direction; weight: number }> {
+	const [above, below, spokes] = [48, 24, 32];
+	const dip = dipOf(heldRadius(radius));
+	const step = (2 * Math.PI) / spokes;
+	for (let ring = 0; ring < above + below; ring++) {
+		const root = (ring + 0.5) / above;
+		const z = ring < above ? root * root : (-dip * (ring - above + 0.5)) / below;
+		const weight = step * (ring < above ? (2 * root) / above : dip / below);
+		const level = Math.sqrt(1 - z * z);
+		for (let spoke = 0; spoke < spokes; spoke++)
+			yield { light: [level * Math.cos(spoke * step), level * Math.sin(spoke * step), z], weight };
+	}
+}
+
+/** What a sky's light is found by, of one curve. */
+export interface CurveSky {
+	/** A row of 9 per coefficient: harmonics of the radiance → moments, light from below the horizon included. */
+	environment: number[][];
+	/** b_q·φ above the horizon as polynomials of degree 2, nine numbers per coefficient: see `PolynomialFit`. */
+	polynomials: number[][];
+}
+
+/**
+ * ∫b_q(ω)·φ(ω)·Y_j(ω)dω over all directions that tips see, and polynomials for light on bent hairs; one entry per curve. A
+ * slab's own are its weighted sum.
+ *
+ * @param radius β of the body as a whole
+ * @param fin as of `curvedMoments`; harmonics then are of (along the edge, N, across it)
+ */
+export function curveSkies(basis: Basis, { curves, way }: MeanCurves, radius: number, fin = false): CurveSky[] {
+	const count = basis.kind === 'ptm' ? 6 : basis.matrix.length;
+	const sums = curves.even.map(() => Array.from({ length: count }, () => new Array<number>(9).fill(0)));
+	const fits = curves.even.map(() => new PolynomialFit(count));
+	for (const { light, weight } of directions(radius)) {
+		const [u, v, z] = light;
+		const [hu, hv, hz] = heldLight(light);
+		const phi = evaluateBasis(basis, fin ? [hu, hz, hv] : [hu, hv, hz]);
+		const values = curveValues(curves, z, fin ? hu * way[1] : hu * way[0] + hv * way[1], radius);
+		const y = fin ? harmonics(u, z, v) : harmonics(u, v, z);
+		for (const [q, value] of values.entries()) {
+			for (let c = 0; c < count; c++) {
+				const strength = value * weight * (phi[c] ?? 0);
+				const row = sums[q]?.[c] as number[];
+				for (let j = 0; j < 9; j++) row[j] = (row[j] as number) + strength * (y[j] as number);
+			}
+			if (z < 0) continue;
+			const bright = phi.map((of) => of * value);
+			fits[q]?.add(light, bright, weight / (2 * Math.PI));
+		}
+	}
+	return sums.map((environment, q) => ({ environment, polynomials: fits[q]?.rows(fin) ?? [] }));
+}

@@ -1,0 +1,77 @@
+// Mean curves, format 2.x: how bright a slab is on the mean under a light from any direction, below its horizon too. A
+// texel's light is its coefficients' sum times its slab's curve, a weighted sum of up to four that all slabs share.
+
+uniform sampler2D curveTable; // RGBA = curves; X = 17 knots along the light's height, Y = the part without azimuth at β = 1, 4, 16, then that along the lean
+uniform highp sampler2D slabLight; // a row per slab, of one state after the other: see below
+
+// Texels of a row. Coefficients 0..2 (low) and 3..5 (high) have a texel each.
+#define WEIGHTS 0 // of the curves
+#define HARMONICS0_LOW 1 // spherical harmonics 0..3 of the radiance → moments
+#define HARMONICS0_HIGH 4
+#define HARMONICS1_LOW 7 // harmonics 4..7
+#define HARMONICS1_HIGH 10
+#define HARMONIC2_LOW 13 // harmonic 8, three coefficients
+#define HARMONIC2_HIGH 14
+#define POLYNOMIALS 15 // curve times φ above the horizon as polynomials: three texels each for (u², v², uv), (u, v, 1), (w, uw, vw), low, then high
+
+vec4 ofRow(int row, int texel) {
+#ifdef WET
+	int below = stateBelow(vPlace);
+	row += below * LAYERS;
+	vec4 drier = texelFetch(slabLight, ivec2(texel, row), 0);
+	return mix(drier, texelFetch(slabLight, ivec2(texel, row + LAYERS), 0), clamp(vPlace - float(below), 0.0, 1.0));
+#else
+	return texelFetch(slabLight, ivec2(texel, row), 0);
+#endif
+}
+
+vec4 ofSlab(FurPoint point, int texel) {
+#ifdef FIN
+	int row = int(point.slab);
+	return mix(ofRow(row, texel), ofRow(min(row + 1, LAYERS - 1), texel), point.slab - float(row));
+#else
+	return ofRow(int(point.slab + 0.5), texel);
+#endif
+}
+
+mat3 threeOfSlab(FurPoint point, int texel) {
+	return mat3(ofSlab(point, texel).xyz, ofSlab(point, texel + 1).xyz, ofSlab(point, texel + 2).xyz);
+}
+
+#define ENVIRONMENT(texel) mat3x4(ofSlab(point, texel), ofSlab(point, texel + 1), ofSlab(point, texel + 2))
+#define ENVIRONMENT_LOW0 ENVIRONMENT(HARMONICS0_LOW)
+#define ENVIRONMENT_HIGH0 ENVIRONMENT(HARMONICS0_HIGH)
+#define ENVIRONMENT_LOW1 ENVIRONMENT(HARMONICS1_LOW)
+#define ENVIRONMENT_HIGH1 ENVIRONMENT(HARMONICS1_HIGH)
+#define ENVIRONMENT_LOW2 ofSlab(point, HARMONIC2_LOW).xyz
+#define ENVIRONMENT_HIGH2 ofSlab(point, HARMONIC2_HIGH).xyz
+#define POLYNOMIAL_LOW(part) threeOfSlab(point, POLYNOMIALS + 3 * part)
+#define POLYNOMIAL_HIGH(part) threeOfSlab(point, POLYNOMIALS + 9 + 3 * part)
+
+// β of the body towards a light (Euler's formula), in lengths of the hair; the mean of all azimuths where it is upright.
+float radiusTowards(FurPoint point, vec3 lightTS) {
+	vec2 way = vec2(lightTS.x, lightTS[LEVEL]);
+	vec3 bend = point.curvature;
+	float level = dot(way, way), mean = 0.5 * (bend.x + bend.y);
+	float towards = bend.x * way.x * way.x + bend.y * way.y * way.y + 2.0 * bend.z * way.x * way.y;
+	return 1.0 / clamp((towards + 1e-3 * mean) / (level + 1e-3), 1.0 / 16.0, 1.0);
+}
+
+// How far below its horizon the hair's tip sees: −sin of that angle's lowest.
+float horizonDip(FurPoint point, float radius) {
+	return sqrt(2.0 * radius + 1.0) / (radius + 1.0);
+}
+
+// What Σ a·φ of the slab's texels is multiplied by; where it is nearly dark a little below 0, so that it stays a sum.
+// height: of the light over the horizon, −1..1. fade: share of the dip that is left, 1 above. lightTS: held on the horizon.
+float meanLight(FurPoint point, float height, float fade, float radius, vec3 lightTS) {
+	float x = height < 0.0 ? 6.0 * fade * fade : 6.0 + 10.0 * sqrt(height);
+	vec2 at = vec2((x + 0.5) / 17.0, 0.5 * log2(radius) + 0.5);
+#ifdef FIN
+	float along = leanTS().x * lightTS.x; // what the lean has across a fin points to either side
+#else
+	float along = dot(leanTS(), lightTS);
+#endif
+	vec4 curves = texture(curveTable, at / vec2(1.0, 6.0)) + along * texture(curveTable, vec2(at.x, (at.y + 3.0) / 6.0));
+	return dot(ofSlab(point, WEIGHTS), curves);
+}
