@@ -1,6 +1,6 @@
 /** What the bench measures, as the page hands it on; `results` has the shape that other people's scripts rely on. */
 
-/** What a shell may be lit by. `ptm-colour` is the paper's own form, with a third fetch for the texel's colour. */
+/** What a shell may be lit by. `ptm-colour` is the paper's own form, with a third fetch for the texel's colour and without mean curves. */
 export const METHODS = ['unlit', 'lengyel', 'shadow-layers', 'ptm', 'ptm3', 'ptm-colour'] as const;
 export type Method = (typeof METHODS)[number];
 

@@ -17,7 +17,7 @@ const methods: Record<Method, string> = {
 	'shadow-layers': 'shadow layers',
 	ptm: 'PTM',
 	ptm3: 'PTM, 3 numbers',
-	'ptm-colour': 'PTM with colours, 3 fetches',
+	'ptm-colour': 'PTM as in the article: colours, no mean curves',
 };
 
 /** Names as the figures have them. */

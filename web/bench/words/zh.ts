@@ -18,7 +18,7 @@ const methods: Record<Method, string> = {
 	'shadow-layers': '层状阴影图',
 	ptm: 'PTM',
 	ptm3: 'PTM，3 个系数',
-	'ptm-colour': '带颜色的 PTM，取 3 次纹理',
+	'ptm-colour': '论文原式 PTM：带颜色，无平均曲线',
 };
 
 export const zh: Words = {

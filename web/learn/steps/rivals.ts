@@ -1,7 +1,7 @@
-/** Step 8: the same fur by four means of light, and Table 1 measured by the machine in front of the reader. */
+/** Step 8: the same fur by five means of light, and Table 1 measured by the machine in front of the reader. */
 
 import type { Fur, MethodName } from '../../fur/index.ts';
-import { furMethod } from '../../fur/index.ts';
+import { dress, furMethod } from '../../fur/index.ts';
 import { ARTICLE, type Table1Row } from '../../measure/results.ts';
 import { loadFurry, reach } from '../assets.ts';
 import { action, controlRow, note, pane, panes } from '../controls.ts';
@@ -11,23 +11,36 @@ import { View, type ViewOptions } from '../view.ts';
 const MODEL = 'torus-4608';
 const SHELLS = 16;
 const METHODS = ['unlit', 'lengyel', 'shadow-layers', 'ptm'] as const satisfies MethodName[];
+/** With texels in the article's own form: colours, and no mean curves. */
+const ARTICLE_FORM = 'torus-512-colour';
 
 export const mount: Mount = async (place, lesson) => {
-	const furry = await loadFurry(MODEL, lesson);
-	pictures(place, lesson, furry.fur, reach(furry)).add(furry.object);
+	const [furry, article] = await Promise.all([loadFurry(MODEL, lesson), loadFurry(ARTICLE_FORM, lesson)]);
+	pictures(place, lesson, furry.fur, dress(furry.fur, article.fur), reach(furry)).add(furry.object);
 	table(place, lesson);
 };
 
-function pictures(place: HTMLElement, lesson: Lesson, fur: Fur, around: Pick<ViewOptions, 'centre' | 'radius'>): View {
+/** @param article the same body in the article's form of texels */
+function pictures(
+	place: HTMLElement,
+	lesson: Lesson,
+	fur: Fur,
+	article: Fur,
+	around: Pick<ViewOptions, 'centre' | 'radius'>,
+): View {
 	const words = lesson.words.rivals;
-	const row = panes(place, METHODS.length);
-	fur.shells.shellCount = SHELLS;
-	if (fur.fins) fur.fins.visible = false;
-	const own = { gloss: 0, backlight: 0 };
-	Object.assign(fur.shells.material, own);
+	for (const { shells, fins } of [fur, article]) {
+		shells.shellCount = SHELLS;
+		if (fins) fins.visible = false;
+		Object.assign(shells.material, { gloss: 0, backlight: 0 });
+	}
+	const rivals = [
+		...METHODS.map((name) => ({ name, of: fur, method: furMethod(name, fur) })),
+		{ name: 'article' as const, of: article, method: furMethod('ptm', article) },
+	];
+	const row = panes(place, rivals.length);
 	let view: View | undefined;
-	for (const name of METHODS) {
-		const method = furMethod(name, fur);
+	for (const { name, of, method } of rivals) {
 		const { element, caption } = pane(row);
 		const options: ViewOptions = {
 			label: words.picture(words.methods[name].name),
@@ -37,6 +50,7 @@ function pictures(place: HTMLElement, lesson: Lesson, fur: Fur, around: Pick<Vie
 			zoom: 1.08,
 			...around,
 			before() {
+				for (const each of [fur, article]) each.shells.visible = each === of;
 				method.wear();
 				if (lesson.painter.renderer && view) method.before(lesson.painter.renderer, view.key);
 			},

@@ -59,6 +59,10 @@ export const en = {
 				costs: 'True shadow; the whole fur is drawn again from the lamp whenever it moves.',
 			},
 			ptm: { name: 'PTM', costs: 'True shadow; two fetches and one dot product, wherever the lamp is.' },
+			article: {
+				name: 'PTM as in the article',
+				costs: 'The polynomial alone, without mean curves; a third fetch for the hairs’ own colours.',
+			},
 		},
 		table: 'Table 1: frames per second, by triangles of the body; 16 shells, light moving',
 		article: 'The article, 2009',

@@ -46,6 +46,7 @@ export const zh: Words = {
 			lengyel: { name: 'Lengyel 局部光照', costs: '每根毛单独受光，每个片元取一次方向；阴影只按深浅估计。' },
 			'shadow-layers': { name: '层状阴影图', costs: '有真实阴影；光源一动，就要从光源处把全部毛发重画一遍。' },
 			ptm: { name: 'PTM', costs: '有真实阴影；无论光在何处，只需两次取样和一次点积。' },
+			article: { name: '论文原式 PTM', costs: '只用多项式，没有平均曲线；毛色另需第三次取样。' },
 		},
 		table: '表 1：不同三角形数下的帧率（帧/秒），16 层壳层，光源移动',
 		article: '论文（2009）',
