@@ -35,6 +35,8 @@ def square(cells: int, tiles: float, turn: float = 0.0, shift: tuple[float, floa
     return Ground(
         vertices=places,
         normals=np.tile([0.0, 0.0, 1.0], (count, 1)),
+        tangents=np.tile([1.0, 0.0, 0.0], (count, 1)),
+        bitangents=np.tile([0.0, 1.0, 0.0], (count, 1)),
         uv=uv,
         faces=faces,
         weight=np.ones(count),
@@ -54,7 +56,19 @@ def both(one: Ground, two: Ground) -> Ground:
     count, faces = len(one.vertices), len(one.faces)
     joined = {
         name: np.concatenate([getattr(one, name), getattr(two, name)])
-        for name in ("vertices", "normals", "uv", "weight", "reach", "comb", "tip", "colour", "shift")
+        for name in (
+            "vertices",
+            "normals",
+            "tangents",
+            "bitangents",
+            "uv",
+            "weight",
+            "reach",
+            "comb",
+            "tip",
+            "colour",
+            "shift",
+        )
     }
     return Ground(
         **joined,
