@@ -126,7 +126,7 @@ def build(
     for cell in cells:
         towards = frames @ cell.to_lamp
         towards /= np.linalg.norm(towards, axis=1, keepdims=True)
-        each.append(shares(lights, towards) * _visible(ground, body, cell.to_lamp)[:, None])
+        each.append(shares(lights, towards) * visible(ground, body, cell.to_lamp)[:, None])
     return Ceiling(samples, alpha, np.stack(each).astype(np.float32))
 
 
