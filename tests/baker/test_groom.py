@@ -273,7 +273,7 @@ def test_usd_holds_the_groom(tmp_path: Path, few: Groom) -> None:
     assert list(curves.GetCurveVertexCountsAttr().Get()) == [5, 5, 5]
     np.testing.assert_array_equal(np.array(curves.GetPointsAttr().Get()), few.points.reshape(-1, 3))
     np.testing.assert_array_equal(np.array(curves.GetWidthsAttr().Get()), 2 * few.radius.reshape(-1))
-    assert curves.GetBasisAttr().Get() == "bspline"
+    assert curves.GetBasisAttr().Get() == "catmullRom"
     assert [path.name for path in tmp_path.iterdir()] == ["g.usdc"]
 
 

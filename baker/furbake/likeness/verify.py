@@ -30,7 +30,7 @@ Progress = Callable[[str, float], None]
 METHODS = ("ptm", "ptm-bare", "lengyel", "shadow-layers", "unlit")
 """Ways to light the fur: its own with shadow map, without it, and its rivals."""
 
-SIZE, SPP = 480, 256
+SIZE, SPP = 360, 256
 """Pixels across, and paths per pixel."""
 
 STAGES = ("strands", "trace", "page")
