@@ -1,6 +1,8 @@
 from __future__ import annotations
 
 import json
+import os
+import shutil
 import subprocess
 import sys
 import warnings
@@ -362,3 +364,29 @@ class TestCeiling:
         np.testing.assert_allclose(
             found.white * linear[thick], np.moveaxis(found.samples[3:6], 0, -1)[thick], atol=0.02 * found.white
         )
+
+
+def test_the_page_draws_a_job(tmp_path: Path, tiny: BakeOptions) -> None:
+    """Through Node and a browser: a lit square of skin under fur whose hairs all have L = 1."""
+    browser = [shutil.which(name) for name in ("chromium", "chromium-browser", "google-chrome")]
+    if not (any(browser) or os.environ.get("FURBAKE_CHROMIUM")) or shutil.which("node") is None:
+        pytest.skip("needs Node and Chromium")
+    if not (page.TOOL.parents[2] / "node_modules").exists():
+        pytest.skip("needs the web wing: npm ci")
+    thick = replace(tiny.coat, guard=replace(tiny.coat.guard, count=900), under=replace(tiny.coat.under, count=900))
+    bake("plane:1x1", tmp_path / "a", replace(tiny, uv="own", fins=False, coat=thick))
+    eye = np.array([0.0, 6.0, 6.0])
+    wanted = [Cell("front", "lamp", eye, np.array([0.0, 1.0, 0.0]))]
+    seen = Frame(np.zeros(3), 0.7, float(np.linalg.norm(eye)), 48, 40)
+    shown = show(read_asset(tmp_path / "a"), 0.8, 0.0, seen, wanted, ["unlit", "ptm"])
+    skin = np.isfinite(shown.normal["front"][..., 0])
+    np.testing.assert_allclose(shown.normal["front"][skin], np.tile([0, 1, 0], (skin.sum(), 1)), atol=1e-5)
+    half = np.tan(np.radians(FIELD_OF_VIEW) / 2) * np.linalg.norm(eye) / 20  # of a pixel, model units
+    assert skin.sum() == pytest.approx(np.sqrt(0.5) / half**2, rel=0.1), "the square from 45 degrees"
+    rows, columns = np.nonzero(skin)
+    assert (rows.mean(), columns.mean()) == pytest.approx((19.5, 23.5), abs=1)
+    light, cover = (part["front-lamp", "unlit"] for part in (shown.light, shown.cover))
+    assert (cover[skin] > 0.99).all()
+    assert np.median(light[skin]) == pytest.approx(1, abs=0.03)
+    assert shown.light["front-lamp", "ptm"][skin].mean() > 0.1
+    assert not shown.feature["front"].any()
