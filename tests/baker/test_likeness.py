@@ -299,7 +299,8 @@ class TestWithMitsuba:
             assert one["methods"]["ptm"]["r"] == pytest.approx(1)
             assert one["outline"] == 1
         assert read_png(tmp_path / "p.png").shape == (3 * 30 + 2 * GAP, 3 * 36 + 2 * GAP, 3)
-        assert sum("| ptm |" in line for line in lines(found)) == 3
+        assert sum(line.startswith("| front-") for line in lines(found)) == 3
+        assert sum("brightness in the unit of L" in line for line in lines(found)) == 3
         again = list(kept)
         monkeypatch.setattr("furbake.likeness.verify.trace", lambda *given, **more: pytest.fail("traced again"))
         kept[:] = again
