@@ -27,7 +27,7 @@ FLOORS = {
     "pathtrace": {"pelt"},
     "verify": {"asset", "pelt", "options", "bake", "pathtrace"},
     "groom": {"asset", "pelt", "options", "groom"},
-    "likeness": {"asset", "pelt", "options", "pathtrace", "groom", "likeness"},
+    "likeness": {"asset", "pelt", "surface", "bake", "pathtrace", "groom", "likeness"},
     "compare": {"pelt", "options", "bake"},
     "halfway": {"pelt", "options", "bake", "verify"},
     "trim": {"pelt", "options", "bake", "verify"},

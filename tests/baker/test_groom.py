@@ -35,6 +35,8 @@ def square(cells: int, tiles: float, turn: float = 0.0, shift: tuple[float, floa
     return Ground(
         vertices=places,
         normals=np.tile([0.0, 0.0, 1.0], (count, 1)),
+        tangents=np.tile([1.0, 0.0, 0.0], (count, 1)),
+        bitangents=np.tile([0.0, 1.0, 0.0], (count, 1)),
         uv=uv,
         faces=faces,
         weight=np.ones(count),
@@ -54,7 +56,19 @@ def both(one: Ground, two: Ground) -> Ground:
     count, faces = len(one.vertices), len(one.faces)
     joined = {
         name: np.concatenate([getattr(one, name), getattr(two, name)])
-        for name in ("vertices", "normals", "uv", "weight", "reach", "comb", "tip", "colour", "shift")
+        for name in (
+            "vertices",
+            "normals",
+            "tangents",
+            "bitangents",
+            "uv",
+            "weight",
+            "reach",
+            "comb",
+            "tip",
+            "colour",
+            "shift",
+        )
     }
     return Ground(
         **joined,
@@ -259,7 +273,7 @@ def test_usd_holds_the_groom(tmp_path: Path, few: Groom) -> None:
     assert list(curves.GetCurveVertexCountsAttr().Get()) == [5, 5, 5]
     np.testing.assert_array_equal(np.array(curves.GetPointsAttr().Get()), few.points.reshape(-1, 3))
     np.testing.assert_array_equal(np.array(curves.GetWidthsAttr().Get()), 2 * few.radius.reshape(-1))
-    assert curves.GetBasisAttr().Get() == "bspline"
+    assert curves.GetBasisAttr().Get() == "catmullRom"
     assert [path.name for path in tmp_path.iterdir()] == ["g.usdc"]
 
 

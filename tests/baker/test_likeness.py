@@ -1,11 +1,14 @@
 from __future__ import annotations
 
 import json
+import os
+import shutil
 import subprocess
 import sys
 import warnings
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any, Self
 
 import numpy as np
@@ -19,6 +22,7 @@ from furbake.asset.validate import validate
 from furbake.bake import bake
 from furbake.groom.strands import Groom
 from furbake.likeness import page
+from furbake.likeness.ceiling import TOGETHER, directions, sampled_ceiling, shares, visible, write_passes
 from furbake.likeness.cells import FIELD_OF_VIEW, PLANS, Cell, Frame, cells, frame
 from furbake.likeness.figures import bins, figures, overlap, similarity
 from furbake.likeness.page import Shown, grey_copy, show
@@ -27,6 +31,8 @@ from furbake.likeness.tables import lines
 from furbake.likeness.truth import Scene, trace
 from furbake.likeness.verify import Options, verify_body
 from furbake.pathtrace import VerifyError
+from furbake.surface.mesh import Surface
+from furbake.surface.shapes import sphere as icosphere
 
 NEAR = Frame(np.zeros(3), 0.5, 10.0, 60, 50)
 
@@ -270,7 +276,9 @@ class TestWithMitsuba:
             kept.extend(trace(*given, **more))
             return kept
 
-        def shown(asset: Any, albedo: float, skin: float, seen: Frame, wanted: Any, methods: Any, step: Any) -> Shown:
+        def shown(
+            asset: Any, albedo: float, skin: float, seen: Frame, wanted: Any, methods: Any, step: Any, _ceiling: Any
+        ) -> Shown:
             normal = np.zeros((seen.height, seen.width, 3))
             normal[..., 2] = 1
             pairs = [(one.name, method) for one in wanted for method in methods]
@@ -291,7 +299,8 @@ class TestWithMitsuba:
             assert one["methods"]["ptm"]["r"] == pytest.approx(1)
             assert one["outline"] == 1
         assert read_png(tmp_path / "p.png").shape == (3 * 30 + 2 * GAP, 3 * 36 + 2 * GAP, 3)
-        assert sum("| ptm |" in line for line in lines(found)) == 3
+        assert sum(line.startswith("| front-") for line in lines(found)) == 3
+        assert sum("brightness in the unit of L" in line for line in lines(found)) == 3
         again = list(kept)
         monkeypatch.setattr("furbake.likeness.verify.trace", lambda *given, **more: pytest.fail("traced again"))
         kept[:] = again
@@ -302,3 +311,83 @@ def test_missing_mitsuba_says_what_to_install(tmp_path: Path, monkeypatch: pytes
     monkeypatch.setitem(sys.modules, "mitsuba", None)
     with pytest.raises(VerifyError, match=r"pip install 'furbake\[verify\]'"):
         verify_body(tmp_path)
+
+
+class TestCeiling:
+    def test_shares_bring_smooth_light_back(self) -> None:
+        """Of a function of the direction that is known between the lights, too."""
+        lights = directions(0.02)
+        assert len(lights) % TOGETHER == 0
+        chance = np.random.default_rng(0)
+        towards = chance.normal(size=(500, 3))
+        towards /= np.linalg.norm(towards, axis=1, keepdims=True)
+        each = shares(lights, towards)
+        above = towards[:, 2] > 0.02
+        np.testing.assert_allclose(each.sum(axis=1), above, atol=1e-5)
+        assert ((each > 0).sum(axis=1) <= 3).all()
+
+        def light(d: np.ndarray) -> np.ndarray:
+            return 1 + d[:, 2] + 0.5 * d[:, 0] * d[:, 1]
+
+        np.testing.assert_allclose((each @ light(lights))[above], light(towards[above]), atol=0.06)
+
+    def test_one_part_of_a_body_shades_another_and_not_itself(self) -> None:
+        """A ball far behind hides the lamp; the ground's own ball does not, however low the lamp is."""
+        ball = icosphere()
+        whole = Surface(
+            np.concatenate([ball.vertices, ball.vertices + np.array([5.0, 0, 0])]),
+            np.concatenate([ball.faces, ball.faces + len(ball.vertices)]),
+            np.concatenate([ball.normals, ball.normals]),
+        )
+        alone = Surface(ball.vertices, ball.faces, ball.normals)
+        ground = SimpleNamespace(vertices=ball.vertices, normals=ball.normals, reach=np.full(len(ball.vertices), 0.1))
+        lamp = np.array([1.0, 0, 0])
+        lit = ball.normals[:, 0] > -0.1
+        np.testing.assert_array_equal(visible(ground, alone, lamp)[lit], 1)
+        assert visible(ground, whole, lamp)[ball.normals[:, 0] > 0.7].max() == 0
+
+    def test_a_pass_is_an_asset_of_three_directions(self, tmp_path: Path, tiny: BakeOptions) -> None:
+        bake("plane:2x2", tmp_path / "a", replace(tiny, uv="own"))
+        asset = read_asset(tmp_path / "a")
+        (tmp_path / "grey").mkdir()
+        grey_copy(asset, tmp_path / "grey", 0.8, 0.2)
+        found = sampled_ceiling(asset, [cell((0.2, 0.9, 0.3))])
+        assert found.shares.shape == (1, 9, len(directions()))
+        np.testing.assert_allclose(found.shares.sum(axis=2), 1, atol=1e-5)
+        write_passes(found, tmp_path / "grey", tmp_path / "passes")
+        assert len(list((tmp_path / "passes").glob("*.f32"))) == found.passes
+        copy = read_asset(tmp_path / "passes" / "01")
+        texels = read_pelt(copy)
+        assert texels.colour is not None
+        stored = (texels.colour / 255.0 + 0.055) / 1.055
+        linear = np.where(texels.colour / 255.0 <= 0.04045, texels.colour / 255.0 / 12.92, stored**2.4)
+        thick = found.alpha > 0.2
+        np.testing.assert_allclose(
+            found.white * linear[thick], np.moveaxis(found.samples[3:6], 0, -1)[thick], atol=0.02 * found.white
+        )
+
+
+def test_the_page_draws_a_job(tmp_path: Path, tiny: BakeOptions) -> None:
+    """Through Node and a browser: a lit square of skin under fur whose hairs all have L = 1."""
+    browser = [shutil.which(name) for name in ("chromium", "chromium-browser", "google-chrome")]
+    if not (any(browser) or os.environ.get("FURBAKE_CHROMIUM")) or shutil.which("node") is None:
+        pytest.skip("needs Node and Chromium")
+    if not (page.TOOL.parents[2] / "node_modules").exists():
+        pytest.skip("needs the web wing: npm ci")
+    thick = replace(tiny.coat, guard=replace(tiny.coat.guard, count=900), under=replace(tiny.coat.under, count=900))
+    bake("plane:1x1", tmp_path / "a", replace(tiny, uv="own", fins=False, coat=thick))
+    eye = np.array([0.0, 6.0, 6.0])
+    wanted = [Cell("front", "lamp", eye, np.array([0.0, 1.0, 0.0]))]
+    seen = Frame(np.zeros(3), 0.7, float(np.linalg.norm(eye)), 48, 40)
+    shown = show(read_asset(tmp_path / "a"), 0.8, 0.0, seen, wanted, ["unlit", "ptm"])
+    skin = np.isfinite(shown.normal["front"][..., 0])
+    np.testing.assert_allclose(shown.normal["front"][skin], np.tile([0, 1, 0], (skin.sum(), 1)), atol=1e-5)
+    half = np.tan(np.radians(FIELD_OF_VIEW) / 2) * np.linalg.norm(eye) / 20  # of a pixel, model units
+    assert skin.sum() == pytest.approx(np.sqrt(0.5) / half**2, rel=0.1), "the square from 45 degrees"
+    rows, columns = np.nonzero(skin)
+    assert (rows.mean(), columns.mean()) == pytest.approx((19.5, 23.5), abs=1)
+    light, cover = (part["front-lamp", "unlit"] for part in (shown.light, shown.cover))
+    assert (cover[skin] > 0.99).all()
+    assert np.median(light[skin]) == pytest.approx(1, abs=0.03)
+    assert shown.light["front-lamp", "ptm"][skin].mean() > 0.1
+    assert not shown.feature["front"].any()

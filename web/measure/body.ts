@@ -1,6 +1,7 @@
 /** A furry body as the page shows it, for figures beside a path tracer's: one lamp, black surroundings, linear floats. */
 
 import {
+	BufferAttribute,
 	DirectionalLight,
 	FloatType,
 	Mesh,
@@ -42,6 +43,8 @@ export class BodyScene {
 	readonly #features: Mesh[] = [];
 	/** The body itself. */
 	readonly #skin: Mesh[] = [];
+	/** By cell: what passes have added. */
+	readonly #sums: Float32Array[] = [];
 
 	constructor(
 		readonly job: BodyJob,
@@ -74,11 +77,7 @@ export class BodyScene {
 		this.#look(eye);
 		const bare = method.endsWith(BARE);
 		const light = this.#lamp;
-		light.position
-			.set(...lamp)
-			.multiplyScalar(4 * this.job.radius)
-			.add(this.#centre);
-		fitShadow(light, new Sphere(this.#centre, this.job.radius + this.fur.asset.length), this.fur.asset.length);
+		this.#aim(lamp);
 		light.castShadow = !bare;
 		const name = (bare ? method.slice(0, -BARE.length) : method) as MethodName;
 		// Without a lamp: a hair is as bright as one with L = 1.
@@ -89,6 +88,52 @@ export class BodyScene {
 		const pixels = this.#render();
 		worn.dispose();
 		return pairs(pixels);
+	}
+
+	/**
+	 * Adds a pass of the samples' own composite to all cells: texels whose red, green and blue are the light of three
+	 * directions, on vertices whose colour is the share of each.
+	 */
+	async addPass(number: number): Promise<void> {
+		const name = `/baked/passes/${String(number).padStart(2, '0')}`;
+		const [fur, shares] = await Promise.all([loadFur(`${name}/model.gltf`), fetchFloats(`${name}.f32`)]);
+		const black = new MeshBasicMaterial({ color: 0 });
+		const before = this.#skin.map(({ material }) => material);
+		// The light of the skin is added once.
+		if (number > 0) for (const piece of this.#skin) piece.material = black;
+		Object.assign(fur.material, { tipShare: 0 });
+		fur.material.skinColour.set(1, 1, 1);
+		const worn = furMethod('unlit', fur, { brightness: 1 });
+		worn.wear();
+		this.#show(false);
+		this.#scene.add(fur.shells);
+		const count = shares.length / this.job.cells.length;
+		for (const [i, { eye, lamp }] of this.job.cells.entries()) {
+			this.#look(eye);
+			this.#aim(lamp);
+			const colour = new BufferAttribute(shares.slice(i * count, (i + 1) * count), 3);
+			fur.shells.geometry.setAttribute('color', colour);
+			this.#scene.updateMatrixWorld(true);
+			const pixels = this.#render();
+			const sum = this.#sums[i] ?? new Float32Array(pixels.length / 2);
+			this.#sums[i] = sum;
+			for (let at = 0; at < sum.length; at += 2) {
+				const [red = 0, green = 0, blue = 0, alpha = 0] = pixels.subarray(2 * at, 2 * at + 4);
+				sum[at] = (sum[at] ?? 0) + this.job.brightest * (red + green + blue);
+				sum[at + 1] = alpha;
+			}
+		}
+		this.#scene.remove(fur.shells);
+		worn.dispose();
+		fur.dispose();
+		for (const [i, piece] of this.#skin.entries()) piece.material = before[i] as Mesh['material'];
+		black.dispose();
+		this.#show(true);
+	}
+
+	/** As from `draw`: all passes so far. */
+	composite(cell: number): Float32Array {
+		return this.#sums[cell] ?? new Float32Array();
 	}
 
 	/** Rows from the bottom, four numbers a pixel: the skin's normal, and 1 where it is hit. */
@@ -122,6 +167,20 @@ export class BodyScene {
 		this.#camera.lookAt(this.#centre);
 	}
 
+	#aim(lamp: BodyCell['lamp']): void {
+		const { radius } = this.job;
+		this.#lamp.position
+			.set(...lamp)
+			.multiplyScalar(4 * radius)
+			.add(this.#centre);
+		fitShadow(this.#lamp, new Sphere(this.#centre, radius + this.fur.asset.length), this.fur.asset.length);
+	}
+
+	/** Shows the fur, or the skin alone. */
+	#show(on: boolean): void {
+		for (const part of [this.fur.shells, this.fur.fins]) if (part) part.visible = on;
+	}
+
 	#render(): Float32Array {
 		return renderFloats(this.#renderer, this.#scene, this.#camera, this.#target);
 	}
@@ -129,12 +188,11 @@ export class BodyScene {
 	/** Some pieces alone, in other materials, without fur. */
 	#plainly(cell: number, pieces: readonly Mesh[], dress: (piece: Mesh) => Mesh['material']): Float32Array {
 		this.#look((this.job.cells[cell] as BodyCell).eye);
-		const { shells, fins } = this.fur;
 		const before = pieces.map(({ material, visible }) => ({ material, visible }));
 		for (const piece of pieces) Object.assign(piece, { material: dress(piece), visible: true });
-		for (const part of [shells, fins]) if (part) part.visible = false;
+		this.#show(false);
 		const pixels = this.#render();
-		for (const part of [shells, fins]) if (part) part.visible = true;
+		this.#show(true);
 		for (const [i, piece] of pieces.entries()) Object.assign(piece, before[i]);
 		return pixels;
 	}
@@ -143,6 +201,10 @@ export class BodyScene {
 /** @param url of an asset's model.gltf */
 export async function openBody(url: string, job: BodyJob): Promise<BodyScene> {
 	return new BodyScene(job, await loadFur(url));
+}
+
+async function fetchFloats(url: string): Promise<Float32Array> {
+	return new Float32Array(await (await fetch(url)).arrayBuffer());
 }
 
 /** Mean of red, green and blue, and alpha. */

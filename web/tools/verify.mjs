@@ -36,8 +36,14 @@ async function drawJob(folder) {
 			}
 			views.add(view);
 			for (const method of job.methods) await write(`draw(${i}, '${method}')`, `${name}.${method}`);
-			say(`page ${i + 1}/${job.cells.length}`);
+			say(`page ${i + 1}/${job.cells.length + job.passes}`);
 		}
+		for (let number = 0; number < job.passes; number++) {
+			await page.evaluate(`body.addPass(${number})`);
+			say(`page ${job.cells.length + number + 1}/${job.cells.length + job.passes}`);
+		}
+		if (job.passes > 0)
+			for (const [i, { name }] of job.cells.entries()) await write(`composite(${i})`, `${name}.samples`);
 	});
 }
 

@@ -13,8 +13,6 @@ from furbake.groom.strands import Groom
 
 ENDINGS = (".npz", ".usdc", ".usda", ".usd")
 
-TEMPORARY = ".part.usdc"
-
 
 class GroomError(ValueError):
     """A groom that cannot be written; one sentence that says why, and what would help."""
@@ -24,8 +22,9 @@ def write_groom(path: Path, groom: Groom) -> None:
     """Write a groom, whole or not at all. Raises GroomError for another ending, or where usd-core is missing.
 
     A `.npz` holds what `Groom` does, under the same names: points (S, P, 3) and radius (S, P) in model units, tint
-    (S, P), colour (S, P, 3) linear, hair (S,) and face (S,). A `.usdc` (or `.usda`, `.usd`) holds one cubic B-spline a
-    hair, pinned at both ends, with widths, displayColor and the tint as `primvars:tint`; y is up.
+    (S, P), colour (S, P, 3) linear, hair (S,) and face (S,). A `.usdc` (or `.usda`, `.usd`) holds BasisCurves `/fur`,
+    a Catmull-Rom spline through the points of each hair, with widths, displayColor and the tint as `primvars:tint`; y
+    is up.
     """
     ending = path.suffix.lower()
     if ending not in ENDINGS:
@@ -47,7 +46,7 @@ def _write_usd(path: Path, groom: Groom) -> None:
         curves = geometry.BasisCurves.Define(stage, "/fur")
         stage.SetDefaultPrim(curves.GetPrim())
         curves.CreateTypeAttr(geometry.Tokens.cubic)
-        curves.CreateBasisAttr(geometry.Tokens.bspline)
+        curves.CreateBasisAttr(geometry.Tokens.catmullRom)
         curves.CreateWrapAttr(geometry.Tokens.pinned)
         curves.CreateCurveVertexCountsAttr(values.IntArray.FromNumpy(np.full(count, length, np.int32)))
         points = groom.points.reshape(-1, 3)

@@ -19,7 +19,8 @@ Ints = NDArray[np.int64]
 class Ground:
     """Shells of a fur, M vertices, every face repeated in each patch that covers it.
 
-    vertices : (M, 3) model units; normals : (M, 3) unit
+    vertices : (M, 3) model units
+    normals, tangents, bitangents : (M, 3) unit; u grows along the second, v along the third
     uv : (M, 2) tiles
     faces : (F, 3)
     weight : (M,) 0..1, share of each copy where patches overlap
@@ -35,6 +36,8 @@ class Ground:
 
     vertices: Floats
     normals: Floats
+    tangents: Floats
+    bitangents: Floats
     uv: Floats
     faces: Ints
     weight: Floats
@@ -96,7 +99,9 @@ def unit(vectors: Floats) -> Floats:
 def _placed(asset: Asset, node: int, position: int) -> Floats:
     """(n, 3) an accessor of positions where the node puts them."""
     place = asset.document["nodes"][node]
-    scale, offset = (np.array(place.get(name, [one] * 3), np.float64) for name, one in (("scale", 1), ("translation", 0)))
+    scale, offset = (
+        np.array(place.get(name, [one] * 3), np.float64) for name, one in (("scale", 1), ("translation", 0))
+    )
     return np.asarray(_turned(asset, node, number(asset, position) * scale) + offset)
 
 
@@ -129,6 +134,8 @@ def _ground(asset: Asset, base: tuple[float, float, float]) -> Ground:
     return Ground(
         vertices=vertices,
         normals=_turned(asset, node, normals),
+        tangents=_turned(asset, node, along),
+        bitangents=_turned(asset, node, across),
         uv=uv,
         faces=faces,
         weight=traits[:, 0],

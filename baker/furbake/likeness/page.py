@@ -18,11 +18,15 @@ from numpy.typing import NDArray
 
 from furbake.asset.planes import read_png, write_png
 from furbake.asset.read import Asset, inside
+from furbake.likeness.ceiling import Ceiling, write_passes
 from furbake.likeness.cells import FIELD_OF_VIEW, Cell, Floats, Frame
 from furbake.pathtrace import VerifyError
 
 TOOL = Path(__file__).resolve().parents[3] / "web" / "tools" / "verify.mjs"
 """What draws: in furbake's own repository, not in the Python package."""
+
+SAMPLES = "samples"
+"""Method whose light is that of the samples themselves."""
 
 TINT = 3
 """Channel of a second plane that has the hairs' shade."""
@@ -51,10 +55,12 @@ def show(
     cells: Sequence[Cell],
     methods: Sequence[str],
     step: Callable[[float], None] = lambda fraction: None,
+    ceiling: Ceiling | None = None,
 ) -> Shown:
     """The pictures of all cells by all methods. Raises VerifyError where there is no Node, no browser or a failure.
 
     albedo, skin : as of the tracer's hairs and skin
+    ceiling : passes of a further method, `SAMPLES`
     """
     with TemporaryDirectory(prefix="furbake-") as scratch:
         folder = Path(scratch)
@@ -72,10 +78,14 @@ def show(
                 for cell in cells
             ],
             "methods": list(methods),
+            "passes": 0 if ceiling is None else ceiling.passes,
+            "brightest": 0.0 if ceiling is None else ceiling.white,
         }
+        if ceiling is not None:
+            write_passes(ceiling, folder / "baked", folder / "baked" / "passes")
         (folder / "job.json").write_text(json.dumps(job), "utf-8")
         _draw(folder, step)
-        return _read(folder, seen, cells, methods)
+        return _read(folder, seen, cells, methods if ceiling is None else (*methods, SAMPLES))
 
 
 def grey_copy(asset: Asset, folder: Path, albedo: float, skin: float) -> None:

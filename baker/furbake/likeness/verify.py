@@ -17,9 +17,10 @@ import numpy as np
 from furbake.asset.read import read_asset
 from furbake.groom.ground import read_skin
 from furbake.groom.strands import groom, recorded
+from furbake.likeness.ceiling import sampled_ceiling
 from furbake.likeness.cells import PLANS, Cell, Floats, Frame, cells, frame
 from furbake.likeness.figures import correlation, figures, overlap
-from furbake.likeness.page import Shown, show
+from furbake.likeness.page import SAMPLES, Shown, show
 from furbake.likeness.sheet import write_sheets
 from furbake.likeness.truth import Scene, Traced, trace
 from furbake.pathtrace import VerifyError, load
@@ -29,7 +30,7 @@ Progress = Callable[[str, float], None]
 METHODS = ("ptm", "ptm-bare", "lengyel", "shadow-layers", "unlit")
 """Ways to light the fur: its own with shadow map, without it, and its rivals."""
 
-SIZE, SPP = 480, 256
+SIZE, SPP = 360, 256
 """Pixels across, and paths per pixel."""
 
 STAGES = ("strands", "trace", "page")
@@ -43,6 +44,7 @@ class Options:
     """How the comparison is made.
 
     plan : of `PLANS`, None: by the model; methods : some of `METHODS`; size : pixels across; spp : paths per pixel
+    ceiling : whether the samples' own composite is drawn, too, as the last method: what shells show without any fit
     truth : file that keeps what was traced, for the next time the same strands are seen
     """
 
@@ -50,6 +52,7 @@ class Options:
     methods: tuple[str, ...] = METHODS
     size: int = SIZE
     spp: int = SPP
+    ceiling: bool = False
     truth: Path | None = None
 
     def check(self) -> None:
@@ -92,18 +95,27 @@ def verify_body(
     strands = groom(folder, lambda stage, fraction: progress("strands", fraction * (0.5 if stage == "roots" else 1)))
     scene = Scene(strands, vertices, faces, coat.albedo, coat.skin)
     traced = _traced(scene, seen, wanted, options, lambda fraction: progress("trace", fraction))
+    ceiling = sampled_ceiling(asset, wanted) if options.ceiling else None
     shown = show(
-        asset, coat.albedo, coat.skin, seen, wanted, options.methods, lambda fraction: progress("page", fraction)
+        asset,
+        coat.albedo,
+        coat.skin,
+        seen,
+        wanted,
+        options.methods,
+        lambda fraction: progress("page", fraction),
+        ceiling,
     )
+    methods = (*options.methods, SAMPLES) if options.ceiling else options.methods
     if picture is not None:
-        write_sheets(picture, shown, traced, wanted, options.methods)
+        write_sheets(picture, shown, traced, wanted, methods)
     return {
         "model": str(asset.record.get("input", {}).get("name")),
         "hairs": len(strands.points),
         "plan": name,
         "size": [seen.width, seen.height],
         "spp": options.spp,
-        "cells": [_cell(cell, shown, one, options.methods) for cell, one in zip(wanted, traced, strict=True)],
+        "cells": [_cell(cell, shown, one, methods) for cell, one in zip(wanted, traced, strict=True)],
     }
 
 
