@@ -29,6 +29,44 @@ test("wet, dry and muddy fur is as bright as numpy's mix of the states' bytes", 
 	for (const error of worst) expect(error).toBeLessThanOrEqual(1e-3);
 });
 
+test("each state's weights of the mean curves are mixed as its texels are", async ({ page }) => {
+	const { lights, weathers } = JSON.parse(await readFile(`${repository}${STATES}/weather.json`, 'utf8'));
+	const expected = await readFloats(`${STATES}/weather.f32`);
+	const gltf = JSON.parse(await readFile(`${repository}${STATES}/model.gltf`, 'utf8'));
+	const fur = gltf.extensions.FUR_ptm_shells;
+	// A curve that is 1 above the horizon: what states of 1.x are, times a weight that each has of its own.
+	const knots = Array.from({ length: 17 }, (_, x) => Math.min(x / 6, 1));
+	fur.curves = { even: [[knots, knots, knots]], along: [[0, 0, 0].map(() => knots.map(() => 0))] };
+	const shares = [1, 0.5, 1.2, 0.8, 1];
+	for (const [i, pelt] of fur.pelts.entries()) {
+		pelt.weights = [0, 1, 2, 3].map(() => [shares[i]]);
+		delete pelt.fin.environment;
+	}
+	delete fur.environment;
+	fur.version = '2.0';
+	await page.route('**/states/model.gltf', (route) => route.fulfill({ json: gltf }));
+	const radiance = floats(
+		await page.evaluate(([u, l, w]) => loaded.weathers(u, l, w), [url, lights, weathers] as const),
+	);
+	const each = expected.length / weathers.length;
+	const texels = each / lights.length;
+	let worst = 0;
+	radiance.forEach((value, i) => {
+		if ((lights[Math.floor((i % each) / texels)]?.[2] ?? -1) < 0) return;
+		const { wetness } = weathers[Math.floor(i / each)];
+		const steps = [0, 0.5, 0.75, 1];
+		const upper = Math.max(
+			steps.findIndex((step) => step >= wetness),
+			1,
+		);
+		const [from = 0, to = 1] = [steps[upper - 1], steps[upper]];
+		const part = (wetness - from) / (to - from);
+		const share = (shares[upper - 1] ?? 0) * (1 - part) + (shares[upper] ?? 0) * part;
+		worst = Math.max(worst, Math.abs(value - share * (expected[i] ?? Number.NaN)));
+	});
+	expect(worst).toBeLessThan(2e-3);
+});
+
 test('dry fur is drawn as if there were no weather; a light tier holds two states, and draws the same', async ({
 	page,
 }) => {

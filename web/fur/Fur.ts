@@ -1,10 +1,9 @@
 import { BufferGeometry, type Color, Object3D, Scene, type Texture } from 'three';
 import type { Columns } from './clip.ts';
-import { BodyCurvature } from './curvature.ts';
 import { FinMaterial } from './FinMaterial.ts';
 import { FurMaterial } from './FurMaterial.ts';
 import type { FurWeather } from './FurWeather.ts';
-import { cutFins, FurFins } from './fins.ts';
+import { FurFins } from './fins.ts';
 import { Follicles } from './follicles.ts';
 import type { FurAsset, Pelt } from './format.ts';
 import type { FurTextures } from './PeltMaterial.ts';
@@ -26,9 +25,6 @@ export interface Ground {
 	/** What the fins' second texture coordinate is multiplied by to be 1 at their tips. */
 	finHeights: number;
 }
-
-/** Strips that fins are cut into, where light changes along their height. */
-const STRIPS = 4;
 
 /** Which weather a fur can show. */
 export interface HasStates {
@@ -80,31 +76,15 @@ export class Fur {
 		this.material = new FurMaterial(asset, textures, { skinColour: colour.clone() });
 		this.fins =
 			fin && quads && finTextures
-				? new FurFins(
-						asset.curves ? cutFins(quads, STRIPS) : quads,
-						new FinMaterial(fin, finTextures, this.material, { finHeights }),
-					)
+				? new FurFins(quads, new FinMaterial(fin, finTextures, this.material, { finHeights }))
 				: undefined;
 		this.shells = new FurShells(surface, placement, asset, this.material);
 		this.fins?.join(this.shells, quadPlacement ?? this.shells);
-		if (asset.curves) this.#bend();
 		this.#parts.name = 'fur of a body';
 		for (const part of [this.fins, this.shells]) if (part) this.#parts.add(part);
 		this.skin.parent?.add(this.#parts);
 		skin.cover(asset);
 		pelt.join(this.#stain);
-	}
-
-	/** Has lamps and sky go below the horizon of the surface's own curvature. */
-	#bend(): void {
-		const curvature = BodyCurvature.of(this.shells.geometry);
-		curvature.mark(this.shells.geometry);
-		if (this.fins) curvature.mark(this.fins.geometry, -1);
-		this.#settle(curvature);
-	}
-
-	#settle(curvature = BodyCurvature.of(this.shells.geometry)): void {
-		if (this.asset.curves) this.material.bodyRadius = curvature.typicalRadius(this.material.furLength);
 	}
 
 	/** Whether it is seen, and the skin as dark as below it: of several furs of a body below the one that was shown last. */
@@ -128,7 +108,6 @@ export class Fur {
 		this.material.trim = Math.min(share, 1);
 		this.shells.furLength = share * this.asset.length;
 		this.fins?.fit(this.shells);
-		this.#settle();
 	}
 
 	/**

@@ -45,7 +45,7 @@ export class PeltMaterial extends ShaderMaterial {
 	readonly #texels: Texels;
 	readonly #planes: readonly Texture[];
 	#trimLight: TrimLight | undefined;
-	/** Of format 2.x: mean curves of all slabs and states. */
+	/** Mean curves, and the dry pelt's weights of them, in format 2.x. */
 	readonly means: SlabMeanCurves | undefined;
 	readonly #slabLight: SlabLight | undefined;
 	/** Weights of the states that the textures hold. */

@@ -46,7 +46,7 @@ export class BodyCurvature {
 		const sums = new Float64Array(6 * this.#follicles.count);
 		const points = [0, 1, 2].map(() => ({ i: 0, position: new Vector3(), normal: new Vector3() }));
 		const [u, v, n] = [new Vector3(), new Vector3(), new Vector3()];
-		const [side, turn, across] = [new Vector3(), new Vector3(), new Vector3()];
+		const [side, turn, solved, squares] = [new Vector3(), new Vector3(), new Vector3(), new Matrix3()];
 		const [turned, beside] = [new Vector3(), new Vector3()];
 		for (let first = 0; first + 2 < corners; first += 3) {
 			for (const [c, point] of points.entries()) {
@@ -80,17 +80,12 @@ export class BodyCurvature {
 				q += y * du + x * dv;
 				r += y * dv;
 			}
-			const solved = across
-				.set(p, q, r)
-				.applyMatrix3(new Matrix3().set(aa, ab, 0, ab, aa + bb, ab, 0, ab, bb).invert());
-			const [l, m, k] = solved.toArray();
+			solved.set(p, q, r).applyMatrix3(squares.set(aa, ab, 0, ab, aa + bb, ab, 0, ab, bb).invert());
+			const { x: l, y: m, z: k } = solved;
 			for (const { i, normal } of points) {
 				turnInto(turned.copy(u), n, normal);
 				turnInto(beside.copy(v), n, normal);
-				add(sums, i, turned, turned, area * l);
-				add(sums, i, beside, beside, area * k);
-				add(sums, i, turned, beside, area * m);
-				add(sums, i, beside, turned, area * m);
+				addTensor(sums, i, turned, beside, area * l, area * m, area * k);
 				this.#areas[i] = (this.#areas[i] as number) + area;
 			}
 		}
@@ -100,33 +95,28 @@ export class BodyCurvature {
 	/** Takes the mean of each follicle's own tensor and that of its neighbours', turned into its tangent plane. */
 	#smooth(): void {
 		const { count, normal, first, links } = this.#follicles;
-		const before = this.#tensors;
-		const after = new Float64Array(before.length);
-		const [own, other] = [new Vector3(), new Vector3()];
-		const axes = [new Vector3(), new Vector3(), new Vector3()] as const;
-		const order = [
-			[0, 0, 0],
-			[1, 1, 1],
-			[2, 2, 2],
-			[0, 1, 3],
-			[1, 0, 3],
-			[0, 2, 4],
-			[2, 0, 4],
-			[1, 2, 5],
-			[2, 1, 5],
-		] as const;
+		const after = new Float64Array(this.#tensors.length);
+		const [own, other, t, b] = [new Vector3(), new Vector3(), new Vector3(), new Vector3()];
+		const [turned, beside] = [new Vector3(), new Vector3()];
 		for (let i = 0; i < count; i++) {
 			const [from, to] = [first[i] as number, first[i + 1] as number];
-			const share = to > from ? 0.5 : 1;
-			for (let j = 0; j < 6; j++) after[6 * i + j] = share * (before[6 * i + j] as number);
 			own.fromArray(normal, 3 * i);
+			t.set(own.y, own.z, -own.x).cross(own).normalize();
+			b.crossVectors(own, t);
+			const share = to > from ? 0.5 : 1;
+			let [tt, tb, bb] = [this.#along(i, t, t), this.#along(i, t, b), this.#along(i, b, b)].map(
+				(own) => share * own,
+			) as [number, number, number];
 			for (let link = from; link < to; link++) {
 				const j = links[link] as number;
 				other.fromArray(normal, 3 * j);
-				for (const [c, axis] of axes.entries()) turnInto(axis.set(0, 0, 0).setComponent(c, 1), other, own);
-				for (const [a, b, part] of order)
-					add(after, i, axes[a], axes[b], (0.5 / (to - from)) * (before[6 * j + part] as number));
+				turnInto(turned.copy(t), own, other);
+				turnInto(beside.copy(b), own, other);
+				tt += (0.5 / (to - from)) * this.#along(j, turned, turned);
+				tb += (0.5 / (to - from)) * this.#along(j, turned, beside);
+				bb += (0.5 / (to - from)) * this.#along(j, beside, beside);
 			}
+			addTensor(after, i, t, b, tt, tb, bb);
 		}
 		this.#tensors = after;
 	}
@@ -163,14 +153,14 @@ export class BodyCurvature {
 	}
 
 	#along(i: number, a: Vector3, b: Vector3): number {
-		const [xx, yy, zz, xy, xz, yz] = this.#tensors.subarray(6 * i, 6 * i + 6) as unknown as Six;
+		const part = (j: number) => this.#tensors[6 * i + j] as number;
 		return (
-			xx * a.x * b.x +
-			yy * a.y * b.y +
-			zz * a.z * b.z +
-			xy * (a.x * b.y + a.y * b.x) +
-			xz * (a.x * b.z + a.z * b.x) +
-			yz * (a.y * b.z + a.z * b.y)
+			part(0) * a.x * b.x +
+			part(1) * a.y * b.y +
+			part(2) * a.z * b.z +
+			part(3) * (a.x * b.y + a.y * b.x) +
+			part(4) * (a.x * b.z + a.z * b.x) +
+			part(5) * (a.y * b.z + a.z * b.y)
 		);
 	}
 
@@ -198,8 +188,6 @@ export class BodyCurvature {
 	}
 }
 
-type Six = [number, number, number, number, number, number];
-
 /** Turns a vector by the smallest rotation that takes one unit vector to another. */
 function turnInto(vector: Vector3, from: Vector3, to: Vector3): void {
 	const whole = 1 + from.dot(to);
@@ -209,16 +197,15 @@ function turnInto(vector: Vector3, from: Vector3, to: Vector3): void {
 	vector.addScaledVector(from, -along).addScaledVector(to, ahead - along);
 }
 
-/** Adds weight·a·bᵀ, of which the caller adds the transposed part too. */
-function add(tensors: Float64Array, i: number, a: Vector3, b: Vector3, weight: number): void {
-	const mixed = 0.5 * weight;
-	const parts = [
-		weight * a.x * b.x,
-		weight * a.y * b.y,
-		weight * a.z * b.z,
-		mixed * (a.x * b.y + a.y * b.x),
-		mixed * (a.x * b.z + a.z * b.x),
-		mixed * (a.y * b.z + a.z * b.y),
-	];
-	for (const [j, part] of parts.entries()) tensors[6 * i + j] = (tensors[6 * i + j] as number) + part;
+/** Adds tt·t·tᵀ + tb·(t·bᵀ + b·tᵀ) + bb·b·bᵀ. */
+function addTensor(tensors: Float64Array, i: number, t: Vector3, b: Vector3, tt: number, tb: number, bb: number): void {
+	const at = 6 * i;
+	const [x, y, z] = [tt * t.x + tb * b.x, tt * t.y + tb * b.y, tt * t.z + tb * b.z];
+	const [u, v, w] = [tb * t.x + bb * b.x, tb * t.y + bb * b.y, tb * t.z + bb * b.z];
+	tensors[at] = (tensors[at] as number) + x * t.x + u * b.x;
+	tensors[at + 1] = (tensors[at + 1] as number) + y * t.y + v * b.y;
+	tensors[at + 2] = (tensors[at + 2] as number) + z * t.z + w * b.z;
+	tensors[at + 3] = (tensors[at + 3] as number) + x * t.y + u * b.y;
+	tensors[at + 4] = (tensors[at + 4] as number) + x * t.z + u * b.z;
+	tensors[at + 5] = (tensors[at + 5] as number) + y * t.z + v * b.z;
 }

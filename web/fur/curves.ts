@@ -5,6 +5,7 @@ import { type Direction, evaluateBasis, PolynomialFit } from './moments.ts';
 
 /** What mean curves are evaluated by. */
 export interface MeanCurves {
+	/** Their tables. */
 	curves: Curves;
 	/** m: unit vector along which the fur leans, tile axes u and v. */
 	way: readonly [number, number];
@@ -81,20 +82,28 @@ export function curvedMoments(
 	return evaluateBasis(basis, fin ? [u, z, v] : [u, v, z]).map((phi) => phi * mean);
 }
 
-/** Directions that stand for a part of the sphere each: rings between two heights, of equal steps of a root of it. */
-function* directions(radius: number): Generator<{ light: Direction; weight: number }> {
-	const [above, below, spokes] = [48, 24, 32];
-	const dip = dipOf(heldRadius(radius));
-	const step = (2 * Math.PI) / spokes;
-	for (let ring = 0; ring < above + below; ring++) {
-		const root = (ring + 0.5) / above;
-		const z = ring < above ? root * root : (-dip * (ring - above + 0.5)) / below;
-		const weight = step * (ring < above ? (2 * root) / above : dip / below);
-		const level = Math.sqrt(1 - z * z);
-		for (let spoke = 0; spoke < spokes; spoke++)
-			yield { light: [level * Math.cos(spoke * step), level * Math.sin(spoke * step), z], weight };
-	}
+/** A ring of directions of one height, and the solid angle that each of them stands for. */
+interface Ring {
+	height: number;
+	share: number;
 }
+
+/** From the lowest direction that tips see up to the zenith; above the horizon as the tables' knots lie. */
+function rings(radius: number): Ring[] {
+	const [above, below] = [48, 24];
+	const dip = dipOf(heldRadius(radius));
+	const step = (2 * Math.PI) / SPOKES;
+	return [
+		...Array.from({ length: below }, (_, i) => ({ height: (-dip * (i + 0.5)) / below, share: (step * dip) / below })),
+		...Array.from({ length: above }, (_, i) => {
+			const root = (i + 0.5) / above;
+			return { height: root * root, share: (step * 2 * root) / above };
+		}),
+	];
+}
+
+/** Directions of a ring: exact for curves of degree 8 with the lean and the harmonics. */
+const SPOKES = 16;
 
 /** What a sky's light is found by, of one curve. */
 export interface CurveSky {
@@ -113,24 +122,44 @@ export interface CurveSky {
  */
 export function curveSkies(basis: Basis, { curves, way }: MeanCurves, radius: number, fin = false): CurveSky[] {
 	const count = basis.kind === 'ptm' ? 6 : basis.matrix.length;
-	const sums = curves.even.map(() => Array.from({ length: count }, () => new Array<number>(9).fill(0)));
+	const sums = curves.even.map(() => new Float64Array(9 * count));
 	const fits = curves.even.map(() => new PolynomialFit(count));
-	for (const { light, weight } of directions(radius)) {
-		const [u, v, z] = light;
-		const [hu, hv, hz] = heldLight(light);
-		const phi = evaluateBasis(basis, fin ? [hu, hz, hv] : [hu, hv, hz]);
-		const values = curveValues(curves, z, fin ? hu * way[1] : hu * way[0] + hv * way[1], radius);
-		const y = fin ? harmonics(u, z, v) : harmonics(u, v, z);
-		for (const [q, value] of values.entries()) {
-			for (let c = 0; c < count; c++) {
-				const strength = value * weight * (phi[c] ?? 0);
-				const row = sums[q]?.[c] as number[];
-				for (let j = 0; j < 9; j++) row[j] = (row[j] as number) + strength * (y[j] as number);
+	// Of a ring, without the curve and times l·m.
+	const parts = [0, 1].map(() => ({ harmonics: new Float64Array(9 * count), fit: new PolynomialFit(count) }));
+	for (const { height, share } of rings(radius)) {
+		for (const part of parts) {
+			part.harmonics.fill(0);
+			part.fit.clear();
+		}
+		for (let spoke = 0; spoke < SPOKES; spoke++) {
+			const [level, azimuth] = [Math.sqrt(1 - height * height), (2 * Math.PI * spoke) / SPOKES];
+			const light: Direction = [level * Math.cos(azimuth), level * Math.sin(azimuth), height];
+			const [u, v, z] = light;
+			const [hu, hv, hz] = heldLight(light);
+			const phi = evaluateBasis(basis, fin ? [hu, hz, hv] : [hu, hv, hz]);
+			const y = fin ? harmonics(u, z, v) : harmonics(u, v, z);
+			const lean = fin ? hu * way[1] : hu * way[0] + hv * way[1];
+			for (const [p, part] of parts.entries()) {
+				const strength = share * (p === 0 ? 1 : lean);
+				for (let c = 0; c < count; c++)
+					for (let j = 0; j < 9; j++)
+						part.harmonics[9 * c + j] =
+							(part.harmonics[9 * c + j] as number) + strength * (phi[c] as number) * (y[j] as number);
+				if (z >= 0) part.fit.add(light, phi, strength / (2 * Math.PI));
 			}
-			if (z < 0) continue;
-			const bright = phi.map((of) => of * value);
-			fits[q]?.add(light, bright, weight / (2 * Math.PI));
+		}
+		const even = curveValues(curves, height, 0, radius);
+		const lean = curveValues(curves, height, 1, radius);
+		for (const [q, sum] of sums.entries()) {
+			for (const [p, part] of parts.entries()) {
+				const factor = p === 0 ? (even[q] as number) : (lean[q] as number) - (even[q] as number);
+				for (let i = 0; i < sum.length; i++) sum[i] = (sum[i] as number) + factor * (part.harmonics[i] as number);
+				fits[q]?.addAll(part.fit, factor);
+			}
 		}
 	}
-	return sums.map((environment, q) => ({ environment, polynomials: fits[q]?.rows(fin) ?? [] }));
+	return sums.map((sum, q) => ({
+		environment: Array.from({ length: count }, (_, c) => [...sum.subarray(9 * c, 9 * c + 9)]),
+		polynomials: fits[q]?.rows(fin) ?? [],
+	}));
 }

@@ -10,8 +10,12 @@ import {
 	type WebGLRenderer,
 } from 'three';
 import { beginClip, type Columns, endClip } from './clip.ts';
+import { BodyCurvature } from './curvature.ts';
 import type { FinMaterial } from './FinMaterial.ts';
 import type { FurMaterial } from './FurMaterial.ts';
+
+/** Strips that fins are cut into where their light changes with the height. */
+const STRIPS = 4;
 
 /**
  * The fins of a furry surface: one draw, before the shells.
@@ -28,7 +32,7 @@ export class FurFins extends Mesh<BufferGeometry, FinMaterial> {
 	 * the edge, height 0..1), _edge and _fur
 	 */
 	constructor(quads: BufferGeometry, material: FinMaterial) {
-		super(quads, material);
+		super(material.means ? cutFins(quads, STRIPS) : quads, material);
 		this.name = 'fins';
 		this.receiveShadow = true;
 	}
@@ -48,6 +52,7 @@ export class FurFins extends Mesh<BufferGeometry, FinMaterial> {
 		this.position.copy(shells.position);
 		this.quaternion.copy(shells.quaternion);
 		this.scale.copy(shells.scale);
+		if (this.material.means) BodyCurvature.of(shells.geometry).mark(this.geometry, -1);
 		this.fit(shells);
 	}
 

@@ -3,6 +3,7 @@
 export { type Coat, type FurMethod, furMethod, type MethodOptions } from './baselines/method.ts';
 export { METHODS, type MethodName } from './baselines/names.ts';
 export type { Columns } from './clip.ts';
+export { curvedMoments, type MeanCurves } from './curves.ts';
 export {
 	type EnvironmentLight,
 	environmentLight,
@@ -21,6 +22,7 @@ export { FOLLICLES_PER_ROW, Follicles } from './follicles.ts';
 export {
 	alphaChannel,
 	type Basis,
+	type Curves,
 	channelOf,
 	EXTENSION,
 	type Fin,
@@ -49,3 +51,4 @@ export type { WindSettings } from './motion/Wind.ts';
 export type { FurTextures } from './PeltMaterial.ts';
 export { fitShadow } from './shadow.ts';
 export { FurShells, MAX_SHELLS } from './shells.ts';
+export type { SlabMeanCurves } from './texels.ts';

@@ -102,11 +102,22 @@ const ORTHOGONAL: readonly (readonly [square: number, of: (light: Direction) => 
 
 /** Functions over the half sphere as polynomials of degree 2, by least squares. */
 export class PolynomialFit {
-	readonly #sums: number[][];
+	readonly #sums: Float64Array[];
 
 	/** @param count of the functions */
 	constructor(count: number) {
-		this.#sums = Array.from({ length: count }, () => ORTHOGONAL.map(() => 0));
+		this.#sums = Array.from({ length: count }, () => new Float64Array(ORTHOGONAL.length));
+	}
+
+	/** Forgets what was added. */
+	clear(): void {
+		for (const sums of this.#sums) sums.fill(0);
+	}
+
+	/** Adds what another one has, times a factor. */
+	addAll(other: PolynomialFit, factor: number): void {
+		for (const [c, sums] of this.#sums.entries())
+			for (let t = 0; t < sums.length; t++) sums[t] = (sums[t] as number) + factor * (other.#sums[c]?.[t] ?? 0);
 	}
 
 	/**
@@ -118,7 +129,7 @@ export class PolynomialFit {
 		const terms = ORTHOGONAL.map(([square, of]) => (share * of(light)) / square);
 		for (const [c, sums] of this.#sums.entries()) {
 			const value = values[c] ?? 0;
-			for (const [t, term] of terms.entries()) sums[t] = (sums[t] as number) + value * term;
+			for (let t = 0; t < sums.length; t++) sums[t] = (sums[t] as number) + value * (terms[t] as number);
 		}
 	}
 

@@ -12,6 +12,7 @@ import {
 } from 'three';
 import { beginClip, type Columns, endClip } from './clip.ts';
 import { sharedComb } from './comb.ts';
+import { BodyCurvature } from './curvature.ts';
 import type { FurMaterial } from './FurMaterial.ts';
 import type { FurAsset } from './format.ts';
 import { HullMaterial } from './HullMaterial.ts';
@@ -37,6 +38,8 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 	/** Of a texel, model units. */
 	readonly #texel: number;
 	readonly #layers: number;
+	/** Where lamps and sky go below the surface's own horizon. */
+	readonly #curvature: BodyCurvature | undefined;
 	/** Of the surface below, the mesh's own units. */
 	readonly #radius: number;
 
@@ -70,6 +73,10 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 		const { size, layers, length, height } = asset;
 		this.#layers = layers;
 		this.#texel = length / (height * size);
+		if (material.means) {
+			this.#curvature = BodyCurvature.of(surface);
+			this.#curvature.mark(geometry);
+		}
 		this.furLength = length;
 	}
 
@@ -81,6 +88,7 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 	set furLength(length: number) {
 		this.material.furLength = length / this.scale.x;
 		(this.geometry.boundingSphere as Sphere).radius = this.#radius + this.material.furLength;
+		if (this.#curvature) this.material.bodyRadius = this.#curvature.typicalRadius(this.material.furLength);
 	}
 
 	/** How many shells are drawn, 1 to 256: any number, whatever the number of stored slabs, and between whole ones, too. */

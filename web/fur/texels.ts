@@ -18,6 +18,7 @@ export interface Texels {
 
 /** Mean curves and their weights in the dry pelt, a row per slab. */
 export interface SlabMeanCurves extends MeanCurves {
+	/** A row per slab, slab 0 first. */
 	weights: readonly (readonly number[])[];
 }
 

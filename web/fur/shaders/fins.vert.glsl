@@ -45,10 +45,9 @@ void main() {
 	vSkin.rgb *= furTraits.y;
 #endif
 	if (vFade > 0.0) {
-		vec3 tip = position + n * (furLength * _fur.y);
 		float slab = clamp(s * float(LAYERS) - 0.5, 0.0, float(LAYERS) - 1.0);
-		vec3 tipWS = (bodyModel() * vec4(tip, 1.0)).xyz;
-		passLight(FurPoint(turn * frame, comb * frame, pointVS, tipWS, s, slab, furCurvature(_fur.y)), _fur.z);
+		vec4 tip = furTip(n, _fur.y);
+		passLight(FurPoint(turn * frame, comb * frame, pointVS, tip.xyz, tip.w, s, slab, furCurvature(_fur.y)), _fur.z);
 	} else {
 		passDarkness();
 	}

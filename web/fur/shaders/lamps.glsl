@@ -82,7 +82,7 @@ Lamps lampsAt(FurPoint point, Bending bending) {
 	for (int i = 0; i < NUM_DIR_LIGHTS; i++) {
 		getDirectionalLightInfo(directionalLights[ i ], light);
 #if defined(USE_SHADOWMAP) && (UNROLLED_LOOP_INDEX < NUM_DIR_LIGHT_SHADOWS)
-		light.color *= shadow(directionalShadowMap[ i ], directionalLightShadows[ i ].shadowMapSize, directionalLightShadows[ i ].shadowIntensity, directionalLightShadows[ i ].shadowBias, directionalLightShadows[ i ].shadowRadius, directionalShadowMatrix[ i ] * vec4(point.tipWS, 1.0));
+		light.color *= shadow(directionalShadowMap[ i ], directionalLightShadows[ i ].shadowMapSize, directionalLightShadows[ i ].shadowIntensity, directionalLightShadows[ i ].shadowBias, directionalLightShadows[ i ].shadowRadius, directionalShadowMatrix[ i ], point, light.direction);
 #endif
 		addLamp(lamps, power, point, bending, light.direction, light.color);
 	}
@@ -99,7 +99,7 @@ Lamps lampsAt(FurPoint point, Bending bending) {
 	for (int i = 0; i < NUM_SPOT_LIGHTS; i++) {
 		getSpotLightInfo(spotLights[ i ], point.pointVS, light);
 #if defined(USE_SHADOWMAP) && (UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS)
-		light.color *= shadow(spotShadowMap[ i ], spotLightShadows[ i ].shadowMapSize, spotLightShadows[ i ].shadowIntensity, spotLightShadows[ i ].shadowBias, spotLightShadows[ i ].shadowRadius, spotLightMatrix[ i ] * vec4(point.tipWS, 1.0));
+		light.color *= shadow(spotShadowMap[ i ], spotLightShadows[ i ].shadowMapSize, spotLightShadows[ i ].shadowIntensity, spotLightShadows[ i ].shadowBias, spotLightShadows[ i ].shadowRadius, spotLightMatrix[ i ], point, light.direction);
 #endif
 		addLamp(lamps, power, point, bending, light.direction, light.color);
 	}

@@ -10,6 +10,7 @@ in mat3 vSkyHigh;
 in mat3 vFrame;
 in vec3 vPoint;
 in vec3 vTip;
+in float vReach;
 in float vS;
 #ifdef MEAN_CURVES
 in float vSlab;
@@ -41,9 +42,9 @@ Lamps receivedLamps() {
 	vec3 comb = vec3(vCombX, 0.0, 0.0);
 	comb[LEVEL] = vCombY;
 #ifdef MEAN_CURVES
-	FurPoint point = FurPoint(vFrame, comb, vPoint, vTip, vS, vSlab, vec3(vCurvatureX, vCurvatureY, vCurvatureXY));
+	FurPoint point = FurPoint(vFrame, comb, vPoint, vTip, vReach, vS, vSlab, vec3(vCurvatureX, vCurvatureY, vCurvatureXY));
 #else
-	FurPoint point = FurPoint(vFrame, comb, vPoint, vTip, vS, 0.0, vec3(0.0));
+	FurPoint point = FurPoint(vFrame, comb, vPoint, vTip, vReach, vS, 0.0, vec3(0.0));
 #endif
 	return lampsAt(point, bendingOf(comb, vS));
 #else

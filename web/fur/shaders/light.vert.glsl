@@ -1,6 +1,6 @@
 // What of the light goes from vertex to fragment: moments, summed here; or, where lamps are summed per fragment, the point.
 // WebGL2 promises no more than 15 vectors: of a shell four matrices and three vec3, with eleven scalars in their gaps; where lamps are summed per
-// fragment three matrices, four vec3 and fifteen scalars.
+// fragment three matrices, four vec3 and sixteen scalars.
 
 #ifdef SKY
 out mat3 vSkyLow;
@@ -12,6 +12,7 @@ out mat3 vSkyHigh;
 out mat3 vFrame;
 out vec3 vPoint;
 out vec3 vTip;
+out float vReach;
 out float vS;
 #ifdef MEAN_CURVES
 out float vSlab;
@@ -49,6 +50,13 @@ vec3 furCurvature(float lengthShare) {
 	return curvature * (furLength * lengthShare);
 }
 
+// Where shadows of others are caught, and how far from the skin that is: XYZ and W, world units.
+vec4 furTip(vec3 normal, float lengthShare) {
+	float reach = furLength * lengthShare;
+	mat4 placement = bodyModel();
+	return vec4((placement * vec4(position + normal * reach, 1.0)).xyz, reach * length(placement[0].xyz));
+}
+
 // openness: to the sky, 0..1.
 void passLight(FurPoint point, float openness) {
 	Bending bending = bendingOf(point.comb, point.s);
@@ -65,6 +73,7 @@ void passLight(FurPoint point, float openness) {
 	vCombY = point.comb[LEVEL];
 	vPoint = point.pointVS;
 	vTip = point.tipWS;
+	vReach = point.reach;
 	vS = point.s;
 #ifdef MEAN_CURVES
 	vSlab = point.slab;
@@ -102,7 +111,7 @@ void passDarkness() {
 #ifdef LAMPS_PER_FRAGMENT
 	vFrame = mat3(1.0);
 	vPoint = vTip = vec3(0.0);
-	vS = vCombX = vCombY = 0.0;
+	vS = vReach = vCombX = vCombY = 0.0;
 #ifdef MEAN_CURVES
 	vSlab = vCurvatureX = vCurvatureY = vCurvatureXY = 0.0;
 #endif

@@ -32,6 +32,7 @@ struct FurPoint {
 	vec3 comb; // displacement of the tip in that frame, share of the length
 	vec3 pointVS;
 	vec3 tipWS; // the hair's end, where shadows of others are caught
+	float reach; // of the hair, world units
 	float s; // 0 at the skin, 1 at the tip
 	float slab; // that is shown; of a fin the place between slabs' middles
 	vec3 curvature; // of the skin, per length of the hair here: along the frame's first axis, along the other level one, mixed
