@@ -118,9 +118,9 @@ export class BodyScene {
 			const sum = this.#sums[i] ?? new Float32Array(pixels.length / 2);
 			this.#sums[i] = sum;
 			for (let at = 0; at < sum.length; at += 2) {
-				const [red = 0, green = 0, blue = 0, alpha = 0] = pixels.subarray(2 * at, 2 * at + 4);
+				const [red, green, blue] = [pixels[2 * at] ?? 0, pixels[2 * at + 1] ?? 0, pixels[2 * at + 2] ?? 0];
 				sum[at] = (sum[at] ?? 0) + this.job.brightest * (red + green + blue);
-				sum[at + 1] = alpha;
+				sum[at + 1] = pixels[2 * at + 3] ?? 0;
 			}
 		}
 		this.#scene.remove(fur.shells);
