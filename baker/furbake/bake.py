@@ -20,7 +20,7 @@ from furbake.body import prepare
 from furbake.identity import bake_key, describe_input, library_versions
 from furbake.options import BakeOptions
 from furbake.pelt import basis as bases
-from furbake.pelt.basis import Basis, environment
+from furbake.pelt.basis import Basis
 from furbake.pelt.bent import fit_bends
 from furbake.pelt.fill import fill, fill_directions
 from furbake.pelt.fit import Judge, fit, relight
@@ -255,7 +255,6 @@ def fit_pelts(states: Sequence[Sampled], options: BakeOptions) -> list[tuple[Pel
             kind=basis.kind,
             degree=basis.degree,
             matrix=basis.matrix,
-            environment=environment(basis),
             drift=volume.drift,
             height=volume.height,
             ramp=options.ramp,

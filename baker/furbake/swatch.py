@@ -18,7 +18,7 @@ from furbake.asset.planes import write_png
 from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt, skin_colour
 from furbake.options import OptionError
-from furbake.pelt.basis import Basis
+from furbake.pelt.basis import Basis, environment
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.quantise import dequantise, srgb_bytes
 from furbake.pelt.transport import BODY_RADIUS
@@ -166,7 +166,7 @@ def radiance(
     hairs = hairs or pelt
     colours = None if hairs.colour is None else from_srgb(hairs.colour)
     mud = None if pelt.state.mud is None else np.array(pelt.state.mud)
-    sky_moments = pelt.environment @ sky_harmonics(scene)
+    sky_moments = environment(pelt.basis) @ sky_harmonics(scene)
     count = pelt.layers * shells_per_slab
     heights = (np.arange(count) + 0.5) / count
     shear = drift_at(heights, pelt.drift) - np.repeat(pelt.drift, shells_per_slab, axis=0)
