@@ -24,9 +24,9 @@ from furbake.knobs import within
 from furbake.options import BakeOptions
 from furbake.pelt.basis import held
 from furbake.pelt.bent import bent, factor, fit_bends, general, sheared
+from furbake.pelt.paths import BODY_RADIUS
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.quantise import dequantise
-from furbake.pelt.transport import BODY_RADIUS
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]

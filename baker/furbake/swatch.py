@@ -19,9 +19,9 @@ from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt, skin_colour
 from furbake.options import OptionError
 from furbake.pelt.basis import Basis, environment
+from furbake.pelt.paths import BODY_RADIUS
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.quantise import dequantise, srgb_bytes
-from furbake.pelt.transport import BODY_RADIUS
 
 Array = NDArray[np.float64]
 Bytes = NDArray[np.uint8]

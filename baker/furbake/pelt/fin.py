@@ -20,15 +20,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.pelt.basis import PTM, harmonics
+from furbake.pelt.depth import depth_of, passing
 from furbake.pelt.dirt import Crumbs, soiled
 from furbake.pelt.fibre import cylinder, sine
 from furbake.pelt.fill import fill
 from furbake.pelt.fit import fit
+from furbake.pelt.paths import BODY_RADIUS
 from furbake.pelt.pelt import FinPelt
 from furbake.pelt.quantise import byte_range, quantise, srgb_bytes, unit_bytes
 from furbake.pelt.scatter import scatter
 from furbake.pelt.strands import Coat, Strands
-from furbake.pelt.transport import OpticalDepth, curved_elevation, passing
 from furbake.pelt.volume import Volume, pool, voxelise
 
 Array = NDArray[np.float64]
@@ -88,6 +89,7 @@ def side_view(
     coat: Coat,
     *,
     flat: bool = False,
+    beta: float = BODY_RADIUS,
     height: float | None = None,
     mud: Crumbs | None = None,
 ) -> SideView:
@@ -95,12 +97,12 @@ def side_view(
 
     fine : the oversampled volume; layers, size : slabs and texels per side of what is stored of it
     lights : (n, 3) in the tile's frame
-    coat : its opacity, albedo and skin count; flat : as of `transport.sample`
+    coat : its opacity, albedo and skin count; flat, beta : as of `transport.sample`
     height : of the fur for which the texture has its rows, tile widths: that of the dry fur in all of its states
     mud : on the strands; then `tint` is its share
     """
     rows, columns = fin_shape(size, height or fine.height)
-    medium = _Medium(fine, layers, size, coat, flat)
+    medium = _Medium(fine, layers, size, coat, None if flat else beta)
     slabs = medium.slabs * -(-rows // medium.slabs)
     width = size * (2 if slabs * (2 * size) ** 2 <= MOST_VOXELS else 1)
     row = in_the_row(strands)
@@ -136,9 +138,10 @@ def seen_from_the_side(volume: Volume) -> Array:
 class _Medium:
     """The whole fur at half the fine resolution, and coarser where light is scattered again."""
 
-    def __init__(self, fine: Volume, layers: int, size: int, coat: Coat, flat: bool) -> None:
-        self.size, self.flat, self.height = size, flat, fine.height
-        self.albedo, self.skin = coat.albedo, 0.0 if flat else coat.skin
+    def __init__(self, fine: Volume, layers: int, size: int, coat: Coat, beta: float | None) -> None:
+        """beta : radius of the body, None: flat."""
+        self.size, self.beta, self.height = size, beta, fine.height
+        self.albedo, self.skin = coat.albedo, 0.0 if beta is None else coat.skin
         self.slabs = halved(len(fine.sigma))
         self.even = halved(halved(self.slabs) if self.slabs > layers else self.slabs), max(size // EVEN, 2)
         self.sigma = self._coarse(fine.sigma)
@@ -156,15 +159,13 @@ class _Medium:
 
         def beam(light: Array) -> tuple[Array, Single, Single, Single]:
             """T·D summed over what is seen, (K·N,), and what `scatter` takes: caught, reaching and the skin's light."""
-            elevation = float(light[2]) if self.flat else curved_elevation(float(light[2]))
             width = sine(self.tangent, light)
-            depth = OpticalDepth(self.sigma * width, self.height / self.slabs)
-            way = np.array([light[0], light[1], elevation])
-            clear, own = np.exp(-depth.above(way)), depth.own(way)
+            depth = depth_of(self.sigma * width, self.height / self.slabs, self.beta)
+            clear, skin = depth.through(light)
             lambert = seen * clear[behind] * cylinder(direction, light)
             single = np.asarray(np.bincount(slab * self.size + row, lambert, count * self.size), np.float64)
-            lit: Single = self.sigma * clear * passing(own)
-            floor: Single = pool(clear[0] * np.exp(-own[0]) * np.float32(light[2]), self.even[1])
+            lit: Single = self.sigma * clear * passing(depth.own(light))
+            floor: Single = pool(skin * np.float32(max(light[2], 0)), self.even[1])
             return single, self._even(lit * width) / hair, self._even(lit) / hair, floor
 
         with ThreadPoolExecutor(os.cpu_count()) as workers:
