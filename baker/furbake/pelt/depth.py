@@ -11,7 +11,7 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
-from furbake.pelt.paths import Path, thinned
+from furbake.pelt.paths import Rays, thinned
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
@@ -23,8 +23,14 @@ STEPS_PER_TEXEL = 8
 POINTS_PER_TEXEL, LEAST_POINTS, LONGEST = 2, 4, 8
 """Points of a bent ray per texel that it moves aside, in a piece of it at least, and texels of the longest piece."""
 
+STRIP, DARK = 8, 1e-5
+"""Slabs whose rays are followed together, from the tips down, and the mean transmittance below which the rest is black."""
+
 BATCH = 16
 """Pieces whose kernels are made together: they fit into a core's cache."""
+
+MOST_WORK = 2**15
+"""Multiplications of one matrix product."""
 
 
 class Slabs:
@@ -116,18 +122,22 @@ class BentDepth(Slabs):
 
     def through(self, light: Array) -> tuple[Single, Single]:
         """Transmittance between the light and the voxels, (K, N, N), and the skin, (N, N). 0 behind the body."""
-        out = np.zeros_like(self.spectrum)
-        paths = [Path((k + 0.5) / self.layers, float(light[2]), self.beta) for k in range(self.layers)]
-        for path, sum_ in zip(paths, out, strict=True):
-            self._add(path, 0.5 / self.layers, light, sum_)
-        clear: Single = np.exp(-self.in_space(out))
-        clear[[path.blocked for path in paths]] = 0
-        if light[2] <= 0:
+        clear = np.zeros((self.layers, self.size, self.size), np.float32)
+        middle, lz = (np.arange(self.layers) + 0.5) / self.layers, float(light[2])
+        for top in range(self.layers, 0, -STRIP):
+            strip = slice(max(top - STRIP, 0), top)
+            rays = Rays(middle[strip], lz, self.beta)
+            spectrum = self._depths(rays, 0.5 / self.layers, light)
+            if self.back is not None:
+                spectrum *= self.back[strip]
+            np.exp(-self._in_space(spectrum), out=clear[strip])
+            clear[strip][rays.blocked] = 0
+            if clear[strip].mean() < DARK:
+                return clear, np.zeros_like(clear[0])
+        if lz <= 0:
             return clear, np.zeros_like(clear[0])
-        skin = np.zeros_like(self.spectrum[0])
-        self._add(Path(0.0, float(light[2]), self.beta), 0.0, light, skin)
-        depth = np.maximum(scipy.fft.irfft2(skin, s=(self.size, self.size)), 0)
-        return clear, np.exp(-depth)
+        skin = self._depths(Rays(np.zeros(1), lz, self.beta), 0.0, light)
+        return clear, np.exp(-self._in_space(skin)[0])
 
     def own(self, light: Array) -> Single:
         """τ along the ray up to half a slab's thickness on both sides of the voxel's middle, (K, N, N)."""
@@ -136,15 +146,14 @@ class BentDepth(Slabs):
         share = thinned((np.arange(self.layers) + 0.5) / self.layers, self.beta).astype(np.float32)
         return self.in_space(self.spectrum * kernel * share[:, None, None], slab)
 
-    def _add(self, path: Path, start: float, light: Array, total: Spectrum) -> None:
-        """Add the spectrum of τ on the way from t = `start` to the light to `total`, (N, N / 2 + 1)."""
+    def _depths(self, rays: Rays, start: float, light: Array) -> Spectrum:
+        """Spectrum of τ on the way from t = `start` to the light, (n, N, N / 2 + 1) for n rays."""
+        total = np.zeros((len(rays.height), *self.spectrum.shape[1:]), np.complex64)
         texel = self.height * self.size
-        slabs, spans = path.pieces(self.layers, start, LONGEST / texel)
-        if not len(slabs):
-            return
         way = light[:2] * (texel / max(float(np.hypot(*light[:2])), 1e-9))
+        ray, slab, spans = rays.pieces(self.layers, start, LONGEST / texel)
         length = np.diff(spans)
-        moved = np.abs(np.diff(path.feet(spans)))[:, 0] * texel
+        moved = (rays.feet(spans[:, 1], ray) - rays.feet(spans[:, 0], ray)) * texel
         rounds = np.maximum(np.ceil(moved * (POINTS_PER_TEXEL / LEAST_POINTS)), 1).astype(np.intp)
         for count in np.unique(rounds):
             alike = np.flatnonzero(rounds == count)
@@ -152,14 +161,15 @@ class BentDepth(Slabs):
             share = (np.arange(points) + 0.5) / points
             for first in range(0, len(alike), BATCH):
                 some = alike[first : first + BATCH]
-                t = spans[some, :1] + length[some] * share
-                feet = path.feet(t)
-                weight = length[some] * (self.height / points) * thinned(path.heights(t), self.beta)
+                t, of = spans[some, :1] + length[some] * share, ray[some, None]
+                feet = rays.feet(t, of)
+                weight = length[some] * (self.height / points) * thinned(rays.heights(t, of), self.beta)
                 rows = self._look(feet * way[1], self.size)
                 columns = self._look(feet * way[0], self.size // 2 + 1) * weight[..., None].astype(np.float32)
-                kernels = np.matmul(rows.swapaxes(1, 2), columns)
-                for slab, kernel in zip(slabs[some], kernels, strict=True):
-                    total += np.multiply(kernel, self.spectrum[slab], out=kernel)
+                kernels = np.matmul(*in_blocks(rows, columns)).reshape(-1, *total.shape[1:])
+                for k, j, kernel in zip(ray[some], slab[some], kernels, strict=True):
+                    total[k] += np.multiply(kernel, self.spectrum[j], out=kernel)
+        return total
 
     def _look(self, at: Array, frequencies: int) -> NDArray[np.complex64]:
         """Spectra of linear look-up `at` texels (n, P) from the voxel, (n, P, `frequencies`)."""
@@ -167,6 +177,21 @@ class BentDepth(Slabs):
         part = (at - whole).astype(np.float32)[..., None]
         before, after = (self.turns[(whole + step) % self.size, :frequencies] for step in (0, 1))
         return np.asarray(before + part * (after - before), np.complex64)
+
+    def _in_space(self, spectrum: Spectrum) -> Single:
+        return np.maximum(scipy.fft.irfft2(spectrum, s=(self.size, self.size)), 0)
+
+
+def in_blocks(rows: Spectrum, columns: Spectrum) -> tuple[Spectrum, Spectrum]:
+    """Factors of rowsᵀ·columns, (n, P, N) and (n, P, M): (n, N/b, b, P) and (n, 1, P, M) in blocks of b rows.
+
+    Each is a product so small that BLAS starts no threads of its own for it: lights have them all.
+    """
+    count, points, size = rows.shape
+    block = size
+    while block % 2 == 0 and block * points * columns.shape[2] > MOST_WORK:
+        block //= 2
+    return rows.reshape(count, points, -1, block).transpose(0, 2, 3, 1), columns[:, None]
 
 
 def depth_of(

@@ -39,16 +39,19 @@ def thinned(height: Array, beta: float) -> Array:
 
 
 @dataclass(frozen=True)
-class Path:
-    """The ray from a point at `height` towards a light with this `lz`, above a body of radius `beta`."""
+class Rays:
+    """Rays from n points at `height` (n,) towards a light with this `lz`, above a body of radius `beta`.
 
-    height: float
+    What is asked about points of them takes distances t and the ray's index of each, two arrays of one shape.
+    """
+
+    height: Array
     lz: float
     beta: float
 
     @property
-    def radius(self) -> float:
-        """r."""
+    def radius(self) -> Array:
+        """r, (n,)."""
         return self.beta + self.height
 
     @property
@@ -57,39 +60,37 @@ class Path:
         return float(np.sqrt(max(1 - self.lz**2, 0.0)))
 
     @property
-    def blocked(self) -> bool:
-        """Whether it meets the skin."""
-        return self.lz < 0 and self.radius * self.across < self.beta
+    def blocked(self) -> NDArray[np.bool_]:
+        """Which of them meet the skin, (n,)."""
+        return (self.lz < 0) & (self.radius * self.across < self.beta)
 
-    def heights(self, t: Array) -> Array:
+    def heights(self, t: Array, ray: NDArray[np.intp]) -> Array:
         """h(t)."""
-        return np.sqrt(self.radius**2 + t * t + 2 * self.radius * self.lz * t) - self.beta
+        r = self.radius[ray]
+        return np.asarray(np.sqrt(r * r + t * (t + 2 * self.lz * r)) - self.beta)
 
-    def feet(self, t: Array) -> Array:
+    def feet(self, t: Array, ray: NDArray[np.intp]) -> Array:
         """β·ψ(t)."""
-        return self.beta * np.arctan2(t * self.across, self.radius + t * self.lz)
+        return np.asarray(self.beta * np.arctan2(t * self.across, self.radius[ray] + t * self.lz))
 
-    def pieces(self, slabs: int, start: float, longest: float) -> tuple[NDArray[np.intp], Array]:
-        """The ray from t = `start` to the end of the fur, cut where it passes from one of the equal slabs to another.
+    def pieces(self, slabs: int, start: float, longest: float) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
+        """The rays from t = `start` to the end of the fur, cut where they pass from one of the equal slabs to another.
 
-        Pieces whose feet are more than `longest` apart are cut again. Returns each piece's slab, (n,), and the
-        distances where it starts and ends, (n, 2). Where the ray is blocked there are none.
+        Pieces whose feet are more than `longest` apart are cut again. Returns each piece's ray and slab, (m,), and the
+        distances where it starts and ends, (m, 2). A ray that is blocked has none.
         """
-        if self.blocked:
-            return np.empty(0, np.intp), np.empty((0, 2))
-        levels = self.beta + np.arange(slabs + 1) / slabs
-        square = levels**2 - (self.radius * self.across) ** 2
-        root = np.sqrt(square[square >= 0])
-        passed = np.unique(np.concatenate([-root, root]) - self.radius * self.lz)
-        end = passed[-1] if len(passed) else start
-        edges = np.concatenate([[start], passed[passed > start + STEP]])
-        if end <= start + STEP:
-            return np.empty(0, np.intp), np.empty((0, 2))
-        feet = self.feet(edges)
-        parts = np.maximum(np.ceil(np.abs(np.diff(feet)) / longest), 1).astype(np.intp)
+        r = self.radius[:, None]
+        square = (self.beta + np.arange(slabs + 1) / slabs) ** 2 - (r * self.across) ** 2
+        # Levels that a ray doesn't come down to are passed at its lowest point.
+        root = np.sqrt(np.maximum(square, 0))
+        edges = np.maximum(np.concatenate([-root[:, ::-1], root], 1) - r * self.lz, start)
+        ray, edge = np.nonzero((np.diff(edges) > STEP) & ~self.blocked[:, None])
+        spans = np.stack([edges[ray, edge], edges[ray, edge + 1]], 1)
+        moved = self.feet(spans[:, 1], ray) - self.feet(spans[:, 0], ray)
+        parts = np.maximum(np.ceil(moved / longest), 1).astype(np.intp)
         piece = np.repeat(np.arange(len(parts)), parts)
-        within = np.arange(len(piece)) - np.repeat(np.cumsum(parts) - parts, parts)
-        share = (within[:, None] + np.array([0.0, 1.0])) / parts[piece, None]
-        spans = edges[piece, None] + np.diff(edges)[piece, None] * share
-        slab = np.floor(self.heights(spans.mean(1)) * slabs).astype(np.intp)
-        return np.clip(slab, 0, slabs - 1), spans
+        part = np.arange(len(piece)) - np.repeat(np.cumsum(parts) - parts, parts)
+        share = (part[:, None] + np.array([0.0, 1.0])) / parts[piece, None]
+        ray, spans = ray[piece], spans[piece, :1] + np.diff(spans)[piece] * share
+        slab = np.floor(self.heights(spans.mean(1), ray) * slabs).astype(np.intp)
+        return ray, np.clip(slab, 0, slabs - 1), spans
