@@ -97,7 +97,8 @@ class Curves:
         """
         directions, area = sphere(beta)
         moments = phi(held(directions)) * area[:, None]
-        return np.einsum("nq,nc,nj->qcj", self(directions, beta), moments, harmonics(directions), optimize=True)
+        curves = self(directions, beta)
+        return np.asarray(np.einsum("nq,nc,nj->qcj", curves, moments, harmonics(directions), optimize=True))
 
 
 def at_heights(weights: Array, s: Array) -> Array:

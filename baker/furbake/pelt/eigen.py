@@ -51,7 +51,7 @@ def _evened(grams: Array, mean: Array) -> Array:
     """Gram matrix of what texels are over their slab's mean curve, slabs counting by their light, (n, n)."""
     square = mean**2
     over = mean / (square + DARK * max(float(square.mean()), 1e-12)) * np.sqrt(square.mean(0))
-    return np.einsum("nk,knm,mk->nm", over, grams, over, optimize=True)
+    return np.asarray(np.einsum("nk,knm,mk->nm", over, grams, over, optimize=True))
 
 
 def _round(curves: Array, grams: Array, mean: Array, terms: Array) -> Basis:
@@ -80,4 +80,4 @@ def _smoothed(curves: Array, lights: Array) -> Basis:
     """The nearest curves that are sums of the smooth functions."""
     terms = smooth(lights)
     matrix = np.linalg.solve(terms.T @ terms + RIDGE * np.eye(terms.shape[1]), terms.T @ curves).T
-    return Basis("eigen", DEGREE, matrix)
+    return Basis("eigen", DEGREE, np.asarray(matrix, np.float64))

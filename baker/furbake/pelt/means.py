@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from furbake.pelt.basis import held
 from furbake.pelt.curves import HORIZON, KNOTS, RADII, Curves, abscissa, elevation, hats
-from furbake.pelt.paths import BODY_RADIUS
 from furbake.pelt.strands import Coat
 from furbake.pelt.transport import sample
 from furbake.pelt.volume import Volume, coarsen, fine_shape
@@ -66,7 +65,7 @@ def directions(beta: float, count: int = LIGHTS) -> Array:
 
 
 def coarser(fine: Volume, layers: int, size: int) -> Volume:
-    """The oversampled volume of a tile of `size` texels as far as it is finer than that; coverage is kept exactly."""
+    """The oversampled volume of a tile of `size` texels, where it is finer than that; coverage is kept exactly."""
     slabs, width = fine_shape(layers, size, fine.height)
     if fine.sigma.shape[2] <= width:
         return fine
@@ -99,7 +98,7 @@ def tables(own: Measured, bodies: Sequence[Measured], lean: Array) -> Array:
         fitted = _solved(_design(own.lights, own.beta, lean), own.values, np.ones(len(own.lights)), HORIZON)
         return np.repeat(fitted[:, :, None], len(RADII), axis=2)
     found = []
-    at_home = next(body for body in bodies if body.beta == BODY_RADIUS)
+    at_home = next(body for body in bodies if body.beta == own.beta)
     design = _design(at_home.lights, at_home.beta, lean)
     design_own = _design(own.lights, own.beta, lean)
     rough = _solved(design, at_home.values, np.ones(len(design)), 0)
@@ -139,7 +138,9 @@ def _solved(rows: Array, values: Array, counts: Array, dark: int) -> Array:
     return found.reshape(-1, 2, KNOTS)
 
 
-def shared(each: Sequence[Array], cover: Sequence[Array], lean: Array, count: int = COUNT) -> tuple[Curves, list[Array]]:
+def shared(
+    each: Sequence[Array], cover: Sequence[Array], lean: Array, count: int = COUNT
+) -> tuple[Curves, list[Array]]:
     """The few curves that lose least of the tables (K, 2, 3, 17) of all states, and each state's weights, (K, Q).
 
     cover : (K,) of each state: mean coverages, by which slabs count
@@ -161,7 +162,7 @@ def shared(each: Sequence[Array], cover: Sequence[Array], lean: Array, count: in
 def _spread_out(body: int, lean: Array) -> Array:
     """Values of tables (2, 3, 17) on one of the bodies over its lights, (n, 102)."""
     design = _design(directions(RADII[body], 4 * LIGHTS), RADII[body], lean).reshape(-1, 2, 1, KNOTS)
-    return (design * np.eye(len(RADII))[body][:, None]).reshape(len(design), -1)
+    return np.asarray(design * np.eye(len(RADII))[body][:, None]).reshape(len(design), -1)
 
 
 def rounded(values: Array) -> Array:
