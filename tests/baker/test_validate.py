@@ -73,7 +73,8 @@ def test_schema_is_a_schema() -> None:
 
 EDITS = {
     "no extension": (lambda d: d.pop("extensions"), "model.gltf: no FUR_ptm_shells"),
-    "newer version": (lambda d: put(fur(d), "version", "2.0"), "FUR_ptm_shells: version: '2.0' does not match"),
+    "newer version": (lambda d: put(fur(d), "version", "3.0"), "FUR_ptm_shells: version: '3.0' does not match"),
+    "no environment": (lambda d: fur(d).pop("environment"), "FUR_ptm_shells: 'environment' is a required property"),
     "no layers": (lambda d: fur(d).pop("layers"), "FUR_ptm_shells: 'layers' is a required property"),
     "zero size": (lambda d: put(fur(d), "size", 0), "FUR_ptm_shells: size: 0 is less than the minimum of 8"),
     "odd size": (lambda d: put(fur(d), "size", 12), "FUR_ptm_shells: size 12, expected a power of two"),

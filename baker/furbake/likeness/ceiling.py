@@ -21,7 +21,6 @@ from scipy.spatial import Delaunay
 from furbake.asset.planes import write_png
 from furbake.asset.read import Asset
 from furbake.asset.stored import read_pelt
-from furbake.bake import under
 from furbake.groom.ground import Floats, Ground, read_ground, read_skin
 from furbake.groom.strands import recorded
 from furbake.likeness.cells import Cell
@@ -30,6 +29,7 @@ from furbake.pelt.quantise import srgb_bytes
 from furbake.pelt.strands import grow
 from furbake.pelt.transport import LOWEST, hemisphere
 from furbake.pelt.volume import fine_shape, voxelise
+from furbake.tile import under
 from furbake.surface.mesh import Surface
 from furbake.surface.thickness import distances
 

@@ -20,14 +20,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.pelt.basis import PTM, harmonics
+from furbake.pelt.curves import at_heights
 from furbake.pelt.depth import depth_of, passing
 from furbake.pelt.dirt import Crumbs, soiled
 from furbake.pelt.fibre import cylinder, sine
 from furbake.pelt.fill import fill
 from furbake.pelt.fit import fit
 from furbake.pelt.paths import BODY_RADIUS
-from furbake.pelt.pelt import FinPelt
-from furbake.pelt.quantise import byte_range, quantise, srgb_bytes, unit_bytes
+from furbake.pelt.pelt import FinPelt, Pelt
+from furbake.pelt.quantise import byte_range, gram, quantise, srgb_bytes, unit_bytes
 from furbake.pelt.scatter import scatter
 from furbake.pelt.strands import Coat, Strands
 from furbake.pelt.volume import Volume, pool, voxelise
@@ -229,25 +230,41 @@ def between(count: int, wanted: int, periodic: bool = False) -> Array:
     return matrix
 
 
-def fit_fins(views: Sequence[SideView], lights: Array, colours: Sequence[Array | None]) -> list[FinPelt]:
+def row_means(pelt: Pelt, rows: int, lights: Array, beta: float = BODY_RADIUS) -> Array | None:
+    """Mean curves of a fin's rows under lights (n, 3) in the tile's frame, (n, rows); None where the pelt has none."""
+    if pelt.curves is None or pelt.weights is None:
+        return None
+    weights = at_heights(pelt.weights, (np.arange(rows) + 0.5) / rows)
+    return pelt.curves.of_fin().mean(lights, weights, beta)
+
+
+def fit_fins(
+    views: Sequence[SideView],
+    lights: Array,
+    colours: Sequence[Array | None],
+    means: Sequence[Array | None] | None = None,
+) -> list[FinPelt]:
     """The texels' polynomials in (l·t, l·n) as bytes, of all states of a fur with one λ and Ω.
 
     lights : (n, 3) of the views, in the tile's frame; colours : (H, W, 3) linear original colours, or None
+    means : (n, H) of `row_means`, by which the polynomials are multiplied, or None
     """
-    turned = lights[:, FIN_FRAME]
-    filled = [fill_fin(fit(view.light, PTM, turned), view.alpha) for view in views]
+    means = means or [None] * len(views)
+    filled = [
+        fill_fin(fit(view.light, polynomial, lights, mean), view.alpha) for view, mean in zip(views, means, strict=True)
+    ]
     scale, bias = byte_range(np.stack(filled), np.stack([view.alpha for view in views]))
-    phi = PTM(turned)
+    phi = polynomial(lights)
     return [
         FinPelt(
-            codes=quantise(coefficients, scale, bias, phi.T @ phi / len(phi)),
+            codes=quantise(coefficients, scale, bias, gram(phi, mean)),
             alpha=unit_bytes(view.alpha),
             tint=unit_bytes(fill_fin(view.tint[..., None], view.alpha)[..., 0]),
             colour=None if colour is None else srgb_bytes(fill_fin(colour, view.alpha)),
             scale=scale,
             bias=bias,
         )
-        for view, coefficients, colour in zip(views, filled, colours, strict=True)
+        for view, coefficients, colour, mean in zip(views, filled, colours, means, strict=True)
     ]
 
 
