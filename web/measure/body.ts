@@ -6,9 +6,9 @@ import {
 	FloatType,
 	Mesh,
 	MeshBasicMaterial,
+	MeshNormalMaterial,
 	PerspectiveCamera,
 	Scene,
-	ShaderMaterial,
 	Sphere,
 	Vector3,
 	WebGLRenderer,
@@ -19,17 +19,6 @@ import type { BodyCell, BodyJob } from './bodyJob.ts';
 import { loadFur, renderFloats } from './studio.ts';
 
 const BARE = '-bare';
-
-/** World normals of what is hit; alpha 1 there. */
-const NORMALS = {
-	vertexShader: `varying vec3 n;
-		void main() {
-			n = mat3(modelMatrix) * normal;
-			gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-		}`,
-	fragmentShader: `varying vec3 n;
-		void main() { gl_FragColor = vec4(normalize(n), 1.0); }`,
-};
 
 /** The body of a job, ready to be drawn in any of its cells. */
 export class BodyScene {
@@ -138,9 +127,16 @@ export class BodyScene {
 
 	/** Rows from the bottom, four numbers a pixel: the skin's normal, and 1 where it is hit. */
 	normals(cell: number): Float32Array {
-		const material = new ShaderMaterial(NORMALS);
+		const material = new MeshNormalMaterial();
 		const pixels = this.#plainly(cell, this.#skin, () => material);
 		material.dispose();
+		const normal = new Vector3();
+		for (let at = 0; at < pixels.length; at += 4) {
+			if (!pixels[at + 3]) continue;
+			// In the camera's axes, 0..1.
+			normal.fromArray(pixels, at).multiplyScalar(2).subScalar(1).transformDirection(this.#camera.matrixWorld);
+			normal.toArray(pixels, at);
+		}
 		return pixels;
 	}
 

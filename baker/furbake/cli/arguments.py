@@ -25,8 +25,8 @@ class _Parser(argparse.ArgumentParser):
     """Says what is wrong in the words of all other errors, instead of printing usage."""
 
     shape = (
-        "furbake bake, groom, inspect, validate, presets, report, swatch, lesson, verify, compare, "
-        "states, trim, bend or patches"
+        "furbake bake, inspect, validate, presets, report, swatch, lesson, verify, compare, "
+        "states, trim, bend, patches or groom"
     )
 
     def error(self, message: str) -> NoReturn:
@@ -120,7 +120,6 @@ def parser() -> argparse.ArgumentParser:
         return command
 
     _bake_arguments(add("bake", actions.run_bake, "MODEL -o DIR", "bake a mesh into a folder"))
-    _groom_arguments(add("groom", actions.run_groom, "DIR -o FILE.npz", "write the strands of a baked fur on its body"))
     inspect = add("inspect", actions.run_inspect, "DIR", "say what is in a baked folder")
     inspect.add_argument("folder", metavar="DIR", type=_path)
     inspect.add_argument("--json", action="store_true", help="as one JSON object")
@@ -173,6 +172,7 @@ def parser() -> argparse.ArgumentParser:
     patches.add_argument(
         "--faces", type=_whole, metavar="F", help="of a simplified copy of each (default: as they are)"
     )
+    _groom_arguments(add("groom", actions.run_groom, "DIR -o FILE.npz", "write the strands of a baked fur on its body"))
     return top
 
 

@@ -2,7 +2,7 @@
 
 Compositing is linear in the light of the texels. So the samples of three directions are a colour plane's red, green and
 blue, the share that each direction has in a vertex's light is its colour, and such passes, unlit, add up to the picture
-that has every texel's light as it was sampled, linear between the directions.
+that has every texel's light as it was sampled, linear between the directions. Fins are left out.
 """
 
 from __future__ import annotations
