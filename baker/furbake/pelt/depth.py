@@ -24,7 +24,7 @@ POINTS_PER_TEXEL, LEAST_POINTS, LONGEST = 2, 4, 8
 """Points of a bent ray per texel that it moves aside, in a piece of it at least, and texels of the longest piece."""
 
 STRIP, DARK = 8, 1e-5
-"""Slabs whose rays are followed together, from the tips down, and the mean transmittance below which the rest is black."""
+"""Slabs whose rays are followed together, from the tips down, and the mean T below which all deeper ones are black."""
 
 BATCH = 16
 """Pieces whose kernels are made together: they fit into a core's cache."""

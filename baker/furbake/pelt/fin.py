@@ -173,7 +173,10 @@ class _Medium:
             single, caught, reaching, floor = (np.stack(part) for part in zip(*workers.map(beam, lights), strict=True))
         tangent = unit([self._even(self.sigma * self.tangent[..., axis]) for axis in range(3)])
         sigma, thick = self._even(self.sigma), self.height / self.even[0]
-        multiple = scatter(sigma, thick, tangent, lights, caught, reaching, floor, albedo=self.albedo, skin=self.skin)
+        multiple = scatter(
+            sigma, thick, tangent, lights, caught, reaching, floor,
+            albedo=self.albedo, skin=self.skin, faint=self.beta is not None,
+        )  # fmt: skip
         where = self._even(weight) + np.float32(1e-6)
         multiple = (multiple * where).sum(3) / where.sum(2)
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from furbake.pelt.depth import depth_of, passing
 from furbake.pelt.fibre import cylinder, sine
-from furbake.pelt.paths import BODY_RADIUS, lowest
+from furbake.pelt.paths import BODY_RADIUS, lowest, thinned
 from furbake.pelt.scatter import scatter
 from furbake.pelt.volume import Volume, average_down, doubled, pool, slab_means
 
@@ -94,10 +94,12 @@ def sample(
     tangent[..., 2] += 1e-9  # upright where there is no hair
     tangent /= np.linalg.norm(tangent, axis=-1, keepdims=True)
     slab, sigma = fine.height / layers, beam.stored(beam.sigma)
+    if not flat:
+        sigma *= thinned((np.arange(layers) + 0.5) / layers, beta).astype(np.float32)[:, None, None]
     aside = None if fine.aside is None else slab_means(fine.aside, layers)
     multiple = scatter(
         sigma, slab, tangent, lights, caught, reaching, floor,
-        albedo=albedo, skin=0.0 if flat else skin, aside=aside,
+        albedo=albedo, skin=0.0 if flat else skin, aside=aside, faint=not flat,
     )  # fmt: skip
     progress(1.0)
     return single + doubled(multiple)
