@@ -26,7 +26,7 @@ const floors = [
 		'states',
 		'trim',
 	],
-	['levels', 'TrimLight', 'curves', 'stains', 'bent'],
+	['levels', 'TrimLight', 'curves', 'stains', 'bent', 'hue'],
 	['texels', 'SlabLight'],
 	['PeltMaterial', 'follicles'],
 	['FurMaterial', 'PeltStates', 'FurWeather', 'skin', 'curvature'],

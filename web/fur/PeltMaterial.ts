@@ -1,19 +1,24 @@
 import {
+	type Camera,
+	Color,
 	CustomBlending,
 	GLSL3,
 	type IUniform,
 	LessEqualDepth,
 	OneFactor,
 	OneMinusSrcAlphaFactor,
+	type Scene,
 	ShaderMaterial,
 	type ShaderMaterialParameters,
 	type Texture,
 	UniformsLib,
 	UniformsUtils,
 	Vector2,
+	type WebGLRenderer,
 	ZeroFactor,
 } from 'three';
 import { hairChunks, lampChunks, skyChunks, texelChunks } from './chunks.ts';
+import { followHue } from './hue.ts';
 import { BODY_RADIUS, smoothSum } from './moments.ts';
 import { curveTable, SlabLight, standInWeights, type Weights } from './SlabLight.ts';
 import colour from './shaders/colour.glsl?raw';
@@ -93,6 +98,7 @@ export class PeltMaterial extends ShaderMaterial {
 				gloss: { value: 0 },
 				sharpness: { value: 60 },
 				backlight: { value: 0 },
+				lampHue: { value: new Color(1, 1, 1) },
 				density: { value: 1 },
 				swing: { value: null },
 				...stainUniforms(),
@@ -270,6 +276,11 @@ export class PeltMaterial extends ShaderMaterial {
 			(this.uniforms.trimLight as IUniform).value = this.#trimLight.texture;
 		}
 		return this.#trimLight;
+	}
+
+	/** Lamps of one hue cost less. */
+	override onBeforeRender(_renderer: WebGLRenderer, scene: Scene, _camera: Camera): void {
+		followHue(this, scene);
 	}
 
 	/** Frees what it has on the GPU but for the pelt's textures. */

@@ -2,11 +2,14 @@
 
 import {
 	type BufferGeometry,
+	type Camera,
+	Color,
 	InstancedBufferAttribute,
 	InstancedBufferGeometry,
 	type IUniform,
 	Material,
 	Mesh,
+	type Scene,
 	ShaderMaterial,
 	type Sphere,
 	UniformsLib,
@@ -15,6 +18,7 @@ import {
 } from 'three';
 import { beginClip, type Columns, endClip } from './clip.ts';
 import type { Fur } from './Fur.ts';
+import { followHue } from './hue.ts';
 import { Places } from './places.ts';
 
 /** The twin of a fur's material for many bodies: its uniforms are the very same but for its own and the lights. */
@@ -32,8 +36,14 @@ export class BodyMaterial extends ShaderMaterial {
 		this.defaultAttributeValues = source.defaultAttributeValues;
 		// The renderer writes the lights of a scene into them: the fur itself may be in another.
 		const lights = source.lights ? UniformsUtils.clone(UniformsLib.lights) : {};
-		this.uniforms = { ...source.uniforms, ...lights, ...own };
+		const hue = source.uniforms.lampHue && { lampHue: { value: new Color(1, 1, 1) } };
+		this.uniforms = { ...source.uniforms, ...lights, ...hue, ...own };
 		this.follow();
+	}
+
+	/** Goes by the lamps of the scene that it is drawn in, not of the fur's. */
+	override onBeforeRender(_renderer: WebGLRenderer, scene: Scene, _camera: Camera): void {
+		followHue(this, scene);
 	}
 
 	/** Has the same parts compiled in, and is blended alike. */
@@ -41,7 +51,10 @@ export class BodyMaterial extends ShaderMaterial {
 		if (this.#version === this.#source.version) return;
 		this.#version = this.#source.version;
 		Material.prototype.copy.call(this, this.#source);
+		const { ONE_HUE } = this.defines;
 		this.defines = { ...this.#source.defines, BODIES: '' };
+		if (ONE_HUE === undefined) delete this.defines.ONE_HUE;
+		else this.defines.ONE_HUE = ONE_HUE;
 		this.needsUpdate = true;
 	}
 }

@@ -33,7 +33,11 @@ Bending bendingOf(vec3 comb, float s) {
 	Bending bending;
 	float square = dot(comb, comb);
 	bending.there = square > 0.0;
+	bending.shear = bending.gradient = vec3(0.0);
+	bending.even = 1.0;
+	bending.form = mat3(0.0);
 	bending.rise = sqrt(max(1.0 - square, 0.04));
+	if (!bending.there) return bending;
 	// From s to the end, 1 unless they are cut, the hairs are sheared by (1 + s)·comb on the whole and as much lower: light as
 	// long as its way through them runs through the same hairs as before.
 	bending.shear = (furTrim + s) / bending.rise * comb;

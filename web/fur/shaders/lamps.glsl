@@ -5,18 +5,23 @@ uniform float sharpness; // exponent of the white highlight; the coloured one's 
 #endif
 
 struct Lamps {
-	Moments moments;
-	vec3 back; // light that comes through the hairs from behind
+	LampMoments moments;
+	Strength back; // light that comes through the hairs from behind
 	vec2 lobes; // highlights: white, of the hair's colour; times the lamps' light on the texel
 #ifdef WET
 	float power; // irradiance
 #endif
 };
 
-#ifdef WET
-#define DARKNESS Lamps(Moments(mat3(0.0), mat3(0.0)), vec3(0.0), vec2(0.0), 0.0)
+#ifdef ONE_HUE
+#define NO_MOMENTS LampMoments(vec3(0.0), vec3(0.0))
 #else
-#define DARKNESS Lamps(Moments(mat3(0.0), mat3(0.0)), vec3(0.0), vec2(0.0))
+#define NO_MOMENTS LampMoments(mat3(0.0), mat3(0.0))
+#endif
+#ifdef WET
+#define DARKNESS Lamps(NO_MOMENTS, Strength(0.0), vec2(0.0), 0.0)
+#else
+#define DARKNESS Lamps(NO_MOMENTS, Strength(0.0), vec2(0.0))
 #endif
 
 // Unit vector along the hairs.
@@ -56,20 +61,27 @@ void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bendi
 		lightTS.UP = 0.0;
 		lightTS /= max(length(lightTS), 1e-4);
 	}
-	float gain = bentLight(lightTS, bending);
+	float gain = bending.there ? bentLight(lightTS, bending) : 1.0;
 	gain *= meanLight(point, height < 0.0 ? height : lightTS.UP, fade, radius, lightTS);
-	vec3 low, high, lit = irradiance * gain;
-	irradiance *= fade;
+	vec3 low, high;
 	basis(lightTS, low, high);
-	lamps.moments.low += outerProduct(lit, low);
-	lamps.moments.high += outerProduct(lit, high);
+	float luminance = dot(irradiance, vec3(0.2126, 0.7152, 0.0722));
+#ifdef ONE_HUE
+	float strength = luminance;
+	lamps.moments.low += (gain * strength) * low;
+	lamps.moments.high += (gain * strength) * high;
+#else
+	vec3 strength = irradiance;
+	lamps.moments.low += outerProduct(gain * strength, low);
+	lamps.moments.high += outerProduct(gain * strength, high);
+#endif
 #if defined(GLOSS) || defined(BACKLIGHT)
 	vec3 strand = strandVS(point), viewer = viewerVS(point.pointVS);
-	float share = dot(irradiance, vec3(0.2126, 0.7152, 0.0722));
+	float share = fade * luminance;
 	power += share;
 	lamps.lobes += share * highlights(strand, point.frameVS[UPRIGHT], lightVS, viewer);
 	float through = max(-dot(viewer, lightVS), 0.0);
-	lamps.back += irradiance * (through * through * through * length(cross(strand, lightVS)) * point.s);
+	lamps.back += (fade * strength) * (through * through * through * length(cross(strand, lightVS)) * point.s);
 #endif
 }
 

@@ -21,12 +21,19 @@ in float vCurvatureXY;
 in float vCombX;
 in float vCombY;
 #else
+#ifdef ONE_HUE
+in vec3 vLampLow;
+#ifdef TWO_PLANES
+in vec3 vLampHigh;
+#endif
+#else
 in mat3 vLampLow;
 #ifdef TWO_PLANES
 in mat3 vLampHigh;
 #endif
+#endif
 #ifdef BACKLIGHT
-in vec3 vBack;
+in Strength vBack;
 #endif
 #ifdef GLOSS
 in float vLobe;

@@ -24,12 +24,19 @@ out float vCombX; // along the first axis of the frame
 out float vCombY; // along the other level one
 #else
 // Light moments of coefficients 0..2 (low) and 3..5 (high), a column each.
+#ifdef ONE_HUE
+out vec3 vLampLow;
+#ifdef TWO_PLANES
+out vec3 vLampHigh;
+#endif
+#else
 out mat3 vLampLow;
 #ifdef TWO_PLANES
 out mat3 vLampHigh;
 #endif
+#endif
 #ifdef BACKLIGHT
-out vec3 vBack;
+out Strength vBack;
 #endif
 #ifdef GLOSS
 out float vLobe; // white highlight
@@ -116,12 +123,12 @@ void passDarkness() {
 	vSlab = vCurvatureX = vCurvatureY = vCurvatureXY = 0.0;
 #endif
 #else
-	vLampLow = mat3(0.0);
+	vLampLow = NO_MOMENTS.low;
 #ifdef TWO_PLANES
-	vLampHigh = mat3(0.0);
+	vLampHigh = NO_MOMENTS.high;
 #endif
 #ifdef BACKLIGHT
-	vBack = vec3(0.0);
+	vBack = Strength(0.0);
 #endif
 #ifdef GLOSS
 	vLobe = vTintedLobe = 0.0;

@@ -19,6 +19,19 @@ struct Moments {
 	mat3 high;
 };
 
+// Those of lamps. Where all of them have one hue they are moments of their strengths, which it multiplies in the end.
+#ifdef ONE_HUE
+#define Strength float
+struct LampMoments {
+	vec3 low;
+	vec3 high;
+};
+uniform vec3 lampHue; // of luminance 1
+#else
+#define Strength vec3
+#define LampMoments Moments
+#endif
+
 // R = constant + gradient·ω + ωᵀ·form·ω in the tangent frame.
 struct Radiance {
 	vec3 constant;

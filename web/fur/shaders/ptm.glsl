@@ -57,6 +57,24 @@ vec3 relight(FurTexel texel, Moments moments) {
 	return max(light, 0.0);
 }
 
+#ifdef ONE_HUE
+vec3 relight(FurTexel texel, LampMoments moments) {
+	float light = dot(moments.low, texel.low);
+#ifdef TWO_PLANES
+	light += dot(moments.high, texel.high);
+#endif
+	return max(light, 0.0) * lampHue;
+}
+
+vec3 hued(float strength) {
+	return strength * lampHue;
+}
+#else
+vec3 hued(vec3 light) {
+	return light;
+}
+#endif
+
 // 4π·radiance of a texel whose hairs have this colour. Lamps and environment are clamped apart: where a polynomial dips
 // below zero under a strong lamp it must not eat the light of the sky, which turns shadows blue.
 vec3 furRadiance(FurTexel texel, vec3 colour, Lamps lamps, Moments sky) {
@@ -66,7 +84,7 @@ vec3 furRadiance(FurTexel texel, vec3 colour, Lamps lamps, Moments sky) {
 	light += relight(texel, sky);
 #endif
 #ifdef BACKLIGHT
-	light += lamps.back * (backlight * texel.alpha);
+	light += hued(lamps.back) * (backlight * texel.alpha);
 #endif
 #ifdef GLOSS
 	// The lamps' light on the texel is the highlights' shadow.

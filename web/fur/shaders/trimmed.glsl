@@ -11,4 +11,14 @@ Moments trimmed(Moments moments, float s) {
 	moments.high += outerProduct(change, texelFetch(trimLight, ivec2(1, slab), 0).xyz);
 	return moments;
 }
+
+#ifdef ONE_HUE
+LampMoments trimmed(LampMoments moments, float s) {
+	int slab = clamp(int(s * float(LAYERS) - 0.01), 0, LAYERS - 1);
+	float change = dot(moments.low, texelFetch(trimLight, ivec2(2, slab), 0).xyz) + dot(moments.high, texelFetch(trimLight, ivec2(3, slab), 0).xyz);
+	moments.low += change * texelFetch(trimLight, ivec2(0, slab), 0).xyz;
+	moments.high += change * texelFetch(trimLight, ivec2(1, slab), 0).xyz;
+	return moments;
+}
+#endif
 #endif

@@ -1,0 +1,44 @@
+/** The one hue of a scene's lamps, where they have one: fur then sums their strengths, not their colours. */
+
+import { Color, type DirectionalLight, type Object3D, type ShaderMaterial } from 'three';
+import { luminance } from './environment.ts';
+import { switchPart } from './switches.ts';
+
+/** Channels of two hues of luminance 1 that are taken for the same. */
+const SAME = 1e-4;
+
+const hue = new Color();
+
+/**
+ * The colour, of luminance 1, that all directional, point and spot lights below an object share; white where none shines.
+ *
+ * @param target takes it
+ * @returns whether they share one
+ */
+export function sharedHue(scene: Object3D, target: Color): boolean {
+	let [found, shared] = [false, true];
+	target.setRGB(1, 1, 1);
+	scene.traverseVisible((object) => {
+		const { color, intensity, isDirectionalLight, isPointLight, isSpotLight } = object as DirectionalLight & Lamps;
+		if (!(isDirectionalLight || isPointLight || isSpotLight) || intensity === 0) return;
+		const bright = luminance(color);
+		if (bright === 0) return;
+		hue.copy(color).multiplyScalar(1 / bright);
+		if (!found) target.copy(hue);
+		const apart = Math.max(Math.abs(hue.r - target.r), Math.abs(hue.g - target.g), Math.abs(hue.b - target.b));
+		shared &&= apart <= SAME * Math.max(hue.r, hue.g, hue.b);
+		found = true;
+	});
+	return shared;
+}
+
+interface Lamps {
+	isPointLight?: boolean;
+	isSpotLight?: boolean;
+}
+
+/** Has a material of fur go by the hue of a scene's lamps. To be called before it is drawn. */
+export function followHue(material: ShaderMaterial, scene: Object3D): void {
+	const { lampHue } = material.uniforms;
+	if (lampHue) switchPart(material, 'ONE_HUE', sharedHue(scene, lampHue.value) ? '' : undefined);
+}
