@@ -352,7 +352,7 @@ class TestCeiling:
         (tmp_path / "grey").mkdir()
         grey_copy(asset, tmp_path / "grey", 0.8, 0.2)
         found = sampled_ceiling(asset, [cell((0.2, 0.9, 0.3))])
-        assert found.shares.shape == (1, 9, len(directions()))
+        assert found.shares.shape == (1, 9, len(directions(0.02)))
         np.testing.assert_allclose(found.shares.sum(axis=2), 1, atol=1e-5)
         write_passes(found, tmp_path / "grey", tmp_path / "passes")
         assert len(list((tmp_path / "passes").glob("*.f32"))) == found.passes

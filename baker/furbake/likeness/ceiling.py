@@ -27,11 +27,11 @@ from furbake.likeness.cells import Cell
 from furbake.pelt.fill import fill
 from furbake.pelt.quantise import srgb_bytes
 from furbake.pelt.strands import grow
-from furbake.pelt.transport import LOWEST, hemisphere
+from furbake.pelt.transport import LOWEST_FLAT, hemisphere, lowest
 from furbake.pelt.volume import fine_shape, voxelise
-from furbake.tile import under
 from furbake.surface.mesh import Surface
 from furbake.surface.thickness import distances
+from furbake.tile import under
 
 Single = NDArray[np.float32]
 
@@ -74,12 +74,12 @@ class Ceiling:
         return len(self.samples) // TOGETHER
 
 
-def directions(lowest: float = LOWEST) -> Floats:
-    """(n, 3) unit vectors towards the lights that are sampled, the last ones in a ring at lz = `lowest`."""
+def directions(least: float) -> Floats:
+    """(n, 3) unit vectors towards the lights that are sampled, the last ones in a ring at lz = `least`."""
     angle = 2 * np.pi * np.arange(RIM) / RIM
-    level = np.sqrt(1 - lowest**2)
-    ring = np.stack([level * np.cos(angle), level * np.sin(angle), np.full(RIM, lowest)], -1)
-    return np.concatenate([hemisphere(INNER, lowest=lowest), ring])
+    level = np.sqrt(1 - least**2)
+    ring = np.stack([level * np.cos(angle), level * np.sin(angle), np.full(RIM, least)], -1)
+    return np.concatenate([hemisphere(INNER, lowest=least), ring])
 
 
 def shares(lights: Floats, towards: Floats) -> Single:
@@ -87,11 +87,11 @@ def shares(lights: Floats, towards: Floats) -> Single:
 
     Shares sum to 1 down to the lowest of the lights; what is below it is dark.
     """
-    lowest = float(lights[:, 2].min())
+    least = float(lights[:, 2].min())
     plane = _flat(lights)
-    seen = towards[:, 2] >= lowest
+    seen = towards[:, 2] >= least
     # The ring is a polygon, which its circle leaves by a little.
-    at = _flat(towards) * np.cos(np.pi / RIM) ** (np.linalg.norm(_flat(towards), axis=1) / _reach(lowest))[:, None]
+    at = _flat(towards) * np.cos(np.pi / RIM) ** (np.linalg.norm(_flat(towards), axis=1) / _reach(least))[:, None]
     mesh = Delaunay(plane)
     found = mesh.find_simplex(at, tol=1e-9)
     seen &= found >= 0
@@ -110,7 +110,7 @@ def sampled_ceiling(asset: Asset, cells: Sequence[Cell]) -> Ceiling:
     options = replace(options, layers=pelt.layers, size=pelt.size)
     strands = grow(options.coat, pelt.height, options.seed)
     fine = voxelise(strands, pelt.height, *fine_shape(pelt.layers, pelt.size, pelt.height), options.coat.opacity)
-    lights = directions()
+    lights = directions(LOWEST_FLAT if options.flat else lowest())
     ground = read_ground(asset, (1.0, 1.0, 1.0))
     vertices, faces = read_skin(asset)
     body = Surface(vertices, faces, np.zeros_like(vertices))
@@ -164,8 +164,8 @@ def _flat(directions: Floats) -> Floats:
     return np.asarray(directions[:, :2] / level * np.sqrt(np.maximum(1 - directions[:, 2:], 0)))
 
 
-def _reach(lowest: float) -> float:
-    return float(np.sqrt(1 - lowest))
+def _reach(least: float) -> float:
+    return float(np.sqrt(1 - least))
 
 
 def visible(ground: Ground, body: Surface, to_lamp: Floats) -> Floats:
