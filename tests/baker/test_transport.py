@@ -8,6 +8,7 @@ from scipy.ndimage import map_coordinates
 
 from furbake.pelt.depth import BentDepth, FlatDepth
 from furbake.pelt.fibre import THINNEST, cylinder
+from furbake.pelt.paths import spread
 from furbake.pelt.strands import Coat, Hairs, grow
 from furbake.pelt.transport import (
     LAMP,
@@ -91,6 +92,21 @@ def test_own_slab_is_crossed_from_floor_to_ceiling() -> None:
     above, own = depth.above(light), depth.own(light)
     np.testing.assert_allclose(own, 4 * 0.1 / 0.8, rtol=1e-5)
     np.testing.assert_allclose(above[0], 2 * 4 * 0.1 / 0.8, rtol=1e-5)
+
+
+def test_hairs_on_a_ball_are_drawn_apart() -> None:
+    """A short piece of a leaning hair, each end above its place in the tile: its way and length in space."""
+    beta, heights, piece = 2.0, np.array([0.25, 0.75]), 1e-5
+    tangent = np.array([0.36, 0.48, 0.8])
+    ways, longer = spread(np.broadcast_to(tangent.astype(np.float32), (2, 1, 3)), heights, beta)
+    for way, length, height in zip(ways[:, 0], longer[:, 0], heights, strict=True):
+        ends = []
+        for step in (0, piece):
+            foot, h = tangent[:2] * step, height + tangent[2] * step
+            out = np.array([*foot, np.sqrt(beta**2 - foot @ foot)]) / beta
+            ends.append(out * (beta + h))
+        found = (ends[1] - ends[0]) / piece
+        np.testing.assert_allclose(found, way * length, atol=1e-4)
 
 
 def test_steep_light_on_a_huge_ball_is_that_on_a_flat_patch() -> None:

@@ -9,7 +9,12 @@ there. After a distance t
 
 where the foot is how far the ray has moved along the skin, on which the tile is laid, in the azimuth of the light. It
 comes no nearer to the centre than b = r·√(1 − lz²); for lz < 0 it meets the skin where b < β. A height h is passed at
-t = −r·lz ± √((β + h)² − b²). Hairs diverge: at a height h there are (β/(β + h))² as many in a volume as at the skin.
+t = −r·lz ± √((β + h)² − b²). Hairs diverge: at a height h there are (β/(β + h))² as many in a volume as at the skin,
+and what lies sideways in them is 1 + h/β times as long.
+
+That hairs far along the ray are turned by ψ against it is left out: σ counts by the light's sine where the ray begins.
+On a bunny of β = 4, turned hairs would change the mean T of what the eye sees by 1 % over all azimuths down to the
+horizon and by −5 % at lz = −.2; for one azimuth by −6 to +9 % at the horizon, ±.004 of T at lz = −.2.
 """
 
 from __future__ import annotations
@@ -36,6 +41,18 @@ def lowest(beta: float = BODY_RADIUS) -> float:
 def thinned(height: Array, beta: float) -> Array:
     """Hairs in a volume at these heights, as a share of those at the skin."""
     return (beta / (beta + height)) ** 2
+
+
+def spread(tangent: NDArray[np.float32], height: Array, beta: float) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Hairs that lean are drawn apart sideways by 1 + h/β: their direction, and how much longer that makes them.
+
+    tangent : (K, ..., 3) unit vectors in slabs at `height`, (K,); returns the same and (K, ...)
+    """
+    drawn = np.ones((len(height), 3), np.float32)
+    drawn[:, :2] = (1 + height / beta)[:, None]
+    way = tangent * drawn.reshape(len(height), *[1] * (tangent.ndim - 2), 3)
+    longer = np.linalg.norm(way, axis=-1)
+    return way / longer[..., None], longer
 
 
 @dataclass(frozen=True)

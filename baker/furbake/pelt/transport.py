@@ -2,6 +2,12 @@
 
 Directions are unit vectors (lu, lv, lz) towards the light in the tile's frame. The unit of L is
 4π · radiance / (albedo · irradiance perpendicular to the light).
+
+L = T·D + M: T is the transmittance along the bent paths of `paths` (straight ones on a flat patch), D the hair's own
+scattering (`fibre`), M what is scattered more than once (`scatter`). T starts half a fine slab from a voxel's middle,
+and what the voxel's hairs take of the light is the mean over that much of the ray on both sides of it,
+T·(1 − e^−τ)/τ with the τ of a slab's thickness, so that no piece of a ray counts twice. M is worked out in flat slabs
+with the hairs as thin and as long as on the body.
 """
 
 from __future__ import annotations
@@ -15,7 +21,7 @@ from numpy.typing import NDArray
 
 from furbake.pelt.depth import depth_of, passing
 from furbake.pelt.fibre import cylinder, sine
-from furbake.pelt.paths import BODY_RADIUS, lowest, thinned
+from furbake.pelt.paths import BODY_RADIUS, lowest, spread, thinned
 from furbake.pelt.scatter import scatter
 from furbake.pelt.volume import Volume, average_down, doubled, pool, slab_means
 
@@ -120,6 +126,10 @@ class _Beam:
         self.shares = shares.reshape(layers, -1, *coverage.shape[1:])
         self.sigma = fine.sigma.astype(np.float32)
         self.tangent = fine.tangent.astype(np.float32)
+        if beta is not None:
+            middle = (np.arange(len(self.sigma)) + 0.5) / len(self.sigma)
+            self.tangent, longer = spread(self.tangent, middle, beta)
+            self.sigma *= longer
         self.hair: Single = np.maximum(self.stored(self.sigma), np.float32(1e-6))
 
     def __call__(self, light: Array, number: int) -> tuple[Single, Single, Single, Single]:
