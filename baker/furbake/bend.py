@@ -19,14 +19,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.bake import fit_pelt, grown, light, under
 from furbake.knobs import within
 from furbake.options import BakeOptions
 from furbake.pelt.basis import held
 from furbake.pelt.bent import bent, factor, fit_bends, general, sheared
+from furbake.pelt.paths import BODY_RADIUS
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.quantise import dequantise
-from furbake.pelt.transport import BODY_RADIUS
+from furbake.tile import fit_pelt, grown, light, under
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]

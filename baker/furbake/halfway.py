@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.bake import Lighting, Sampled, fit_pelts, parts, sampled
 from furbake.options import BakeOptions
-from furbake.pelt.basis import Basis
-from furbake.pelt.fit import Judge, relight
+from furbake.pelt.fit import Judge, stored_light
 from furbake.pelt.pelt import Pelt, State
-from furbake.pelt.quantise import dequantise
 from furbake.pelt.states import DIRTY, WETNESS, in_state, moistened
 from furbake.pelt.strands import grow
+from furbake.tile import Lighting, Sampled, fit_pelts, parts, sampled
 from furbake.verify import correlation
 
 Array = NDArray[np.float64]
@@ -91,22 +90,27 @@ def halfway(options: BakeOptions, step: Callable[[float], None] = lambda fractio
 
 def texels(pelt: Pelt, dry: Pelt, lighting: Lighting) -> Texels:
     """What the bytes of one pelt show under the held-out lights; a dirty one has the hairs of the dry one."""
-    return Texels(lit(pelt, pelt.codes, lighting), pelt.alpha / 255, brightness(pelt, dry))
+    return Texels(lit(pelt, lighting), pelt.alpha / 255, brightness(pelt, dry))
 
 
-def lit(pelt: Pelt, codes: NDArray[np.generic], lighting: Lighting) -> Single:
-    """L of bytes, or of what lies between bytes, under the held-out lights."""
-    basis = Basis(pelt.kind, pelt.degree, pelt.matrix)
-    return relight(dequantise(codes, pelt.scale, pelt.bias), basis, lighting.lights[lighting.held_out])
+def lit(pelt: Pelt, lighting: Lighting) -> Single:
+    """L under the held-out lights."""
+    return stored_light(pelt, lighting.lights[lighting.held_out])
 
 
 def mean(first: Pelt, second: Pelt, lighting: Lighting) -> Texels:
-    """Half-way between two states, as the page mixes them: coefficients, α and tint, then light."""
+    """Half-way between two states, as the page mixes them: coefficients, α, tint and weights, then light."""
     codes, alpha, tint = (
         (one.astype(np.float64) + other) / 2
         for one, other in ((first.codes, second.codes), (first.alpha, second.alpha), (first.tint, second.tint))
     )
-    return Texels(lit(first, codes, lighting), alpha / 255, tint / 255)
+    weights = None if first.weights is None or second.weights is None else (first.weights + second.weights) / 2
+    return Texels(lit(mixed(first, codes, weights), lighting), alpha / 255, tint / 255)
+
+
+def mixed(pelt: Pelt, codes: Array, weights: Array | None) -> Pelt:
+    """A pelt with what lies between bytes."""
+    return replace(pelt, codes=cast(Any, codes), weights=weights)
 
 
 def soiled(dry: Pelt, dirty: Pelt, dirt: float, lighting: Lighting) -> Texels:
@@ -118,8 +122,8 @@ def soiled(dry: Pelt, dirty: Pelt, dirt: float, lighting: Lighting) -> Texels:
     mud = dirt * dirty.tint / 255 * dirty.alpha / 255
     alpha = 1 - (1 - dry.alpha / 255) * (1 - mud)
     share = np.minimum(mud / np.maximum(alpha, 1e-9), 1)
-    light = lit(dry, dry.codes + dirt * (dirty.codes.astype(float) - dry.codes), lighting)
-    return Texels(light, alpha, mixed_brightness(dry, share))
+    codes = dry.codes + dirt * (dirty.codes.astype(float) - dry.codes)
+    return Texels(lit(mixed(dry, codes, dry.weights), lighting), alpha, mixed_brightness(dry, share))
 
 
 def brightness(pelt: Pelt, dry: Pelt) -> Array:

@@ -121,6 +121,7 @@ BAKE = {
     "lights": _whole(8, 1024),
     "basis": Knob("word", words=("ptm", "eigen")),
     "coefficients": _whole(3, 6),
+    "curves": Knob("word", words=("slab", "none")),
     "height": _number(0.02, 4),
     "tile_share": _number(0.001, 10),
     "colour_plane": Knob("switch"),

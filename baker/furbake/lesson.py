@@ -25,17 +25,17 @@ from numpy.typing import NDArray
 
 from furbake.asset.planes import pack, write_png
 from furbake.asset.store import atomic_folder
-from furbake.bake import Lighting, fit_pelt, light, under
 from furbake.identity import library_versions
 from furbake.options import BakeOptions, OptionError
-from furbake.pelt import basis as bases
 from furbake.pelt.basis import PTM, PTM_TERMS, ptm
+from furbake.pelt.eigen import eigen
 from furbake.pelt.fill import SOLID, fill
 from furbake.pelt.fit import Judge, decibels, fit, relight
 from furbake.pelt.pelt import Pelt
-from furbake.pelt.quantise import byte_range, dequantise, quantise
+from furbake.pelt.quantise import byte_range, dequantise, gram, quantise
 from furbake.pelt.strands import Strands, grow
 from furbake.pelt.volume import Volume, coarsen, fine_shape, voxelise
+from furbake.tile import Lighting, fit_pelt, light, under
 
 NAME = "lesson.json"
 
@@ -92,8 +92,10 @@ def write(
 
     progress : called with a stage of `STAGES` and the fraction of it that is done
 
-    The same options and version give the same bytes. Raises OptionError or StoreError, each with one sentence.
+    Its polynomials are the paper's, without mean curves. The same options and version give the same bytes. Raises
+    OptionError or StoreError, each with one sentence.
     """
+    options = replace(options, curves="none")
     options.check()
     if options.basis != "ptm":
         raise OptionError(f"basis: got {options.basis}, expected ptm: the lesson puts others beside it")
@@ -156,7 +158,8 @@ def fresh(out: Path, options: BakeOptions) -> dict[str, Any] | None:
 
 def lesson_key(options: BakeOptions) -> str:
     """SHA-256 of everything that decides the folder."""
-    parts = {"furbake": version("furbake"), "options": options.as_record(), "layout": LAYOUT}
+    record = replace(options, curves="none").as_record()
+    parts = {"furbake": version("furbake"), "options": record, "layout": LAYOUT}
     return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()
 
 
@@ -177,7 +180,7 @@ def _case(volume: Volume, lighting: Lighting, pelt: Pelt) -> _Case:
 def _eigen(case: _Case) -> dict[str, Any]:
     """Six light curves found for this fur; its first n are the best n."""
     flat = case.samples.reshape(len(case.samples), -1)
-    found = bases.eigen(flat, case.volume.coverage.ravel(), case.seen, PTM_TERMS)
+    found = eigen(flat, case.volume.coverage.ravel(), case.seen, PTM_TERMS)
     return {"degree": found.degree, "matrix": np.asarray(found.matrix).tolist()}
 
 
@@ -214,7 +217,7 @@ def _polynomial(case: _Case, count: int) -> dict[str, Any]:
 
 def _curves(case: _Case, count: int) -> dict[str, Any]:
     """The first `count` curves found for this fur."""
-    basis = bases.eigen(case.samples.reshape(len(case.samples), -1), case.volume.coverage.ravel(), case.seen, count)
+    basis = eigen(case.samples.reshape(len(case.samples), -1), case.volume.coverage.ravel(), case.seen, count)
     return _judged(case, "numbers", count, basis(case.seen), basis(case.unseen))
 
 
@@ -233,7 +236,7 @@ def _coarse(case: _Case, exact: Floats, bits: int) -> dict[str, Any]:
     """
     phi, alpha, top = ptm(case.seen), case.volume.coverage, 2**bits - 1
     scale, bias = byte_range(exact, alpha, top)
-    codes = quantise(exact, scale, bias, phi.T @ phi / len(phi), top)
+    codes = quantise(exact, scale, bias, gram(phi), top)
     unrounded, relit = (relight(some, PTM, case.unseen) for some in (exact, dequantise(codes, scale, bias)))
     solid = Judge(unrounded, alpha * (alpha >= SOLID), case.volume.tint)
     errors, weights = solid.layer_errors(relit)

@@ -19,6 +19,7 @@ from furbake.pelt.strands import Coat
 __all__ = ["BakeOptions", "OptionError", "as_toml", "override", "preset", "preset_names", "preset_summary"]
 
 BasisKind = Literal["ptm", "eigen"]
+CurvesKind = Literal["slab", "none"]
 Guide = Literal["nose-tail", "down"]
 Uv = Literal["lapped", "own"]
 
@@ -50,6 +51,8 @@ class BakeOptions:
     basis: BasisKind = "ptm"
     coefficients: int = 6
     """Numbers per texel: 6 for ptm, 3 to 6 for eigen."""
+    curves: CurvesKind = "slab"
+    """Mean light of each slab, by which its numbers are multiplied, or none: version 1 of the format."""
     length: float | None = None
     """Longest fur, the model's own units, above 0."""
     tile: float | None = None
@@ -154,9 +157,12 @@ class BakeOptions:
 
     @classmethod
     def from_record(cls, record: dict[str, Any]) -> BakeOptions:
-        """The options that `as_record` wrote, JSON's lists and all. Raises OptionError for anything else."""
+        """The options that `as_record` wrote, JSON's lists and all; older ones know no curves.
+
+        Raises OptionError for anything else.
+        """
         try:
-            options = _build(record)
+            options = _build({"curves": "none", **record})
             options.check()
         except (TypeError, ValueError, AttributeError, KeyError) as error:
             raise OptionError(

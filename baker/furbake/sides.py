@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from furbake.options import BakeOptions
-from furbake.pelt import basis as bases
-from furbake.pelt.fin import FIN_FRAME, SideView, fit_fins, side_view
+from furbake.pelt.fin import SideView, fit_fins, polynomial, row_means, side_view
 from furbake.pelt.fit import Judge, relight
-from furbake.pelt.pelt import FinPelt
+from furbake.pelt.pelt import FinPelt, Pelt
 from furbake.pelt.quantise import dequantise
 from furbake.pelt.states import Fur
 from furbake.pelt.transport import hemisphere
@@ -24,8 +23,13 @@ FIN_LIGHTS, FIN_HELD_OUT = 64, 16
 """Lights of a fin's fit, and others that it does not see: enough for six numbers."""
 
 
-def fit_sides(furs: Iterable[tuple[Fur, Volume]], options: BakeOptions) -> list[tuple[FinPelt, dict[str, float]]]:
-    """The fins' textures of all states, and how good they are: `psnr` and `r2` over lights that no fit saw."""
+def fit_sides(
+    furs: Iterable[tuple[Fur, Volume]], pelts: Sequence[Pelt], options: BakeOptions
+) -> list[tuple[FinPelt, dict[str, float]]]:
+    """The fins' textures of all states, and how good they are: `psnr` and `r2` over lights that no fit saw.
+
+    pelts : of the same states, whose mean curves the fins share
+    """
     fitted = hemisphere(min(options.lights, FIN_LIGHTS))
     unseen = hemisphere(FIN_HELD_OUT, turn=1.0)
     lights = np.concatenate([fitted, unseen])
@@ -40,11 +44,14 @@ def fit_sides(furs: Iterable[tuple[Fur, Volume]], options: BakeOptions) -> list[
         coloured = options.colour_plane and fur.mud is None
         colours.append(options.ramp.colour(view.tint, view.hue) if coloured else None)
     count = len(fitted)
-    fins = fit_fins([replace(view, light=view.light[:count]) for view in views], fitted, colours)
+    rows = len(views[0].alpha)
+    means = [row_means(pelt, rows, fitted) for pelt in pelts]
+    fins = fit_fins([replace(view, light=view.light[:count]) for view in views], fitted, colours, means)
     found = []
-    for view, fin in zip(views, fins, strict=True):
+    for view, fin, pelt in zip(views, fins, pelts, strict=True):
         judge = Judge(view.light[count:, :, None].astype(np.float32), view.alpha[:, None], view.tint[:, None])
-        stored = relight(dequantise(fin.codes, fin.scale, fin.bias), bases.PTM, unseen[:, FIN_FRAME])
+        coefficients = dequantise(fin.codes, fin.scale, fin.bias)
+        stored = relight(coefficients, polynomial, unseen, row_means(pelt, rows, unseen))
         figures = judge.figures(stored[:, :, None])
         found.append((fin, {name: figures[name] for name in ("psnr", "r2")}))
     return found

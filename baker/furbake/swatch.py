@@ -18,10 +18,10 @@ from furbake.asset.planes import write_png
 from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt, skin_colour
 from furbake.options import OptionError
-from furbake.pelt.basis import Basis
+from furbake.pelt.basis import environment
+from furbake.pelt.paths import BODY_RADIUS
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.quantise import dequantise, srgb_bytes
-from furbake.pelt.transport import BODY_RADIUS
 
 Array = NDArray[np.float64]
 Bytes = NDArray[np.uint8]
@@ -161,28 +161,30 @@ def radiance(
 
     Shells over the skin, from the innermost out: radiance = colour · L·E/(4π), lamp and sky clamped apart.
     """
-    basis = Basis(pelt.kind, pelt.degree, pelt.matrix)
     coefficients = dequantise(pelt.codes, pelt.scale, pelt.bias)
     hairs = hairs or pelt
     colours = None if hairs.colour is None else from_srgb(hairs.colour)
     mud = None if pelt.state.mud is None else np.array(pelt.state.mud)
-    sky_moments = pelt.environment @ sky_harmonics(scene)
+    sky_moments = sky_of(pelt) @ sky_harmonics(scene)
     count = pelt.layers * shells_per_slab
     heights = (np.arange(count) + 0.5) / count
     shear = drift_at(heights, pelt.drift) - np.repeat(pelt.drift, shells_per_slab, axis=0)
     base, lamp = pelt.state.shade * np.array(skin), np.array(scene.lamp)
     root, tip = np.array(pelt.ramp.root), np.array(pelt.ramp.tip)
 
-    def lit(at: Array, s: float) -> Iterator[Array]:
-        """Light of all pixels under each lamp."""
-        sky = np.maximum(at @ sky_moments, 0)
-        for light in lights:
+    mean = pelt.mean(lights)
+
+    def lit(at: Array, k: int, s: float) -> Iterator[Array]:
+        """Light of all pixels of slab k under each lamp."""
+        sky = np.maximum(at @ sky_moments[k], 0)
+        for n, light in enumerate(lights):
             seen, fade = above_horizon(light, s)
-            curve = np.maximum(at @ (fade * basis(seen[None])[0]), 0)
+            share = fade if mean is None else mean[n, k]
+            curve = np.maximum(at @ (share * pelt.basis(seen[None])[0]), 0)
             yield (curve[..., None] * lamp + sky) / (4 * np.pi)
 
     bare = resample(coefficients[0], pixels, (0.0, 0.0))
-    images: Array = np.stack([SKIN * base * root * light for light in lit(bare, 0.0)])
+    images: Array = np.stack([SKIN * base * root * light for light in lit(bare, 0, 0.0)])
     for i, s in enumerate(heights):
         k = i // shells_per_slab
         pigments = hairs.tint[k, ..., None] / 255.0 if colours is None else colours[k]
@@ -193,9 +195,16 @@ def radiance(
         if mud is not None:
             colour = colour + share * (mud - colour)
         opacity = 1 - (1 - np.minimum(alpha, 0.996)) ** (1 / shells_per_slab)
-        for n, light in enumerate(lit(a, float(s))):
+        for n, light in enumerate(lit(a, k, float(s))):
             images[n] += opacity * (colour * light - images[n])
     return images
+
+
+def sky_of(pelt: Pelt) -> Array:
+    """Harmonics of the radiance → light moments of each slab, (K, C, 9)."""
+    if pelt.curves is None or pelt.weights is None:
+        return np.broadcast_to(environment(pelt.basis), (pelt.layers, pelt.coefficients, 9))
+    return np.tensordot(pelt.weights, pelt.curves.environment(pelt.basis), 1)
 
 
 def unit(light: Sequence[float]) -> Array:

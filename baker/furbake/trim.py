@@ -8,12 +8,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.bake import Lighting, fit_pelt, grown, light, parts, under
 from furbake.options import BakeOptions
-from furbake.pelt.basis import Basis
 from furbake.pelt.fit import Judge, decibels, fit, relight
+from furbake.pelt.means import Measured, mean_light, shared, tables
+from furbake.pelt.paths import BODY_RADIUS
+from furbake.pelt.pelt import Pelt
 from furbake.pelt.quantise import dequantise
 from furbake.pelt.volume import Volume
+from furbake.tile import Lighting, fit_pelt, grown, light, parts, under
 from furbake.verify import correlation
 
 Array = NDArray[np.float64]
@@ -94,6 +96,12 @@ def reweighted(coefficients: Array, alpha: Array, kept: int) -> Array:
     return np.asarray(coefficients[:kept] + one[..., None] * (wanted - mean[:kept])[:, None, None])
 
 
+def stood_in(curves: Array, alpha: Array, kept: int) -> Array:
+    """Mean curves of the slabs that are left: those of their stand-ins, (n, K) → (n, kept)."""
+    places = stand_ins(alpha, kept)
+    return np.stack([np.interp(places, np.arange(len(alpha)), row) for row in curves])
+
+
 def trim(
     options: BakeOptions,
     lengths: tuple[float, ...] = LENGTHS,
@@ -106,31 +114,40 @@ def trim(
     options = replace(options, lights=lights)
     lighting = light(fine, options, next(part), held_out=HELD_OUT)
     pelt, _ = fit_pelt(volume, lighting, options)
-    basis = Basis(pelt.kind, pelt.degree, pelt.matrix)
+    basis = pelt.basis
     coefficients = dequantise(pelt.codes, pelt.scale, pelt.bias)
     alpha, layers = volume.coverage, options.layers
     unseen = lighting.lights[lighting.held_out]
-    whole = relight(coefficients, basis, unseen)
+    curves = pelt.mean(unseen)
+    whole = relight(coefficients, basis, unseen, curves)
     for share in lengths:
         kept = max(1, round(share * layers))
         short = under(lighting.lights, cut(fine, kept / layers), replace(options, layers=kept), next(part))
         judge = Judge(short[lighting.held_out], alpha[:kept], volume.tint[:kept])
         above = Judge(whole, alpha, volume.tint).composite(whole)
         flat = whole[:, ((np.arange(kept) + 0.5) * layers / kept).astype(int)]
+        kept_curves = None if curves is None else stood_in(curves, alpha, kept)
         ways = {
             "flattened": (flat, above),
             "cut": (whole[:, :kept], None),
-            "cut, re-weighted": (relight(reweighted(coefficients, alpha, kept), basis, unseen), None),
-            "baked anew": (_anew(short, lighting, basis), None),
+            "cut, re-weighted": (relight(reweighted(coefficients, alpha, kept), basis, unseen, kept_curves), None),
+            "baked anew": (_anew(short, alpha[:kept], lighting, pelt), None),
         }
         for way, (slabs, seen) in ways.items():
             yield _row(judge, slabs, judge.composite(slabs) if seen is None else seen, (options.preset, layers, way))
 
 
-def _anew(samples: Single, lighting: Lighting, basis: Basis) -> Single:
-    """What the same basis makes of the cut strands' own samples, which it need not guess."""
+def _anew(samples: Single, alpha: Array, lighting: Lighting, pelt: Pelt) -> Single:
+    """What the same basis makes of the cut strands' own samples, with mean curves of their own, if any."""
     fitted = ~lighting.held_out
-    return relight(fit(samples[fitted], basis, lighting.lights[fitted]), basis, lighting.lights[lighting.held_out])
+    seen, unseen = lighting.lights[fitted], lighting.lights[~fitted]
+    mean, there = None, None
+    if pelt.curves is not None:
+        own = Measured(BODY_RADIUS, seen, mean_light(samples[fitted], alpha))
+        lean = pelt.curves.lean
+        curves, (weights,) = shared([tables(own, (), lean)], [alpha.mean((1, 2))], lean)
+        mean, there = curves.mean(seen, weights), curves.mean(unseen, weights)
+    return relight(fit(samples[fitted], pelt.basis, seen, mean), pelt.basis, unseen, there)
 
 
 def _row(judge: Judge, slabs: Single, seen: NDArray[np.floating], of: tuple[str, int, str]) -> Row:

@@ -18,15 +18,14 @@ from numpy.typing import NDArray
 from furbake.asset.planes import write_png
 from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt
-from furbake.bake import under
 from furbake.options import BakeOptions, OptionError
 from furbake.pathtrace import DEPTH, Tracer, VerifyError, control_points, load, tiles_around, write_curves
-from furbake.pelt.basis import Basis
-from furbake.pelt.fit import Judge, relight
+from furbake.pelt.fit import Judge, stored_light
 from furbake.pelt.pelt import Pelt
-from furbake.pelt.quantise import dequantise, srgb_bytes
+from furbake.pelt.quantise import srgb_bytes
 from furbake.pelt.strands import grow
 from furbake.pelt.volume import coarsen, fine_shape, pool, voxelise
+from furbake.tile import under
 
 Array = NDArray[np.float64]
 Bytes = NDArray[np.uint8]
@@ -128,7 +127,7 @@ def look(pelt: Pelt, options: BakeOptions, spp: int, depth: int, progress: Progr
     if float(np.abs(alpha - pelt.alpha / 255).mean()) > OTHER_STRANDS:
         raise VerifyError("bake.json: its options do not grow this bake's strands, bake it again with this furbake")
     light = under(towards, fine, options, lambda fraction: progress("light", fraction))
-    stored = relight(dequantise(pelt.codes, pelt.scale, pelt.bias), Basis(pelt.kind, pelt.degree, pelt.matrix), towards)
+    stored = stored_light(pelt, towards)
     pixels = min(pelt.size, MOST_PIXELS)
     with TemporaryDirectory(prefix="furbake-") as scratch:
         curves = Path(scratch) / "strands.txt"

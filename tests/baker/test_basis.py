@@ -3,7 +3,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from furbake.pelt.basis import PTM, Basis, eigen, environment, harmonics, ptm, smooth, smooth_terms
+from furbake.pelt.basis import PTM, Basis, environment, harmonics, ptm, smooth, smooth_terms
+from furbake.pelt.eigen import eigen
 from furbake.pelt.fit import fit
 from furbake.pelt.transport import hemisphere
 

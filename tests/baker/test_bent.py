@@ -14,7 +14,7 @@ from furbake.asset.gltf import EXTENSION, write_gltf
 from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt
 from furbake.asset.validate import validate
-from furbake.bake import bake, fit_pelt, light
+from furbake.bake import bake
 from furbake.options import BakeOptions, preset
 from furbake.pelt.bent import LEAST, MOST, factor, fit_bends, general, terms
 from furbake.pelt.pelt import Pelt
@@ -23,6 +23,7 @@ from furbake.pelt.transport import hemisphere
 from furbake.pelt.volume import coarsen, fine_shape, voxelise
 from furbake.surface.coat import VertexFur
 from furbake.surface.shapes import builtin
+from furbake.tile import fit_pelt, light
 
 LIGHTS = hemisphere(40)
 SMALL = replace(preset("paper"), size=16, layers=6, lights=24)

@@ -19,6 +19,7 @@ from furbake.asset.read import Asset, AssetError, inside, read_asset
 from furbake.asset.stored import read_pelt
 from furbake.asset.validate import schema
 from furbake.asset.vertices import grid, quantise_positions, quantise_weights, settle, signed
+from furbake.pelt.basis import environment
 from furbake.pelt.pelt import Pelt, State
 from furbake.surface.charts import Charts
 from furbake.surface.coat import FARTHEST, VertexFur
@@ -261,7 +262,7 @@ def test_extension_holds_the_pelt(
     assert state.get("colour") == (2 if coefficients == 6 else None)
     np.testing.assert_allclose(state["scale"], pelt.scale, rtol=1e-8)
     np.testing.assert_allclose(state["bias"], pelt.bias, rtol=1e-8)
-    np.testing.assert_allclose(fur["environment"], pelt.environment, rtol=1e-8)
+    np.testing.assert_allclose(fur["environment"], environment(pelt.basis), rtol=1e-8)
     np.testing.assert_allclose(fur["drift"], pelt.drift, rtol=1e-8)
     if kind == "eigen":
         assert pelt.matrix is not None

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from furbake.bake import Lighting
 from furbake.halfway import Row, halfway, markdown, mean, soiled, texels
 from furbake.options import BakeOptions
 from furbake.pelt.pelt import Pelt, State
 from furbake.pelt.transport import hemisphere
+from furbake.tile import Lighting
 
 LIGHTS = hemisphere(8)
 

@@ -143,6 +143,22 @@ def test_many_lights_at_once_equal_each_alone() -> None:
         np.testing.assert_allclose(together[one], alone, rtol=0.03, atol=1e-3)
 
 
+def test_faint_lights_keep_what_they_scatter() -> None:
+    """Among strong lights with a pattern each, one a thousand times fainter: its slabs' means are its own."""
+    shape = (4, 8, 8)
+    lights = RNG.normal(size=(9, 3))
+    lights /= np.linalg.norm(lights, axis=1, keepdims=True)
+    medium = (RNG.uniform(0, 4, shape).astype(np.float32), 0.1, hairs(shape))
+    caught, reaching, floor = (field * np.float32(1) for field in fields(lights, shape))
+    for field in (caught, reaching, floor):
+        field[-1] *= 1e-3
+    caught[-1, :-1] = reaching[-1, :-1] = 0  # it only reaches the top
+    given = {"albedo": 0.85, "skin": 0.25}
+    together = scatter(*medium, lights, caught, reaching, floor, **given, faint=True)[-1]
+    alone = scatter(*medium, lights[-1:], caught[-1:], reaching[-1:], floor[-1:], **given)[0]
+    np.testing.assert_allclose(together.mean((1, 2)), alone.mean((1, 2)), rtol=0.1)
+
+
 def test_cylinder_sends_on_all_that_it_takes() -> None:
     """Light that is the same from everywhere: a hair sends as much of it to the eye whichever way it lies."""
     directions, solid_angles = hemisphere_rule()

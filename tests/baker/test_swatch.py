@@ -20,7 +20,6 @@ from furbake.asset.read import AssetError, read_asset
 from furbake.asset.stored import read_pelt, skin_colour
 from furbake.bake import bake
 from furbake.options import OptionError, preset
-from furbake.pelt.basis import PTM, environment
 from furbake.pelt.pelt import Pelt, Ramp
 from furbake.surface.coat import VertexFur
 from furbake.surface.shapes import builtin
@@ -59,7 +58,6 @@ def even_pelt(numbers: list[float], alpha: int = 255, layers: int = 1, size: int
         kind="ptm",
         degree=None,
         matrix=None,
-        environment=environment(PTM),
         drift=np.zeros((layers, 2)),
         height=0.5,
         ramp=Ramp((0.5, 0.5, 0.5), (1.0, 1.0, 1.0), (1.0, 1.0, 1.0), 1.0),
@@ -165,7 +163,6 @@ def test_every_kind_of_folder(
     for name in ("codes", "alpha", "colour"):
         np.testing.assert_array_equal(getattr(stored, name), getattr(pelt, name))
     np.testing.assert_array_equal(stored.tint, 255 if count == 3 else pelt.tint)
-    np.testing.assert_allclose(stored.environment, pelt.environment, rtol=1e-8)
     assert skin_colour(asset) == (1.0, 1.0, 1.0)
     image = render(tmp_path / "out", tiles=2, size=64)
     assert image.shape == (64, 64, 3)

@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 from scipy.ndimage import map_coordinates
 
+from furbake.pelt.depth import BentDepth, FlatDepth
 from furbake.pelt.fibre import THINNEST, cylinder
 from furbake.pelt.strands import Coat, Hairs, grow
 from furbake.pelt.transport import (
     LAMP,
     LOWEST,
-    OpticalDepth,
     _Beam,
-    curved_elevation,
     hemisphere,
     lamp_cone,
+    lowest,
     sample,
 )
 from furbake.pelt.volume import voxelise
@@ -38,13 +38,48 @@ def march(sigma: np.ndarray, slab: float, light: np.ndarray, step: float = 0.1) 
     return depth
 
 
+def march_on_a_ball(sigma: np.ndarray, height: float, light: np.ndarray, beta: float, step: float = 0.05) -> np.ndarray:
+    """The oracle: T of straight rays in space from half a slab beside every voxel's middle, in steps of `step` voxels.
+
+    A voxel (k, v, u) lies where a point above the skin does, and a point in space is in the voxel above whose skin it
+    is. The middle of the tile is on the axis z; the ball is so even that every texel's frame is that of the middle.
+    """
+    layers, size, _ = sigma.shape
+    v, u = np.mgrid[0:size, 0:size].astype(float)
+    depth = np.zeros_like(sigma)
+    dt = step / (height * size)
+    for k in range(layers):
+        at = np.array([0.0, 0.0, beta + (k + 0.5) / layers]) + light * (0.5 / layers + dt / 2)
+        while beta < np.linalg.norm(at) < beta + 1:
+            above = np.linalg.norm(at) - beta
+            angle = np.arccos(np.clip(at[2] / np.linalg.norm(at), -1, 1))
+            foot = beta * angle * at[:2] / max(np.hypot(*at[:2]), 1e-12) * height * size
+            met = map_coordinates(sigma[int(above * layers)], [v + foot[1], u + foot[0]], order=1, mode="grid-wrap")
+            depth[k] += met * (beta / (beta + above)) ** 2 * dt * height
+            at = at + light * dt
+        if np.linalg.norm(at) < beta + 0.5:
+            depth[k] = np.inf
+    return np.exp(-depth)
+
+
+@pytest.mark.parametrize("beta", [1.0, 4.0, 16.0])
+@pytest.mark.parametrize("lz", [0.9, 0.5, 0.2, 0.05, -0.1, -0.25, -0.4])
+def test_transmittance_on_a_ball_equals_brute_force(beta: float, lz: float) -> None:
+    volume = voxelise(grow(Coat(), 0.6, 0), 0.6, 8, 16, 2.2)
+    light = np.array([*(np.sqrt(1 - lz * lz) * np.array([0.8, 0.6])), lz])
+    clear, skin = BentDepth(volume.sigma, volume.slab, beta).through(light)
+    error = clear - march_on_a_ball(volume.sigma, 0.6, light, beta)
+    assert np.sqrt((error**2).mean()) <= 0.002
+    assert (skin.max() > 0) == (lz > 0)
+
+
 @pytest.mark.parametrize("elevation", [83, 60, 35, 15, 6])
 @pytest.mark.parametrize("azimuth", [20, 135])
 def test_optical_depth_equals_brute_force(elevation: float, azimuth: float) -> None:
     volume = voxelise(grow(Coat(), 0.6, 0), 0.6, 8, 32, 2.2)
     e, a = np.radians([elevation, azimuth])
     light = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
-    above = OpticalDepth(volume.sigma, volume.slab).above(light)
+    above = FlatDepth(volume.sigma, volume.slab).above(light)
     error = np.exp(-above) - np.exp(-march(volume.sigma, volume.slab, light))
     assert np.sqrt((error**2).mean()) <= 0.002
 
@@ -52,10 +87,45 @@ def test_optical_depth_equals_brute_force(elevation: float, azimuth: float) -> N
 def test_own_slab_is_crossed_from_floor_to_ceiling() -> None:
     sigma = np.full((3, 16, 16), 4.0)
     light = np.array([0.6, 0.0, 0.8])
-    depth = OpticalDepth(sigma, 0.1)
+    depth = FlatDepth(sigma, 0.1)
     above, own = depth.above(light), depth.own(light)
     np.testing.assert_allclose(own, 4 * 0.1 / 0.8, rtol=1e-5)
     np.testing.assert_allclose(above[0], 2 * 4 * 0.1 / 0.8, rtol=1e-5)
+
+
+def test_steep_light_on_a_huge_ball_is_that_on_a_flat_patch() -> None:
+    volume = voxelise(grow(Coat(), 0.6, 0), 0.6, 24, 32, 2.2)
+    light = np.array([0.06, 0.08, np.sqrt(0.99)])
+    flat, ball = FlatDepth(volume.sigma, volume.slab), BentDepth(volume.sigma, volume.slab, 1e5)
+    (clear, skin), (clear_ball, skin_ball) = flat.through(light), ball.through(light)
+    np.testing.assert_allclose(clear, clear_ball, atol=0.01)
+    assert skin.mean() == pytest.approx(skin_ball.mean(), abs=0.002)
+    np.testing.assert_allclose(flat.own(light), ball.own(light), atol=0.01)
+
+
+@pytest.mark.parametrize("beta", [1.0, 4.0, 16.0])
+def test_lowest_light_grazes_the_horizon_of_the_tips(beta: float) -> None:
+    sigma = np.full((40, 4, 4), 0.1)
+    for lower, lit in ((0.0, True), (0.02, False)):
+        lz = lowest(beta) * 0.99 - lower
+        clear, skin = BentDepth(sigma, 0.01, beta).through(np.array([np.sqrt(1 - lz * lz), 0, lz]))
+        assert (clear[-1] > 0).all() == lit
+        assert skin.max() == 0
+
+
+def test_light_is_lost_smoothly_across_the_horizon() -> None:
+    """From the zenith to the lowest light each slab gets less and less, and the tips the last of it."""
+    fine = voxelise(grow(Coat(), 0.6, 0), 0.6, 16, 64, 2.2)
+    heights = np.array([0.9, 0.6, 0.3, 0.1, 0.0, -0.1, -0.2, -0.3, -0.45, lowest() - 0.2])
+    lights = np.stack([np.sqrt(1 - heights**2), 0 * heights, heights], 1)
+    light = sample(fine, 8, 32, lights)
+    assert np.isfinite(light).all()
+    assert light.min() >= 0
+    deep, top = light[:, 1].mean((1, 2)), light[:, -1].mean((1, 2))
+    assert (np.diff(deep) <= 1e-3).all()
+    assert deep[7] < 0.02 * deep[0]
+    assert top[7] > 0.1 * top[0]
+    assert light[-1].max() == 0
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -78,16 +148,6 @@ def test_cylinder_is_the_mean_over_its_lit_and_seen_side(seed: int) -> None:
     assert cylinder(fibre, light) == pytest.approx(4 * radiance, rel=0.02, abs=0.02)
 
 
-def test_curved_path_is_that_through_a_ball_of_fur() -> None:
-    beta = 4.0
-    for lz in (0.0, 0.1, 0.5, 0.9, 1.0):
-        across, up = np.sqrt(1 - lz * lz), lz
-        # From (0, β) along (across, up) to the circle of radius β + 1.
-        path = -beta * up + np.sqrt(beta**2 * up**2 + (beta + 1) ** 2 - beta**2)
-        assert np.hypot(path * across, beta + path * up) == pytest.approx(beta + 1)
-        assert curved_elevation(lz, beta) == pytest.approx(1 / path)
-
-
 def test_lights_are_spread_over_the_upper_hemisphere() -> None:
     lights = hemisphere(64)
     np.testing.assert_allclose(np.linalg.norm(lights, axis=1), 1)
@@ -95,11 +155,10 @@ def test_lights_are_spread_over_the_upper_hemisphere() -> None:
     np.testing.assert_allclose(lights.mean(0), [0, 0, 0.5], atol=0.02)
 
 
-def test_lamp_is_a_small_disc_above_the_horizon() -> None:
-    for light in hemisphere(40):
+def test_lamp_is_a_small_disc_also_on_the_horizon() -> None:
+    for light in hemisphere(40, lowest=-1):
         rays = lamp_cone(light, turn=1.0)
         np.testing.assert_allclose(np.linalg.norm(rays, axis=1), 1)
-        assert (rays[:, 2] >= 0).all()
         assert np.arccos(np.clip(rays @ light, -1, 1)).max() <= LAMP * 1.01
 
 
@@ -126,7 +185,7 @@ def test_light_along_the_hairs_passes_between_them() -> None:
     upright = Hairs(stray=0, curl=0, clump=0, length=(1, 1), count=400)
     coat = Coat(guard=upright, under=replace(upright, count=0), lean=(0, 0), clumps=1)
     fine = voxelise(grow(coat, 0.5, 0), 0.5, 16, 64, 4.0)
-    beam = _Beam(fine, 8, 32, flat=True)
+    beam = _Beam(fine, 8, 32, beta=None)
     _, caught, _, floor = beam(np.array([0.0, 0.0, 1.0]), 0)
     _, _, side, _ = beam(np.array([0.8, 0.0, 0.6]), 0)
     covered = fine.coverage.max(0).mean()

@@ -90,7 +90,7 @@ def test_reweighted_slabs_come_nearer_to_a_bake_of_the_cut_strands(rows: list[Ro
             assert getattr(ours, figure) > getattr(flat, figure)
             assert getattr(anew, figure) > getattr(ours, figure)
         assert ours.r > max(flat.r, bare.r)
-        assert 0.85 < ours.level < 1.25
+        assert 0.85 < ours.level < 1.4
 
 
 def test_table_has_a_line_for_each_length(rows: list[Row]) -> None:

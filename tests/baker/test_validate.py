@@ -73,7 +73,19 @@ def test_schema_is_a_schema() -> None:
 
 EDITS = {
     "no extension": (lambda d: d.pop("extensions"), "model.gltf: no FUR_ptm_shells"),
-    "newer version": (lambda d: put(fur(d), "version", "2.0"), "FUR_ptm_shells: version: '2.0' does not match"),
+    "newer version": (lambda d: put(fur(d), "version", "3.0"), "FUR_ptm_shells: version: '3.0' does not match"),
+    "no curves": (lambda d: fur(d).pop("curves"), "FUR_ptm_shells: 'curves' is a required property"),
+    "no weights": (lambda d: fur(d)["pelts"][0].pop("weights"), "pelts[0]: 'weights' is a required property"),
+    "old version": (lambda d: put(fur(d), "version", "1.1"), "FUR_ptm_shells: 'environment' is a required property"),
+    "short table": (lambda d: fur(d)["curves"]["even"][0][1].pop(), "curves.even[0][1]: [0"),
+    "two bodies": (lambda d: fur(d)["curves"]["along"][0].pop(), "FUR_ptm_shells: curves.along[0]: [["),
+    "a curve less": (lambda d: fur(d)["curves"]["along"].pop(), "curves.along has 2 tables, expected 3 as curves.even"),
+    "light below": (lambda d: put(fur(d)["curves"]["even"][0][0], 0, 0.1), "curves.even is not 0 at the first knot"),
+    "slabs unweighted": (lambda d: fur(d)["pelts"][0]["weights"].pop(), "pelts[0].weights has 3 rows, expected 4"),
+    "curve unweighted": (lambda d: fur(d)["pelts"][0]["weights"][2].pop(), "pelts[0].weights has a row of 2 numbers"),
+    "an environment": (
+        lambda d: put(side(d), "environment", [[0] * 9] * 6), "an environment in version 2.0, expected none"
+    ),
     "no layers": (lambda d: fur(d).pop("layers"), "FUR_ptm_shells: 'layers' is a required property"),
     "zero size": (lambda d: put(fur(d), "size", 0), "FUR_ptm_shells: size: 0 is less than the minimum of 8"),
     "odd size": (lambda d: put(fur(d), "size", 12), "FUR_ptm_shells: size 12, expected a power of two"),

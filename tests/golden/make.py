@@ -16,11 +16,11 @@ same 64 vectors taken in the fin's frame as (l·t, l·w, l·n): [light, row, col
 where hairs are bent by each of `BENDS` (tips along T and B, shares of the length) under one light: [bend, row, column].
 
 `ptm-6-curves` is of version 2.0: three random curves, random weights, a fur that leans aside of v, and fins. Its
-`lights.json` has 32 of those vectors and of lower ones, and `bodies`: the radii β, in lengths of fur, for which `light.f32`
-[body, light, layer, row, column] and `fin.f32` [body, light, row, column] are worked out. `bent.json` has two lights, of
-which one is below the horizon: `bent.f32` is [body, light, bend, row, column] of its top layer. `environment.json` has, for
-each body, the integrals over the sphere of harmonics × φ × curve: `shells` [body][curve][coefficient][9] and `fins`, by
-plain sums over 512 × 256 directions.
+`lights.json` has 32 vectors, some of them lower, and `bodies`: the radii β, in lengths of fur, for which `light.f32`
+[body, light, layer, row, column] and `fin.f32` [body, light, row, column] are worked out. `bent.json` has two lights,
+of which one is below the horizon: `bent.f32` is [body, light, bend, row, column] of its top layer. `environment.json`
+has, for each body, the integrals over the sphere of harmonics × φ × curve: `shells` [body][curve][coefficient][9] and
+`fins`, by plain sums over 640 × 256 directions.
 """
 
 from __future__ import annotations
@@ -207,7 +207,7 @@ def expected_environment(pelt: Pelt, rings: int = 512, spokes: int = 256) -> dic
             )
             for total, terms, along, frame in parts:
                 curve = even[:, None] + lean[:, None] * along
-                total += area * np.einsum("qa,ca,ja->qcj", curve, np.array(terms), nine(*frame))
+                np.add(total, area * np.einsum("qa,ca,ja->qcj", curve, np.array(terms), nine(*frame)), out=total)
         found["shells"].append(np.round(shells, 5).tolist())
         found["fins"].append(np.round(fins, 5).tolist())
     return found
@@ -320,7 +320,7 @@ def golden_curves(pelt: Pelt) -> Pelt:
 
 
 def lower_lights() -> np.ndarray:
-    """20 unit vectors above the horizon and 12 below, down to where no tip of fur as long as its body's radius sees them."""
+    """20 unit vectors above the horizon and 12 below, down to where no tip sees them."""
     rng = np.random.default_rng(32)
     z = np.concatenate([rng.uniform(0.0001, 1, 20), rng.uniform(-0.9, -0.001, 12)])
     azimuth = rng.uniform(0, 2 * np.pi, 32)

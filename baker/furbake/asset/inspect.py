@@ -38,6 +38,7 @@ def _summary(asset: Asset) -> dict[str, Any]:
             "size": fur["size"],
             "coefficients": fur["coefficients"],
             "basis": fur["basis"]["kind"],
+            "curves": len(fur["curves"]["even"]) if "curves" in fur else 0,
             "length": fur["length"],
             "height": fur["height"],
             "tile": fur["length"] / fur["height"],

@@ -30,10 +30,7 @@ def pelts(asset: Asset) -> Iterator[str]:
     wrong = list(_basis(fur["basis"], count))
     yield from wrong
     lists = {"drift": (fur["drift"], layers)}
-    if "environment" in fur:
-        lists["environment"] = (fur["environment"], count)
-    if "bent" in fur:
-        lists["bent"] = (fur["bent"], 3)
+    lists |= {key: (fur[key], rows) for key, rows in (("environment", count), ("bent", 3)) if key in fur}
     if fur["basis"]["kind"] == "eigen" and not wrong:
         lists["basis.matrix"] = (fur["basis"]["matrix"], count)
     for i, pelt in enumerate(fur["pelts"]):
@@ -46,10 +43,6 @@ def pelts(asset: Asset) -> Iterator[str]:
                 yield from _image(asset, pelt[role], (layers * size, size, 3))
         if "fin" in pelt:
             yield from _fin(asset, pelt["fin"])
-    if fur["version"].startswith("2."):
-        yield from _curves(fur)
-    elif "curves" in fur:
-        yield f"{EXTENSION}: curves in version {fur['version']}, expected 2.0"
     for name, (values, expected) in lists.items():
         if len(values) != expected:
             yield f"{EXTENSION}: {name} has {len(values)} rows, expected {expected}"
@@ -57,14 +50,19 @@ def pelts(asset: Asset) -> Iterator[str]:
             yield f"{EXTENSION}: {name} is not finite, expected numbers"
 
 
-def _curves(fur: dict[str, Any]) -> Iterator[str]:
+def curves(asset: Asset) -> Iterator[str]:
     """As many tables of either kind as there are weights in each slab of each pelt; dark at the first knot."""
+    fur = asset.fur
+    if not fur["version"].startswith("2."):
+        if "curves" in fur:
+            yield f"{EXTENSION}: curves in version {fur['version']}, expected 2.0"
+        return
     even, along = (fur["curves"][name] for name in ("even", "along"))
     if len(along) != len(even):
         yield f"{EXTENSION}: curves.along has {len(along)} tables, expected {len(even)} as curves.even"
     for name, tables in (("even", even), ("along", along)):
         if any(row[0] != 0 for table in tables for row in table):
-            yield f"{EXTENSION}: curves.{name} is not 0 at the first knot, expected darkness where no tip sees the light"
+            yield f"{EXTENSION}: curves.{name} is not 0 at the first knot, expected 0: no tip sees that light"
     for i, pelt in enumerate(fur["pelts"]):
         rows = pelt["weights"]
         if len(rows) != fur["layers"]:
@@ -74,7 +72,7 @@ def _curves(fur: dict[str, Any]) -> Iterator[str]:
         if pelt.get("dirt", 0) and rows != fur["pelts"][0]["weights"]:
             yield f"{EXTENSION}: pelts[{i}].weights differs though it is dirty, expected that of pelts[0]"
     if "environment" in fur or any("environment" in pelt.get("fin", {}) for pelt in fur["pelts"]):
-        yield f"{EXTENSION}: environment in version {fur['version']}, expected none: it follows from basis and curves"
+        yield f"{EXTENSION}: an environment in version {fur['version']}, expected none: it follows from basis and curves"
 
 
 def states(asset: Asset) -> Iterator[str]:

@@ -27,7 +27,7 @@ from furbake.swatch import save
 from furbake.verify import lines, verify
 
 GIVEN = (
-    "layers", "size", "lights", "basis", "coefficients", "length", "tile", "height", "seed", "flat", "guide",
+    "layers", "size", "lights", "basis", "coefficients", "curves", "length", "tile", "height", "seed", "flat", "guide",
     "length_by_thickness", "fins", "uv", "max_faces", "length_map", "mask", "comb", "features", "directions",
     "states", "dirt",
 )  # fmt: skip

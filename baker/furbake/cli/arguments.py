@@ -180,6 +180,10 @@ def _bake_arguments(parser: _Parser) -> None:
     add("--lights", type=_whole, default=unset, metavar="N", help="sampled directions of light, 8 to 1024")
     add("--basis", default=unset, metavar="ptm|eigen", help="the paper's polynomial, or curves found for this fur")
     add("--coefficients", type=_whole, default=unset, metavar="C", help="numbers per texel: 6, with eigen 3 to 6")
+    add(
+        "--curves", default=unset, metavar="slab|none",
+        help="mean light of each slab beside its numbers (default), or none: version 1 of the format",
+    )  # fmt: skip
     add("--length", type=_number, default=unset, metavar="L", help="longest fur, the model's own units")
     add("--tile", type=_number, default=unset, metavar="W", help="width of a tile, the model's own units")
     add("--height", type=_number, default=unset, metavar="H", help="longest fur in tile widths: length / tile")

@@ -66,20 +66,6 @@ class Basis:
 PTM = Basis("ptm")
 
 
-def eigen(samples: NDArray[np.floating], weights: NDArray[np.floating], lights: Array, coefficients: int) -> Basis:
-    """The light curves that lose least of this fur: left singular vectors of the α-weighted samples, made smooth.
-
-    samples : (n, texels), weights : (texels,), lights : (n, 3). Ridge 1e-3 keeps the smooth fit tame between lights.
-    """
-    weighted = samples * np.sqrt(weights)
-    _, vectors = np.linalg.eigh((weighted @ weighted.T).astype(np.float64))
-    curves = vectors[:, ::-1][:, :coefficients] * np.sqrt(len(lights))
-    curves = curves * np.where(curves.sum(0) < 0, -1.0, 1.0)
-    terms = smooth(lights)
-    matrix = np.linalg.solve(terms.T @ terms + 1e-3 * np.eye(terms.shape[1]), terms.T @ curves).T
-    return Basis("eigen", DEGREE, matrix)
-
-
 def harmonics(directions: Array) -> Array:
     """Real orthonormal spherical harmonics to order 2 without the Condon–Shortley sign, (n, 3) → (n, 9)."""
     x, y, z = directions.T

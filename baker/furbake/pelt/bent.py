@@ -18,7 +18,6 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.pelt.basis import PTM, Basis
 from furbake.pelt.curves import unit
 from furbake.pelt.fill import fill
 from furbake.pelt.fit import fit, relight
@@ -105,7 +104,7 @@ def fit_bends(
 ) -> Array | None:
     """The 24 numbers of the law for a pelt of these hairs, (3, 8) for s⁰, s¹, s²; None where its texels are black."""
     layers, size, height = pelt.layers, min(pelt.size, SIZE), pelt.height
-    basis = PTM if pelt.matrix is None else Basis(pelt.kind, pelt.degree, pelt.matrix)
+    basis = pelt.basis
     lean = pelt.drift[-1] / height
     lights = hemisphere(LIGHTS, turn=0.5)
 
@@ -117,7 +116,7 @@ def fit_bends(
     else:
         fine = voxelise(strands, height, *fine_shape(layers, size, height), coat.opacity)
         seen, alpha = hemisphere(LIGHTS_UNBENT), coarsen(fine, layers, size).coverage
-        texels = fill(fit(under(fine, seen), basis, seen), alpha)
+        texels = fill(fit(under(fine, seen), basis, seen, pelt.mean(seen)), alpha)
     matrix, right = np.zeros((24, 24)), np.zeros(24)
     middle = (np.arange(layers) + 0.5) / layers
     over_s = np.polynomial.legendre.legvander(2 * middle - 1, 2)
@@ -128,7 +127,10 @@ def fit_bends(
         truth = under(bent(strands, height, tip, coat.opacity, layers, size), lights)
         found = terms(lights, tip, lean)
         for k, s in enumerate(middle):
-            told = relight(texels[k], basis, sheared(lights, tip, s)).astype(np.float64)
+            ways = sheared(lights, tip, s)
+            mean = pelt.mean(ways)
+            own = None if mean is None else mean[:, k : k + 1]
+            told = relight(texels[k : k + 1], basis, ways, own)[:, 0].astype(np.float64)
             power, shared = ((alpha[k] * told * other).sum((1, 2)) / share for other in (told, truth[:, k]))
             row = (over_s[k][:, None] * found[:, None]).reshape(len(lights), 24)
             matrix += (row * power[:, None]).T @ row

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.pelt.basis import Functions, harmonics, held
-from furbake.pelt.transport import BODY_RADIUS
+from furbake.pelt.paths import BODY_RADIUS, lowest
 
 Array = NDArray[np.float64]
 
@@ -35,21 +35,16 @@ def unit(lean: Array) -> Array:
     return lean / length if length > 1e-6 else np.array([0.0, 1.0])
 
 
-def dip(beta: float) -> float:
-    """−lz of the lowest light that reaches the tips of the fur on a body of radius β."""
-    return float(np.sqrt(2 * beta + 1) / (beta + 1))
-
-
 def abscissa(lz: Array, beta: float) -> Array:
     """x in a table for lights at height lz: 0 where no tip sees them, 6 at the horizon, 16 at the zenith."""
     above = HORIZON + (KNOTS - 1 - HORIZON) * np.sqrt(np.clip(lz, 0, 1))
-    return np.asarray(np.where(lz >= 0, above, HORIZON * np.maximum(1 + lz / dip(beta), 0)))
+    return np.asarray(np.where(lz >= 0, above, HORIZON * np.maximum(1 - lz / lowest(beta), 0)))
 
 
 def elevation(x: Array, beta: float) -> Array:
     """The reverse of `abscissa`."""
     above = ((x - HORIZON) / (KNOTS - 1 - HORIZON)) ** 2
-    return np.asarray(np.where(x >= HORIZON, above, (x / HORIZON - 1) * dip(beta)))
+    return np.asarray(np.where(x >= HORIZON, above, (1 - x / HORIZON) * lowest(beta)))
 
 
 def hats(x: Array) -> Array:
@@ -102,7 +97,8 @@ class Curves:
         """
         directions, area = sphere(beta)
         moments = phi(held(directions)) * area[:, None]
-        return np.einsum("nq,nc,nj->qcj", self(directions, beta), moments, harmonics(directions), optimize=True)
+        curves = self(directions, beta)
+        return np.asarray(np.einsum("nq,nc,nj->qcj", curves, moments, harmonics(directions), optimize=True))
 
 
 def at_heights(weights: Array, s: Array) -> Array:
@@ -120,7 +116,7 @@ def sphere(beta: float) -> tuple[Array, Array]:
     step = ((last - first) * weight[:, None] / 2).T
     x = np.concatenate([at[:HORIZON], HORIZON + at[HORIZON:] ** 2])
     wide = (KNOTS - 1.0 - HORIZON) ** 2
-    ring = np.concatenate([step[:HORIZON] * dip(beta) / HORIZON, step[HORIZON:] * 4 * at[HORIZON:] ** 3 / wide])
+    ring = np.concatenate([step[:HORIZON] * -lowest(beta) / HORIZON, step[HORIZON:] * 4 * at[HORIZON:] ** 3 / wide])
     z = elevation(x, beta).ravel()
     azimuth = (np.arange(SPOKES) + 0.5) / SPOKES * 2 * np.pi
     across = np.sqrt(1 - z * z)

@@ -20,15 +20,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.pelt.basis import PTM, harmonics
+from furbake.pelt.curves import at_heights
+from furbake.pelt.depth import depth_of, passing
 from furbake.pelt.dirt import Crumbs, soiled
 from furbake.pelt.fibre import cylinder, sine
 from furbake.pelt.fill import fill
 from furbake.pelt.fit import fit
-from furbake.pelt.pelt import FinPelt
-from furbake.pelt.quantise import byte_range, quantise, srgb_bytes, unit_bytes
+from furbake.pelt.paths import BODY_RADIUS
+from furbake.pelt.pelt import FinPelt, Pelt
+from furbake.pelt.quantise import byte_range, gram, quantise, srgb_bytes, unit_bytes
 from furbake.pelt.scatter import scatter
 from furbake.pelt.strands import Coat, Strands
-from furbake.pelt.transport import OpticalDepth, curved_elevation, passing
 from furbake.pelt.volume import Volume, pool, voxelise
 
 Array = NDArray[np.float64]
@@ -88,6 +90,7 @@ def side_view(
     coat: Coat,
     *,
     flat: bool = False,
+    beta: float = BODY_RADIUS,
     height: float | None = None,
     mud: Crumbs | None = None,
 ) -> SideView:
@@ -95,12 +98,12 @@ def side_view(
 
     fine : the oversampled volume; layers, size : slabs and texels per side of what is stored of it
     lights : (n, 3) in the tile's frame
-    coat : its opacity, albedo and skin count; flat : as of `transport.sample`
+    coat : its opacity, albedo and skin count; flat, beta : as of `transport.sample`
     height : of the fur for which the texture has its rows, tile widths: that of the dry fur in all of its states
     mud : on the strands; then `tint` is its share
     """
     rows, columns = fin_shape(size, height or fine.height)
-    medium = _Medium(fine, layers, size, coat, flat)
+    medium = _Medium(fine, layers, size, coat, None if flat else beta)
     slabs = medium.slabs * -(-rows // medium.slabs)
     width = size * (2 if slabs * (2 * size) ** 2 <= MOST_VOXELS else 1)
     row = in_the_row(strands)
@@ -136,9 +139,10 @@ def seen_from_the_side(volume: Volume) -> Array:
 class _Medium:
     """The whole fur at half the fine resolution, and coarser where light is scattered again."""
 
-    def __init__(self, fine: Volume, layers: int, size: int, coat: Coat, flat: bool) -> None:
-        self.size, self.flat, self.height = size, flat, fine.height
-        self.albedo, self.skin = coat.albedo, 0.0 if flat else coat.skin
+    def __init__(self, fine: Volume, layers: int, size: int, coat: Coat, beta: float | None) -> None:
+        """beta : radius of the body, None: flat."""
+        self.size, self.beta, self.height = size, beta, fine.height
+        self.albedo, self.skin = coat.albedo, 0.0 if beta is None else coat.skin
         self.slabs = halved(len(fine.sigma))
         self.even = halved(halved(self.slabs) if self.slabs > layers else self.slabs), max(size // EVEN, 2)
         self.sigma = self._coarse(fine.sigma)
@@ -156,22 +160,23 @@ class _Medium:
 
         def beam(light: Array) -> tuple[Array, Single, Single, Single]:
             """T·D summed over what is seen, (K·N,), and what `scatter` takes: caught, reaching and the skin's light."""
-            elevation = float(light[2]) if self.flat else curved_elevation(float(light[2]))
             width = sine(self.tangent, light)
-            depth = OpticalDepth(self.sigma * width, self.height / self.slabs)
-            way = np.array([light[0], light[1], elevation])
-            clear, own = np.exp(-depth.above(way)), depth.own(way)
+            depth = depth_of(self.sigma * width, self.height / self.slabs, self.beta)
+            clear, skin = depth.through(light)
             lambert = seen * clear[behind] * cylinder(direction, light)
             single = np.asarray(np.bincount(slab * self.size + row, lambert, count * self.size), np.float64)
-            lit: Single = self.sigma * clear * passing(own)
-            floor: Single = pool(clear[0] * np.exp(-own[0]) * np.float32(light[2]), self.even[1])
+            lit: Single = self.sigma * clear * passing(depth.own(light))
+            floor: Single = pool(skin * np.float32(max(light[2], 0)), self.even[1])
             return single, self._even(lit * width) / hair, self._even(lit) / hair, floor
 
         with ThreadPoolExecutor(os.cpu_count()) as workers:
             single, caught, reaching, floor = (np.stack(part) for part in zip(*workers.map(beam, lights), strict=True))
         tangent = unit([self._even(self.sigma * self.tangent[..., axis]) for axis in range(3)])
         sigma, thick = self._even(self.sigma), self.height / self.even[0]
-        multiple = scatter(sigma, thick, tangent, lights, caught, reaching, floor, albedo=self.albedo, skin=self.skin)
+        multiple = scatter(
+            sigma, thick, tangent, lights, caught, reaching, floor,
+            albedo=self.albedo, skin=self.skin, faint=self.beta is not None,
+        )  # fmt: skip
         where = self._even(weight) + np.float32(1e-6)
         multiple = (multiple * where).sum(3) / where.sum(2)
 
@@ -228,25 +233,41 @@ def between(count: int, wanted: int, periodic: bool = False) -> Array:
     return matrix
 
 
-def fit_fins(views: Sequence[SideView], lights: Array, colours: Sequence[Array | None]) -> list[FinPelt]:
+def row_means(pelt: Pelt, rows: int, lights: Array, beta: float = BODY_RADIUS) -> Array | None:
+    """Mean curves of a fin's rows under lights (n, 3) in the tile's frame, (n, rows); None where the pelt has none."""
+    if pelt.curves is None or pelt.weights is None:
+        return None
+    weights = at_heights(pelt.weights, (np.arange(rows) + 0.5) / rows)
+    return pelt.curves.of_fin().mean(lights, weights, beta)
+
+
+def fit_fins(
+    views: Sequence[SideView],
+    lights: Array,
+    colours: Sequence[Array | None],
+    means: Sequence[Array | None] | None = None,
+) -> list[FinPelt]:
     """The texels' polynomials in (l·t, l·n) as bytes, of all states of a fur with one λ and Ω.
 
     lights : (n, 3) of the views, in the tile's frame; colours : (H, W, 3) linear original colours, or None
+    means : (n, H) of `row_means`, by which the polynomials are multiplied, or None
     """
-    turned = lights[:, FIN_FRAME]
-    filled = [fill_fin(fit(view.light, PTM, turned), view.alpha) for view in views]
+    means = means or [None] * len(views)
+    filled = [
+        fill_fin(fit(view.light, polynomial, lights, mean), view.alpha) for view, mean in zip(views, means, strict=True)
+    ]
     scale, bias = byte_range(np.stack(filled), np.stack([view.alpha for view in views]))
-    phi = PTM(turned)
+    phi = polynomial(lights)
     return [
         FinPelt(
-            codes=quantise(coefficients, scale, bias, phi.T @ phi / len(phi)),
+            codes=quantise(coefficients, scale, bias, gram(phi, mean)),
             alpha=unit_bytes(view.alpha),
             tint=unit_bytes(fill_fin(view.tint[..., None], view.alpha)[..., 0]),
             colour=None if colour is None else srgb_bytes(fill_fin(colour, view.alpha)),
             scale=scale,
             bias=bias,
         )
-        for view, coefficients, colour in zip(views, filled, colours, strict=True)
+        for view, coefficients, colour, mean in zip(views, filled, colours, means, strict=True)
     ]
 
 

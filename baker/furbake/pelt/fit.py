@@ -8,6 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.pelt.basis import Functions, held
+from furbake.pelt.paths import BODY_RADIUS
+from furbake.pelt.pelt import Pelt
+from furbake.pelt.quantise import dequantise
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
@@ -48,6 +51,12 @@ def relight(coefficients: Array, basis: Functions, lights: Array, mean: Array | 
     if mean is not None:
         light *= mean.astype(np.float32).reshape(*mean.shape, *[1] * (len(shape) - 1))
     return np.maximum(light, 0)
+
+
+def stored_light(pelt: Pelt, lights: Array, beta: float = BODY_RADIUS) -> Single:
+    """L of a pelt's stored texels on a body of radius β, (n, K, N, N). Without mean curves lights have lz ≥ 0."""
+    coefficients = dequantise(pelt.codes, pelt.scale, pelt.bias)
+    return relight(coefficients, pelt.basis, lights, pelt.mean(lights, beta))
 
 
 def decibels(error: float) -> float:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from furbake.pelt.basis import Basis
 from furbake.pelt.curves import Curves
-from furbake.pelt.transport import BODY_RADIUS
+from furbake.pelt.paths import BODY_RADIUS
 
 Bytes = NDArray[np.uint8]
 Floats = NDArray[np.float64]

@@ -15,6 +15,9 @@ Codes = NDArray[Any]
 TAIL = 0.02
 """Percentile of the visible texels that may saturate at either end of a coefficient's range."""
 
+DARK, LEAST = 1e-9, 1e-12
+"""Added to the diagonal of a slab's Gram matrix, the first as a share of its trace."""
+
 
 def byte_range(coefficients: Array, alpha: Array, top: int = 255) -> tuple[Array, Array]:
     """λ and Ω per coefficient, (C,) each, so that the bytes span the coefficients of the visible texels.
@@ -27,13 +30,26 @@ def byte_range(coefficients: Array, alpha: Array, top: int = 255) -> tuple[Array
     return scale, -low / scale
 
 
+def gram(phi: Array, mean: Array | None = None) -> Array:
+    """Mean of φφᵀ over the lights, (n, C) → (C, C); with mean curves (n, K) of m²·φφᵀ for each slab, (K, C, C)."""
+    if mean is None:
+        return np.asarray(phi.T @ phi / len(phi))
+    slabs = np.einsum("nk,nc,nd->kcd", mean**2, phi, phi, optimize=True) / len(phi)
+    # In slabs that no light reaches any rounding is as good as another.
+    power = np.einsum("kcc->k", slabs)
+    return np.asarray(slabs + (DARK * power + LEAST)[:, None, None] * np.eye(phi.shape[1]))
+
+
 def quantise(coefficients: Array, scale: Array, bias: Array, gram: Array, top: int = 255) -> Codes:
     """Bytes of the coefficients, (..., C) → (..., C), with the rounding errors played off against each other.
 
-    gram : (C, C) mean of φφᵀ over the lights, top : the greatest code. Coefficients are rounded one after the other,
-    the last first; each takes up what the rounding of those before it did to the light (Babai's nearest plane), which
-    the decoder need not know.
+    gram : (C, C) of `gram`, or (K, C, C) for coefficients (K, ..., C); top : the greatest code. Coefficients are
+    rounded one after the other, the last first; each takes up what the rounding of those before it did to the light
+    (Babai's nearest plane), which the decoder need not know.
     """
+    if gram.ndim > 2:
+        slabs = zip(coefficients, gram, strict=True)
+        return np.stack([quantise(slab, scale, bias, own, top) for slab, own in slabs])
     count = coefficients.shape[-1]
     upper = np.linalg.cholesky(gram * np.outer(scale, scale)).T
     wanted = coefficients / scale + bias

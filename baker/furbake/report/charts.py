@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.pelt.basis import Basis
 from furbake.report.measure import SWEEP, Measured
 from furbake.report.pictures import data_uri, discs
 from furbake.report.section import figure, section
@@ -143,7 +142,7 @@ def quantisation(measured: Measured) -> str:
     """How the 256 steps of every coefficient are used."""
     pelt, bytes_ = measured.pelt, measured.quantisation
     cells = []
-    shapes = discs(Basis(pelt.kind, pelt.degree, pelt.matrix), DISC)
+    shapes = discs(pelt.basis, DISC)
     for i, (histogram, shape) in enumerate(zip(bytes_.histogram, shapes, strict=True)):
         factor = NAMES[i] if pelt.kind == "ptm" else f"light curve {i + 1}"
         cells.append(

@@ -14,15 +14,14 @@ from numpy.typing import NDArray
 from furbake.asset.inspect import summary
 from furbake.asset.read import Asset, AssetError, read_asset
 from furbake.asset.stored import read_pelt
-from furbake.bake import Lighting, choose_basis, light, under
 from furbake.options import BakeOptions, OptionError
-from furbake.pelt.basis import Basis
 from furbake.pelt.fill import fill
-from furbake.pelt.fit import VISIBLE, Judge, decibels, fit, relight
+from furbake.pelt.fit import VISIBLE, Judge, decibels, fit, relight, stored_light
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.quantise import dequantise, unit_bytes
 from furbake.pelt.strands import grow
 from furbake.pelt.volume import Volume, coarsen, fine_shape, voxelise
+from furbake.tile import Lighting, choose_basis, light, under
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
@@ -123,19 +122,17 @@ def measure(folder: Path, progress: Progress = lambda stage, fraction: None) -> 
     fine = voxelise(strands, pelt.height, *fine_shape(options.layers, options.size, pelt.height), options.coat.opacity)
     volume = coarsen(fine, options.layers, options.size)
     progress("volume", 1.0)
-    lighting = light(fine, options, lambda fraction: progress("light", fraction))
+    lighting = light(fine, replace(options, curves="none"), lambda fraction: progress("light", fraction))
     angles, sweep, leaning = sweep_lights(pelt)
     shown = spiral_lights()
     extra = under(np.concatenate([shown, sweep]), fine, options, lambda fraction: progress("lamps", fraction))
     progress("judge", 0.0)
-    basis = Basis(pelt.kind, pelt.degree, pelt.matrix)
-    stored = dequantise(pelt.codes, pelt.scale, pelt.bias)
     unseen = lighting.lights[lighting.held_out]
     judge = Judge(lighting.samples[lighting.held_out], volume.coverage, volume.tint)
-    relit = relight(stored, basis, unseen)
+    relit = stored_light(pelt, unseen)
     errors, weights = judge.layer_errors(relit)
     progress("judge", 0.3)
-    rivals = compare(judge, volume, lighting, options, judge.figures(relit)["psnr"])
+    rivals = compare(judge, pelt, lighting, options, judge.figures(relit)["psnr"])
     progress("judge", 0.8)
     measured = Measured(
         asset=asset,
@@ -146,14 +143,14 @@ def measure(folder: Path, progress: Progress = lambda stage, fraction: None) -> 
         judge=judge,
         lights=shown,
         truth=extra[:SHOWN],
-        fitted=relight(stored, basis, shown),
+        fitted=stored_light(pelt, shown),
         angles=angles,
         leaning=leaning,
-        curves=choose_curves(extra[SHOWN:], relight(stored, basis, sweep), volume.coverage),
+        curves=choose_curves(extra[SHOWN:], stored_light(pelt, sweep), volume.coverage),
         layers=np.array([decibels(e / max(w, 1e-9)) for e, w in zip(errors, weights, strict=True)]),
         by_light=np.stack([np.degrees(np.arcsin(unseen[:, 2])), light_decibels(judge, relit)], 1),
         rivals=rivals,
-        quantisation=quantisation(pelt, judge, lighting, basis),
+        quantisation=quantisation(pelt, judge, lighting),
         doubts=tuple(doubts(asset, pelt, volume, rivals.stored)),
     )
     progress("judge", 1.0)
@@ -218,19 +215,19 @@ def light_decibels(judge: Judge, relit: Single) -> Array:
     return np.array([decibels(float(error)) for error in errors])
 
 
-def compare(judge: Judge, volume: Volume, lighting: Lighting, options: BakeOptions, stored: float) -> Rivals:
-    """Both bases before quantisation, and the Eckart–Young bound over the number of numbers per texel."""
+def compare(judge: Judge, pelt: Pelt, lighting: Lighting, options: BakeOptions, stored: float) -> Rivals:
+    """Both bases before quantisation, with the pelt's mean curves, if any, and the bound for numbers without them."""
     weighted = (judge.truth * np.sqrt(judge.alpha).astype(np.float32)).reshape(len(judge.truth), -1)
     energy = np.maximum(np.linalg.eigvalsh((weighted @ weighted.T).astype(np.float64))[::-1], 0)
     lost = energy.sum() - np.cumsum(energy)
     scale = len(judge.truth) * judge.peak**2 * judge.alpha.sum()
     ranks = min(RANKS, len(energy) - 1)
     seen, unseen = lighting.lights[~lighting.held_out], lighting.lights[lighting.held_out]
-    samples = lighting.samples[~lighting.held_out]
+    samples, mean = lighting.samples[~lighting.held_out], pelt.mean(seen)
 
     def reach(variant: BakeOptions) -> float:
-        basis = choose_basis(samples, volume.coverage, seen, variant)
-        return judge.figures(relight(fit(samples, basis, seen), basis, unseen))["psnr"]
+        basis = choose_basis(samples, judge.alpha, seen, variant, mean)
+        return judge.figures(relight(fit(samples, basis, seen, mean), basis, unseen, pelt.mean(unseen)))["psnr"]
 
     return Rivals(
         spectrum=energy[:ranks] / energy.sum(),
@@ -241,15 +238,16 @@ def compare(judge: Judge, volume: Volume, lighting: Lighting, options: BakeOptio
     )
 
 
-def quantisation(pelt: Pelt, judge: Judge, lighting: Lighting, basis: Basis) -> Quantisation:
+def quantisation(pelt: Pelt, judge: Judge, lighting: Lighting) -> Quantisation:
     """How the bytes are used, and what they cost beside rounding each number by itself."""
     seen, unseen = lighting.lights[~lighting.held_out], lighting.lights[lighting.held_out]
-    exact = fill(fit(lighting.samples[~lighting.held_out], basis, seen), judge.alpha)
+    basis, there = pelt.basis, pelt.mean(unseen)
+    exact = fill(fit(lighting.samples[~lighting.held_out], basis, seen, pelt.mean(seen)), judge.alpha)
     rounded = np.clip(np.round(exact / pelt.scale + pelt.bias), 0, 255).astype(np.uint8)
     codes = pelt.codes[judge.alpha > VISIBLE]
-    wanted = relight(exact, basis, unseen)
+    wanted = relight(exact, basis, unseen, there)
     plain, stored = (
-        judge.between(relight(dequantise(some, pelt.scale, pelt.bias), basis, unseen), wanted)
+        judge.between(relight(dequantise(some, pelt.scale, pelt.bias), basis, unseen, there), wanted)
         for some in (rounded, pelt.codes)
     )
     return Quantisation(

@@ -1,0 +1,215 @@
+"""Optical depth of a tile of fur between its voxels and a light, by convolution.
+
+The tile is periodic and τ is linear in σ, so a slab's τ is a sum of convolutions of σ, slab by slab, with the pieces of
+the ray that cross them: exact at every angle for a volume that is bilinear within a slab and constant across it.
+Bilinear look-up is the mean over a voxel's square of a ray through constant voxels.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.fft
+from numpy.typing import NDArray
+
+from furbake.pelt.paths import Rays, thinned
+
+Array = NDArray[np.float64]
+Single = NDArray[np.float32]
+Spectrum = NDArray[np.complexfloating]
+
+STEPS_PER_TEXEL = 8
+"""Points of a straight ray per texel that it moves aside, at least 8 a slab."""
+
+POINTS_PER_TEXEL, LEAST_POINTS, LONGEST = 2, 4, 8
+"""Points of a bent ray per texel that it moves aside, in a piece of it at least, and texels of the longest piece."""
+
+STRIP, DARK = 8, 1e-5
+"""Slabs whose rays are followed together, from the tips down, and the mean T below which all deeper ones are black."""
+
+BATCH = 16
+"""Pieces whose kernels are made together: they fit into a core's cache."""
+
+MOST_WORK = 2**15
+"""Multiplications of one matrix product."""
+
+
+class Slabs:
+    """Spectra of slabs that may lie aside of the skin's texels."""
+
+    def __init__(self, sigma: NDArray[np.floating], aside: Array | None = None) -> None:
+        """sigma : (K, N, N) per tile width; aside : as of `Volume`."""
+        self.layers, self.size, _ = sigma.shape
+        self.spectrum = scipy.fft.rfft2(np.asarray(sigma, np.float32))
+        self.back = None if aside is None else _moved(-aside, self.size)
+        if self.back is not None:
+            self.spectrum *= self.back.conj()
+
+    def in_space(self, spectrum: Spectrum, path: float = 1.0) -> Single:
+        """(K, N, N) of a spectrum of all slabs, times `path`, none below 0."""
+        if self.back is not None:
+            spectrum = spectrum * self.back
+        depth: Single = np.maximum(scipy.fft.irfft2(spectrum, s=(self.size, self.size)) * np.float32(path), 0)
+        return depth
+
+    def crossed(self, shift: Array, start: float, end: float) -> Single:
+        """Weights, (N, N), of a straight ray between heights `start` and `end`, in slabs above the voxel.
+
+        shift : how far it moves aside per slab, voxels
+        """
+        count = max(8, int(np.ceil(np.hypot(*shift) * (end - start) * STEPS_PER_TEXEL)))
+        t = start + (end - start) * (np.arange(count) + 0.5) / count
+        # Reading σ at x + shift·t is a convolution with a point at −shift·t.
+        x, y = -shift[0] * t, -shift[1] * t
+        column, row = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
+        fx, fy = x - column, y - row
+        n = self.size
+        weights = np.zeros(n * n)
+        for down, wy in ((0, 1 - fy), (1, fy)):
+            for right, wx in ((0, 1 - fx), (1, fx)):
+                weights += np.bincount((row + down) % n * n + (column + right) % n, wx * wy, n * n)
+        return (weights * ((end - start) / count)).reshape(n, n).astype(np.float32)
+
+
+class FlatDepth(Slabs):
+    """τ in slabs that are flat and have no end: every pair of slabs that are equally far apart shares a kernel."""
+
+    def __init__(self, sigma: NDArray[np.floating], slab: float, aside: Array | None = None) -> None:
+        """slab : thickness of a slab, tile widths; the rest as of `Slabs`."""
+        super().__init__(sigma, aside)
+        self.slab = slab
+
+    def through(self, light: Array) -> tuple[Single, Single]:
+        """Transmittance between the light and the ceiling of the voxels' slabs, (K, N, N), and the skin, (N, N)."""
+        clear: Single = np.exp(-self.above(light))
+        return clear, clear[0] * np.exp(-self.own(light)[0])
+
+    def above(self, light: Array) -> Single:
+        """τ of all slabs above the voxel's own, (K, N, N). The ray passes through the middle of the voxel."""
+        shift, path = self._way(light)
+        segments = [self.crossed(shift, m - 0.5, m + 0.5) for m in range(1, self.layers)]
+        kernels = scipy.fft.rfft2(np.stack(segments)) if segments else self.spectrum[:0]
+        above = np.zeros_like(self.spectrum)
+        for k in range(self.layers - 1):
+            above[k] = np.einsum("jyx,jyx->yx", self.spectrum[k + 1 :], kernels[: self.layers - 1 - k])
+        return self.in_space(above, path)
+
+    def own(self, light: Array) -> Single:
+        """τ of the voxel's own slab from its floor to its ceiling, (K, N, N), on the same ray."""
+        shift, path = self._way(light)
+        return self.in_space(self.spectrum * scipy.fft.rfft2(self.crossed(shift, -0.5, 0.5)), path)
+
+    def _way(self, light: Array) -> tuple[Array, float]:
+        """How far the ray moves aside in a slab, voxels, and its length there, tile widths."""
+        lz = max(float(light[2]), 1e-3)
+        return light[:2] / lz * self.slab * self.size, self.slab / lz
+
+
+class BentDepth(Slabs):
+    """τ in slabs around a ball, along the paths of `paths`: every pair of slabs has a kernel of its own.
+
+    The spectrum of bilinear look-up at a point is the product of one per axis, e^(2πi·f·⌊x⌋)·[(1 − g) + g·e^(2πi·f)]
+    with g = x − ⌊x⌋. A kernel's spectrum is the sum of these over its points, a matrix product.
+
+    How a hair shades itself is in D: τ starts half a slab's thickness away from the voxel's middle in every direction.
+    """
+
+    def __init__(self, sigma: NDArray[np.floating], slab: float, beta: float, aside: Array | None = None) -> None:
+        """slab : thickness of a slab, tile widths; beta : of the body; the rest as of `Slabs`."""
+        super().__init__(sigma, aside)
+        self.height, self.beta = slab * self.layers, beta
+        texel = np.arange(self.size)
+        self.turns = np.exp(2j * np.pi / self.size * (np.outer(texel, texel) % self.size)).astype(np.complex64)
+
+    def through(self, light: Array) -> tuple[Single, Single]:
+        """Transmittance between the light and the voxels, (K, N, N), and the skin, (N, N). 0 behind the body."""
+        clear = np.zeros((self.layers, self.size, self.size), np.float32)
+        middle, lz = (np.arange(self.layers) + 0.5) / self.layers, float(light[2])
+        for top in range(self.layers, 0, -STRIP):
+            strip = slice(max(top - STRIP, 0), top)
+            rays = Rays(middle[strip], lz, self.beta)
+            spectrum = self._depths(rays, 0.5 / self.layers, light)
+            if self.back is not None:
+                spectrum *= self.back[strip]
+            np.exp(-self._in_space(spectrum), out=clear[strip])
+            clear[strip][rays.blocked] = 0
+            if clear[strip].mean() < DARK:
+                return clear, np.zeros_like(clear[0])
+        if lz <= 0:
+            return clear, np.zeros_like(clear[0])
+        skin = self._depths(Rays(np.zeros(1), lz, self.beta), 0.0, light)
+        return clear, np.exp(-self._in_space(skin)[0])
+
+    def own(self, light: Array) -> Single:
+        """τ along the ray up to half a slab's thickness on both sides of the voxel's middle, (K, N, N)."""
+        slab = self.height / self.layers
+        kernel = scipy.fft.rfft2(self.crossed(light[:2] * slab * self.size, -0.5, 0.5))
+        share = thinned((np.arange(self.layers) + 0.5) / self.layers, self.beta).astype(np.float32)
+        return self.in_space(self.spectrum * kernel * share[:, None, None], slab)
+
+    def _depths(self, rays: Rays, start: float, light: Array) -> Spectrum:
+        """Spectrum of τ on the way from t = `start` to the light, (n, N, N / 2 + 1) for n rays."""
+        total = np.zeros((len(rays.height), *self.spectrum.shape[1:]), np.complex64)
+        texel = self.height * self.size
+        way = light[:2] * (texel / max(float(np.hypot(*light[:2])), 1e-9))
+        ray, slab, spans = rays.pieces(self.layers, start, LONGEST / texel)
+        length = np.diff(spans)
+        moved = (rays.feet(spans[:, 1], ray) - rays.feet(spans[:, 0], ray)) * texel
+        rounds = np.maximum(np.ceil(moved * (POINTS_PER_TEXEL / LEAST_POINTS)), 1).astype(np.intp)
+        for count in np.unique(rounds):
+            alike = np.flatnonzero(rounds == count)
+            points = int(count) * LEAST_POINTS
+            share = (np.arange(points) + 0.5) / points
+            for first in range(0, len(alike), BATCH):
+                some = alike[first : first + BATCH]
+                t, of = spans[some, :1] + length[some] * share, ray[some, None]
+                feet = rays.feet(t, of)
+                weight = length[some] * (self.height / points) * thinned(rays.heights(t, of), self.beta)
+                rows = self._look(feet * way[1], self.size)
+                columns = self._look(feet * way[0], self.size // 2 + 1) * weight[..., None].astype(np.float32)
+                kernels = np.matmul(*in_blocks(rows, columns)).reshape(-1, *total.shape[1:])
+                for k, j, kernel in zip(ray[some], slab[some], kernels, strict=True):
+                    total[k] += np.multiply(kernel, self.spectrum[j], out=kernel)
+        return total
+
+    def _look(self, at: Array, frequencies: int) -> NDArray[np.complex64]:
+        """Spectra of linear look-up `at` texels (n, P) from the voxel, (n, P, `frequencies`)."""
+        whole = np.floor(at).astype(np.intp)
+        part = (at - whole).astype(np.float32)[..., None]
+        before, after = (self.turns[(whole + step) % self.size, :frequencies] for step in (0, 1))
+        return np.asarray(before + part * (after - before), np.complex64)
+
+    def _in_space(self, spectrum: Spectrum) -> Single:
+        return np.maximum(scipy.fft.irfft2(spectrum, s=(self.size, self.size)), 0)
+
+
+def in_blocks(rows: Spectrum, columns: Spectrum) -> tuple[Spectrum, Spectrum]:
+    """Factors of rowsᵀ·columns, (n, P, N) and (n, P, M): (n, N/b, b, P) and (n, 1, P, M) in blocks of b rows.
+
+    Each is a product so small that BLAS starts no threads of its own for it: lights have them all.
+    """
+    count, points, size = rows.shape
+    block = size
+    while block % 2 == 0 and block * points * columns.shape[2] > MOST_WORK:
+        block //= 2
+    return rows.reshape(count, points, -1, block).transpose(0, 2, 3, 1), columns[:, None]
+
+
+def depth_of(
+    sigma: NDArray[np.floating], slab: float, beta: float | None, aside: Array | None = None
+) -> FlatDepth | BentDepth:
+    """τ above a body of radius `beta`, on a flat one where that is None."""
+    return FlatDepth(sigma, slab, aside) if beta is None else BentDepth(sigma, slab, beta, aside)
+
+
+def passing(depth: Single) -> Single:
+    """Mean over a slab of what is left of light that crosses it, (1 − e^−τ)/τ."""
+    thick: Single = np.maximum(depth, np.float32(1e-4))
+    return np.asarray(-np.expm1(-thick) / thick, np.float32)
+
+
+def _moved(aside: Array, size: int) -> NDArray[np.complexfloating]:
+    """What moves the spectra of K slabs aside by (K, 2) tile widths, (K, size, size / 2 + 1)."""
+    along = np.arange(size // 2 + 1)
+    across = np.fft.fftfreq(size, 1 / size)
+    turns = aside[:, 1, None, None] * across[:, None] + aside[:, 0, None, None] * along
+    return np.asarray(np.exp(-2j * np.pi * turns), np.complex64)

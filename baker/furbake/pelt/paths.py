@@ -1,0 +1,96 @@
+"""Straight rays through fur that stands on a ball, as they look in the flat slabs.
+
+Lengths are in lengths of the fur. A body of radius β is below it, so that a point at height s is r = β + s from the
+centre, and the fur ends at R = β + 1. A ray leaves the point with lz, the cosine between it and the skin's normal
+there. After a distance t
+
+    height     h(t) = √(r² + t² + 2·r·t·lz) − β
+    foot       β·ψ(t),  ψ(t) = atan2(t·√(1 − lz²), r + t·lz)
+
+where the foot is how far the ray has moved along the skin, on which the tile is laid, in the azimuth of the light. It
+comes no nearer to the centre than b = r·√(1 − lz²); for lz < 0 it meets the skin where b < β. A height h is passed at
+t = −r·lz ± √((β + h)² − b²). Hairs diverge: at a height h there are (β/(β + h))² as many in a volume as at the skin.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+BODY_RADIUS = 4.0
+"""β: radius of the furry body over the length of its fur, where nothing else is known."""
+
+STEP = 1e-9
+"""Lengths of the fur: two heights that are passed closer together than this are one."""
+
+
+def lowest(beta: float = BODY_RADIUS) -> float:
+    """lz of the lowest light that reaches the tips, −√(2β + 1)/(β + 1): the body hides those below it."""
+    return float(-np.sqrt(2 * beta + 1) / (beta + 1))
+
+
+def thinned(height: Array, beta: float) -> Array:
+    """Hairs in a volume at these heights, as a share of those at the skin."""
+    return (beta / (beta + height)) ** 2
+
+
+@dataclass(frozen=True)
+class Rays:
+    """Rays from n points at `height` (n,) towards a light with this `lz`, above a body of radius `beta`.
+
+    What is asked about points of them takes distances t and the ray's index of each, two arrays of one shape.
+    """
+
+    height: Array
+    lz: float
+    beta: float
+
+    @property
+    def radius(self) -> Array:
+        """r, (n,)."""
+        return self.beta + self.height
+
+    @property
+    def across(self) -> float:
+        """√(1 − lz²)."""
+        return float(np.sqrt(max(1 - self.lz**2, 0.0)))
+
+    @property
+    def blocked(self) -> NDArray[np.bool_]:
+        """Which of them meet the skin, (n,)."""
+        return (self.lz < 0) & (self.radius * self.across < self.beta)
+
+    def heights(self, t: Array, ray: NDArray[np.intp]) -> Array:
+        """h(t)."""
+        r = self.radius[ray]
+        return np.asarray(np.sqrt(r * r + t * (t + 2 * self.lz * r)) - self.beta)
+
+    def feet(self, t: Array, ray: NDArray[np.intp]) -> Array:
+        """β·ψ(t)."""
+        return np.asarray(self.beta * np.arctan2(t * self.across, self.radius[ray] + t * self.lz))
+
+    def pieces(self, slabs: int, start: float, longest: float) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
+        """The rays from t = `start` to the end of the fur, cut where they pass from one of the equal slabs to another.
+
+        Pieces whose feet are more than `longest` apart are cut again. Returns each piece's ray and slab, (m,), and the
+        distances where it starts and ends, (m, 2). A ray that is blocked has none.
+        """
+        r = self.radius[:, None]
+        square = (self.beta + np.arange(slabs + 1) / slabs) ** 2 - (r * self.across) ** 2
+        # Levels that a ray doesn't come down to are passed at its lowest point.
+        root = np.sqrt(np.maximum(square, 0))
+        edges = np.maximum(np.concatenate([-root[:, ::-1], root], 1) - r * self.lz, start)
+        ray, edge = np.nonzero((np.diff(edges) > STEP) & ~self.blocked[:, None])
+        spans = np.stack([edges[ray, edge], edges[ray, edge + 1]], 1)
+        moved = self.feet(spans[:, 1], ray) - self.feet(spans[:, 0], ray)
+        parts = np.maximum(np.ceil(moved / longest), 1).astype(np.intp)
+        piece = np.repeat(np.arange(len(parts)), parts)
+        part = np.arange(len(piece)) - np.repeat(np.cumsum(parts) - parts, parts)
+        share = (part[:, None] + np.array([0.0, 1.0])) / parts[piece, None]
+        ray, spans = ray[piece], spans[piece, :1] + np.diff(spans)[piece] * share
+        slab = np.floor(self.heights(spans.mean(1), ray) * slabs).astype(np.intp)
+        return ray, np.clip(slab, 0, slabs - 1), spans
