@@ -1,9 +1,10 @@
-import { BufferAttribute, BufferGeometry, Object3D, Texture, Vector3 } from 'three';
+import { BufferAttribute, BufferGeometry, Object3D, Scene, Texture, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
 import { FinMaterial } from '../../web/fur/FinMaterial.ts';
 import { FurMaterial } from '../../web/fur/FurMaterial.ts';
 import { FurFins } from '../../web/fur/fins.ts';
 import type { Fin, FurAsset } from '../../web/fur/format.ts';
+import { followHue } from '../../web/fur/hue.ts';
 import type { PeltMaterial } from '../../web/fur/PeltMaterial.ts';
 import { FurShells } from '../../web/fur/shells.ts';
 
@@ -124,7 +125,9 @@ describe('varyings', () => {
 
 	/** Rows of the packing that GLSL ES fixes: a vec4, a vec3 and each column of a matrix take a row, the rest fits beside. */
 	function rows(material: PeltMaterial): number {
-		const found = [...compiled(material).matchAll(/^(?:flat )?out (\w+) (\w+);/gm)].map(([, type = '']) => type);
+		const found = [...compiled(material).matchAll(/^(?:flat )?out (\w+) (\w+);/gm)].map(([, type = '']) =>
+			type === 'Strength' ? ('ONE_HUE' in material.defines ? 'float' : 'vec3') : type,
+		);
 		const count = (type: string) => found.filter((name) => name === type).length;
 		const three = 3 * count('mat3') + count('vec3');
 		const four = count('vec4');
@@ -141,6 +144,16 @@ describe('varyings', () => {
 		Object.assign(shells.material, { environment: true, gloss: 0.5, backlight: 6 });
 		expect([fins, shells].map(({ material }) => rows(material))).toEqual([15, 15]);
 		shells.material.lampsPerFragment = true;
-		for (const { material } of [fins, shells]) expect(rows(material)).toBeLessThanOrEqual(15);
+		for (const { material } of [fins, shells]) {
+			expect(rows(material)).toBeLessThanOrEqual(15);
+			// As of mean curves.
+			material.defines.MEAN_CURVES = '';
+			expect(rows(material)).toBeLessThanOrEqual(15);
+		}
+		Object.assign(shells.material, { lampsPerFragment: false, environment: false, gloss: 0 });
+		for (const { material } of [fins, shells]) {
+			followHue(material, new Scene());
+			expect(rows(material)).toBeLessThanOrEqual(5);
+		}
 	});
 });

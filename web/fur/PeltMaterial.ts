@@ -19,7 +19,7 @@ import {
 } from 'three';
 import { hairChunks, lampChunks, skyChunks, texelChunks } from './chunks.ts';
 import { followHue } from './hue.ts';
-import { BODY_RADIUS, smoothSum } from './moments.ts';
+import { BODY_RADIUS } from './moments.ts';
 import { curveTable, SlabLight, standInWeights, type Weights } from './SlabLight.ts';
 import colour from './shaders/colour.glsl?raw';
 import lightIn from './shaders/light.frag.glsl?raw';
@@ -29,7 +29,7 @@ import ptm from './shaders/ptm.glsl?raw';
 import { type Stained, stain, stainUniforms } from './stains.ts';
 import { switchPart } from './switches.ts';
 import { TrimLight } from './TrimLight.ts';
-import { basisUniforms, decoder, momentUniforms, type SlabMeanCurves, type Texels } from './texels.ts';
+import { basisDefines, decoder, momentUniforms, type SlabMeanCurves, type Texels } from './texels.ts';
 
 /** An asset's planes as texture arrays, a slab per layer. */
 export interface FurTextures {
@@ -86,7 +86,6 @@ export class PeltMaterial extends ShaderMaterial {
 				offset0: { value: offset[0] },
 				scale1: { value: new Vector2(scale[1]?.x, scale[1]?.y) },
 				offset1: { value: new Vector2(offset[1]?.x, offset[1]?.y) },
-				...basisUniforms(basis),
 				...(means
 					? {
 							curveTable: leader?.uniforms.curveTable ?? { value: curveTable(means.curves) },
@@ -107,10 +106,7 @@ export class PeltMaterial extends ShaderMaterial {
 				...uniforms,
 			},
 			defines: {
-				...(basis.kind === 'eigen' && {
-					TERMS: (basis.degree + 1) ** 2 + 2,
-					'CURVES(c)': smoothSum(basis.degree),
-				}),
+				...basisDefines(basis),
 				...(means && { MEAN_CURVES: '' }),
 				...(texels.scale.length > 3 && { TWO_PLANES: '' }),
 				...(textures.colour && { COLOUR_PLANE: '' }),

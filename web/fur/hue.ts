@@ -8,6 +8,22 @@ import { switchPart } from './switches.ts';
 const SAME = 1e-4;
 
 const hue = new Color();
+const first = new Color();
+let found = false;
+let shared = true;
+
+/** Called for every object, so it allocates nothing. */
+function visit(object: Object3D): void {
+	const { color, intensity, isDirectionalLight, isPointLight, isSpotLight } = object as DirectionalLight & Lamps;
+	if (!(isDirectionalLight || isPointLight || isSpotLight) || intensity === 0) return;
+	const bright = luminance(color);
+	if (bright === 0) return;
+	hue.copy(color).multiplyScalar(1 / bright);
+	if (!found) first.copy(hue);
+	found = true;
+	const apart = Math.max(Math.abs(hue.r - first.r), Math.abs(hue.g - first.g), Math.abs(hue.b - first.b));
+	shared &&= apart <= SAME * Math.max(hue.r, hue.g, hue.b);
+}
 
 /**
  * The colour, of luminance 1, that all directional, point and spot lights below an object share; white where none shines.
@@ -16,19 +32,11 @@ const hue = new Color();
  * @returns whether they share one
  */
 export function sharedHue(scene: Object3D, target: Color): boolean {
-	let [found, shared] = [false, true];
-	target.setRGB(1, 1, 1);
-	scene.traverseVisible((object) => {
-		const { color, intensity, isDirectionalLight, isPointLight, isSpotLight } = object as DirectionalLight & Lamps;
-		if (!(isDirectionalLight || isPointLight || isSpotLight) || intensity === 0) return;
-		const bright = luminance(color);
-		if (bright === 0) return;
-		hue.copy(color).multiplyScalar(1 / bright);
-		if (!found) target.copy(hue);
-		const apart = Math.max(Math.abs(hue.r - target.r), Math.abs(hue.g - target.g), Math.abs(hue.b - target.b));
-		shared &&= apart <= SAME * Math.max(hue.r, hue.g, hue.b);
-		found = true;
-	});
+	found = false;
+	shared = true;
+	first.setRGB(1, 1, 1);
+	scene.traverseVisible(visit);
+	target.copy(first);
 	return shared;
 }
 

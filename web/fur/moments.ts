@@ -19,23 +19,26 @@ export function smoothFunctions([u, v, z]: Direction, degree: number): number[] 
 }
 
 /**
- * GLSL: the smooth functions of u, v, w, root = √w and root4 = ∜w, each times its weight in the array `c`, added up as
- * Horner did. Written out, since a loop over uniforms costs vertices dear where nothing unrolls it.
+ * GLSL: the smooth functions of u, v, w, root = √w and root4 = ∜w, each times its weights, added up as Horner did. A vec3.
+ * The weights are written out: as uniforms they cost software rasterisers more than all the rest of a vertex.
+ *
+ * @param rows weights for each of the three parts; an absent one is 0
  */
-export function smoothSum(degree: number): string {
+export function smoothSum(degree: number, rows: readonly (readonly number[] | undefined)[]): string {
 	let next = 0;
+	const weight = (t: number) => `vec3(${rows.map((row) => (row?.[t] ?? 0).toExponential(7)).join(', ')})`;
 	const horner = (parts: string[], x: string) => parts.reduceRight((rest, part) => `${part} + ${x} * (${rest})`);
 	const polynomial = (top: number) => {
 		const rows = Array.from({ length: top + 1 }, (_, i) =>
 			horner(
-				Array.from({ length: top + 1 - i }, () => `c[${next++}]`),
+				Array.from({ length: top + 1 - i }, () => weight(next++)),
 				'v',
 			),
 		);
 		return horner(rows, 'u');
 	};
 	const [flat, risen] = [polynomial(degree), polynomial(degree - 1)];
-	return `(${flat} + w * (${risen}) + root * c[${next}] + root4 * c[${next + 1}])`;
+	return `(${flat} + w * (${risen}) + root * ${weight(next)} + root4 * ${weight(next + 1)})`;
 }
 
 /** φ(l) of a light above the horizon. */

@@ -3,7 +3,7 @@
 import { type IUniform, Vector3, Vector4 } from 'three';
 import type { MeanCurves } from './curves.ts';
 import { type Basis, channelOf } from './format.ts';
-import { horizonMoments, polynomialCurves } from './moments.ts';
+import { horizonMoments, polynomialCurves, smoothSum } from './moments.ts';
 
 /** What texels mean: how they are decoded, and what their coefficients multiply. */
 export interface Texels {
@@ -22,15 +22,12 @@ export interface SlabMeanCurves extends MeanCurves {
 	weights: readonly (readonly number[])[];
 }
 
-/** Weights of the smooth functions in curves of light, as uniforms; none of a PTM. */
-export function basisUniforms(basis: Basis): Record<string, IUniform> {
+/** GLSL of light curves 0..2 and 3..5, as defines; of a PTM there are none. */
+export function basisDefines(basis: Basis): Record<string, string> {
 	if (basis.kind === 'ptm') return {};
-	const uniform = (first: number) => ({
-		value: (basis.matrix[0] ?? []).map(
-			(_, t) => new Vector3(...[0, 1, 2].map((i) => basis.matrix[first + i]?.[t] ?? 0)),
-		),
-	});
-	return { curvesLow: uniform(0), curvesHigh: uniform(3) };
+	const { degree, matrix } = basis;
+	const three = (first: number) => smoothSum(degree, [matrix[first], matrix[first + 1], matrix[first + 2]]);
+	return { CURVES: '', CURVES_LOW: three(0), CURVES_HIGH: three(3) };
 }
 
 /**

@@ -26,8 +26,8 @@ POINTS_PER_TEXEL, LEAST_POINTS, LONGEST = 2, 4, 8
 STRIP, DARK = 8, 1e-5
 """Slabs whose rays are followed together, from the tips down, and the mean T below which all deeper ones are black."""
 
-BATCH = 16
-"""Pieces whose kernels are made together: they fit into a core's cache."""
+BATCH = 2**17
+"""Numbers in the kernels of pieces that are made together: they fit into a core's cache."""
 
 MOST_WORK = 2**15
 """Multiplications of one matrix product."""
@@ -155,12 +155,13 @@ class BentDepth(Slabs):
         length = np.diff(spans)
         moved = (rays.feet(spans[:, 1], ray) - rays.feet(spans[:, 0], ray)) * texel
         rounds = np.maximum(np.ceil(moved * (POINTS_PER_TEXEL / LEAST_POINTS)), 1).astype(np.intp)
+        batch = max(BATCH // total[0].size, 1)
         for count in np.unique(rounds):
             alike = np.flatnonzero(rounds == count)
             points = int(count) * LEAST_POINTS
             share = (np.arange(points) + 0.5) / points
-            for first in range(0, len(alike), BATCH):
-                some = alike[first : first + BATCH]
+            for first in range(0, len(alike), batch):
+                some = alike[first : first + batch]
                 t, of = spans[some, :1] + length[some] * share, ray[some, None]
                 feet = rays.feet(t, of)
                 weight = length[some] * (self.height / points) * thinned(rays.heights(t, of), self.beta)

@@ -37,6 +37,9 @@ SMOOTH, FEW = 0.02, 0.1
 LEAST_COVER = 0.02
 """Mean coverage with which a slab counts at least where curves for all of them are chosen."""
 
+BELOW, ROUNDS = 30.0, 4
+"""What light below 0 counts where a slab's weights are chosen, and how often it is looked for."""
+
 DIGITS = 4
 """Significant digits of tables and weights."""
 
@@ -96,7 +99,7 @@ def tables(own: Measured, bodies: Sequence[Measured], lean: Array) -> Array:
     """
     if not bodies:
         fitted = _solved(_design(own.lights, own.beta, lean), own.values, np.ones(len(own.lights)), HORIZON)
-        return np.repeat(fitted[:, :, None], len(RADII), axis=2)
+        return np.repeat(_lit(fitted, own.beta)[:, :, None], len(RADII), axis=2)
     found = []
     at_home = next(body for body in bodies if body.beta == own.beta)
     design = _design(at_home.lights, at_home.beta, lean)
@@ -112,7 +115,14 @@ def tables(own: Measured, bodies: Sequence[Measured], lean: Array) -> Array:
         else:
             rows = _design(body.lights, body.beta, lean)
             found.append(_solved(rows, body.values * scale, np.ones(len(rows)), 0))
-    return np.stack(found, 2)
+    return np.stack([_lit(some, beta) for some, beta in zip(found, RADII, strict=True)], 2)
+
+
+def _lit(found: Array, beta: float) -> Array:
+    """Tables (K, 2, 17) that are nowhere below 0, whatever the azimuth of the light."""
+    z = np.maximum(elevation(np.arange(KNOTS, dtype=float), beta), 0)
+    even, reach = np.maximum(found[:, 0], 0), np.maximum(np.sqrt(1 - z * z), 1e-6)
+    return np.stack([even, np.clip(found[:, 1], -even / reach, even / reach)], 1)
 
 
 def _design(lights: Array, beta: float, lean: Array) -> Array:
@@ -155,8 +165,19 @@ def shared(
     mixed *= np.where(mixed[:, 0].sum((1, 2)) < 0, -1, 1)[:, None, None, None]
     mixed = rounded(mixed / np.maximum(np.abs(mixed).max((1, 2, 3), keepdims=True), 1e-12))
     curves = Curves(np.ascontiguousarray(mixed[:, 0]), np.ascontiguousarray(mixed[:, 1]), lean)
-    solved = np.linalg.lstsq(rows @ mixed.reshape(count, -1).T, values, rcond=None)[0].T
+    solved = _weights(rows @ mixed.reshape(count, -1).T, values)
     return curves, [rounded(part) for part in np.split(solved, np.cumsum([len(part) for part in each])[:-1])]
+
+
+def _weights(curves: Array, values: Array) -> Array:
+    """Each slab's weights, (K, Q): least squares of values (n, K) in curves (n, Q), light below 0 counting more."""
+    counts = np.ones_like(values)
+    small = 1e-9 * np.eye(curves.shape[1]) * len(curves)
+    for _ in range(ROUNDS):
+        matrix = np.einsum("nk,nq,np->kqp", counts, curves, curves, optimize=True) + small
+        weights = np.linalg.solve(matrix, ((counts * values).T @ curves)[..., None])[..., 0]
+        counts = np.where(curves @ weights.T < 0, BELOW, counts)
+    return np.asarray(weights)
 
 
 def _spread_out(body: int, lean: Array) -> Array:

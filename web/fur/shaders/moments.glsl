@@ -53,21 +53,14 @@ struct FurPoint {
 
 uniform float bodyRadius; // β, in lengths of the fur, of the body as a whole
 
-#ifdef CURVES // (weights): the sum of smooth functions of u, v, w, √w and ∜w, written out
-uniform vec3 curvesLow[TERMS]; // weights of each smooth function in light curves 0..2 and 3..5
-#ifdef TWO_PLANES
-uniform vec3 curvesHigh[TERMS];
-#endif
-#endif
-
-// φ(l) of a light above the horizon. Paper, eq. (2), or smooth light curves.
+// φ(l) of a light above the horizon. Paper, eq. (2), or smooth light curves: sums of functions of u, v, w, √w and ∜w.
 void basis(vec3 lightTS, out vec3 low, out vec3 high) {
 	float u = lightTS.x, v = lightTS.y;
 #ifdef CURVES
 	float w = lightTS.z, root = sqrt(w), root4 = sqrt(root);
-	low = CURVES(curvesLow);
+	low = CURVES_LOW;
 #ifdef TWO_PLANES
-	high = CURVES(curvesHigh);
+	high = CURVES_HIGH;
 #else
 	high = vec3(0.0);
 #endif
