@@ -20,7 +20,7 @@ Spectrum = NDArray[np.complexfloating]
 STEPS_PER_TEXEL = 8
 """Points of a straight ray per texel that it moves aside, at least 8 a slab."""
 
-POINTS_PER_TEXEL, LEAST_POINTS, LONGEST = 2, 4, 8
+POINTS_PER_TEXEL, LEAST_POINTS, LONGEST = 2, 2, 8
 """Points of a bent ray per texel that it moves aside, in a piece of it at least, and texels of the longest piece."""
 
 STRIP, DARK = 8, 1e-5

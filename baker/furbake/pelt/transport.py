@@ -43,6 +43,9 @@ LAMP, LAMP_RAYS = np.radians(10), 3
 HIDDEN = 0.02
 """What hairs that are hidden from the eye count in the mean of their texel, to those that are seen."""
 
+MERGED = 2
+"""Fine slabs that a bent ray crosses as one where a stored slab has twice as many or more: T changes little between."""
+
 SINGLE_SHARE = 0.8
 """Share of the time that single scattering takes, for the progress."""
 
@@ -66,6 +69,21 @@ def lamp_cone(light: Array, turn: float) -> Array:
     spread = np.outer(np.cos(angle), across) + np.outer(np.sin(angle), np.cross(light, across))
     rays = light + radius[:, None] * spread
     return np.asarray(rays / np.linalg.norm(rays, axis=1, keepdims=True))
+
+
+def joined(slabs: Single, count: int) -> Single:
+    """Means of every `count` slabs, (K, N, N) → (K / count, N, N)."""
+    return slabs if count == 1 else np.asarray(slabs.reshape(-1, count, *slabs.shape[1:]).mean(1))
+
+
+def parted(slabs: Single, count: int) -> Single:
+    """Linear between the middles of slabs at those of `count` times as many, (K, N, N) → (K · count, N, N)."""
+    if count == 1:
+        return slabs
+    place = (np.arange(len(slabs) * count) + 0.5) / count - 0.5
+    low = np.clip(np.floor(place).astype(np.intp), 0, max(len(slabs) - 2, 0))
+    share = np.clip(place - low, 0, 1).astype(np.float32)[:, None, None]
+    return np.asarray(slabs[low] * (1 - share) + slabs[np.minimum(low + 1, len(slabs) - 1)] * share)
 
 
 def sample(
@@ -131,6 +149,8 @@ class _Beam:
             self.tangent, longer = spread(self.tangent, middle, beta)
             self.sigma *= longer
         self.hair: Single = np.maximum(self.stored(self.sigma), np.float32(1e-6))
+        per_slab = len(self.sigma) // layers
+        self.merged = MERGED if beta is not None and per_slab >= 2 * MERGED and per_slab % MERGED == 0 else 1
 
     def __call__(self, light: Array, number: int) -> tuple[Single, Single, Single, Single]:
         """T·D averaged down, (K, N, N); T·sin θ and T on average over the hairs, (K, N/2, N/2); the skin's irradiance.
@@ -141,15 +161,18 @@ class _Beam:
         through on the way.
         """
         width = sine(self.tangent, light)
-        depth = depth_of(self.sigma * width, self.slab, self.beta, self.aside)
+        caught, merged = self.sigma * width, self.merged
+        aside = None if self.aside is None else slab_means(self.aside, len(caught) // merged)
+        depth = depth_of(joined(caught, merged), self.slab * merged, self.beta, aside)
         rays = light[None] if self.beta is None else lamp_cone(light, float(number))
-        passed = np.zeros_like(self.sigma)
-        skin = np.zeros_like(self.sigma[0])
-        for ray in rays:
+        clear, floor = depth.through(rays[0])
+        passed, skin = clear, floor * np.float32(max(rays[0, 2], 0))
+        for ray in rays[1:]:
             clear, floor = depth.through(ray)
             passed += clear
             skin += floor * np.float32(max(ray[2], 0))
-        hairs = passed * passing(depth.own(light))
+        hairs = np.repeat(passed * passing(depth.own(light)), merged, 0)
+        passed = parted(passed, merged)
         share = np.float32(1 / len(rays))
         single = average_down(passed * share * cylinder(self.tangent, light), self.shares, self.size)
         lit = hairs * (share * self.sigma)
