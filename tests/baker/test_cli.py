@@ -461,7 +461,8 @@ def test_compare_is_a_table(run: Callable[..., Any]) -> None:
     done = run("compare", "tiny.toml", "--lights", "64", "--quiet")
     assert (done.status, done.err) == (0, "")
     assert done.out.startswith("| fur | basis |")
-    assert len(done.out.splitlines()) == 7
+    assert len(done.out.splitlines()) == 12
+    assert "| tiny | ptm, 6 numbers, curves |" in done.out
 
 
 def test_patches_is_a_table(run: Callable[..., Any]) -> None:

@@ -84,7 +84,8 @@ EDITS = {
     "slabs unweighted": (lambda d: fur(d)["pelts"][0]["weights"].pop(), "pelts[0].weights has 3 rows, expected 4"),
     "curve unweighted": (lambda d: fur(d)["pelts"][0]["weights"][2].pop(), "pelts[0].weights has a row of 2 numbers"),
     "an environment": (
-        lambda d: put(side(d), "environment", [[0] * 9] * 6), "an environment in version 2.0, expected none"
+        lambda d: put(side(d), "environment", [[0] * 9] * 6),
+        "an environment in version 2.0, expected none",
     ),
     "no layers": (lambda d: fur(d).pop("layers"), "FUR_ptm_shells: 'layers' is a required property"),
     "zero size": (lambda d: put(fur(d), "size", 0), "FUR_ptm_shells: size: 0 is less than the minimum of 8"),

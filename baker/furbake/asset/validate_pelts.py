@@ -72,7 +72,7 @@ def curves(asset: Asset) -> Iterator[str]:
         if pelt.get("dirt", 0) and rows != fur["pelts"][0]["weights"]:
             yield f"{EXTENSION}: pelts[{i}].weights differs though it is dirty, expected that of pelts[0]"
     if "environment" in fur or any("environment" in pelt.get("fin", {}) for pelt in fur["pelts"]):
-        yield f"{EXTENSION}: an environment in version {fur['version']}, expected none: it follows from basis and curves"
+        yield f"{EXTENSION}: an environment in version {fur['version']}, expected none: curves tell it"
 
 
 def states(asset: Asset) -> Iterator[str]:

@@ -78,7 +78,7 @@ def coarser(fine: Volume, layers: int, size: int) -> Volume:
 def measure(
     fine: Volume, layers: int, size: int, coat: Coat, step: Callable[[float], None] = lambda fraction: None
 ) -> tuple[Measured, ...]:
-    """Mean light of the slabs on a body of each of `RADII`; fine : the oversampled volume of a tile of `size` texels."""
+    """Mean light of the slabs on a body of each of `RADII`; fine : the oversampled volume of a tile of `size`."""
     size = min(size, SIZE)
     wide = coarser(fine, layers, size)
     alpha = coarsen(wide, layers, size).coverage
@@ -171,13 +171,13 @@ def shared(
 
 def _weights(curves: Array, values: Array) -> Array:
     """Each slab's weights, (K, Q): least squares of values (n, K) in curves (n, Q), light below 0 counting more."""
-    counts = np.ones_like(values)
+    weights, counts = np.zeros((values.shape[1], curves.shape[1])), np.ones_like(values)
     small = 1e-9 * np.eye(curves.shape[1]) * len(curves)
     for _ in range(ROUNDS):
+        counts = np.where(curves @ weights.T < 0, BELOW, counts)
         matrix = np.einsum("nk,nq,np->kqp", counts, curves, curves, optimize=True) + small
         weights = np.linalg.solve(matrix, ((counts * values).T @ curves)[..., None])[..., 0]
-        counts = np.where(curves @ weights.T < 0, BELOW, counts)
-    return np.asarray(weights)
+    return weights
 
 
 def _spread_out(body: int, lean: Array) -> Array:
