@@ -16,6 +16,11 @@ NAMES = ("lu²", "lv²", "lu·lv", "lu", "lv", "1")
 DISC = 72
 """Side of the picture of a light curve, pixels."""
 
+MULTIPLIED = (
+    "It is the bound of numbers alone. Here they are multiplied by their slab's mean light, which all texels of the "
+    "slab share, and may do better. "
+)
+
 WORDS = {3: "three", 4: "four", 5: "five", 6: "six"}
 
 
@@ -70,13 +75,15 @@ def bound(measured: Measured) -> str:
             Series([float(count)], [rivals.stored], "fit", "ring", "this bake"),
         ),
     )
-    near = f": it is {rivals.bound[count - 1] - rivals.stored:.2f} dB below" if count <= len(rivals.bound) else ""
+    off = rivals.stored - rivals.bound[count - 1] if count <= len(rivals.bound) else None
+    near = "" if off is None else f": it is {abs(off):.2f} dB {'below' if off < 0 else 'above'}"
+    alone = "" if measured.pelt.curves is None else MULTIPLIED
     kept = float(rivals.spectrum[:count].sum())
     return section(
         "How good could it be?",
         "Every texel's light is a mixture of a few light curves (the singular vectors of the sample matrix). "
         "The best any method can do with so many numbers per texel is known: the bound of Eckart and Young. "
-        f"<b>Look for</b> the ring to lie near the line{near}.",
+        f"{alone}<b>Look for</b> the ring to lie near the line{near}.",
         '<div class="plots">',
         figure(spectrum, f"<b>Spectrum</b>: the first {count} curves hold {100 * kept:.1f} % of the light"),
         figure(against, "<b>Bound and bases</b>: the bound knows the unseen lights, a fit does not"),
