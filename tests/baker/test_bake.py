@@ -19,10 +19,11 @@ from furbake.bake import STAGES
 from furbake.options import OptionError
 from furbake.pelt.basis import Basis
 from furbake.pelt.fill import SOLID
-from furbake.pelt.fit import Judge, relight
+from furbake.pelt.fit import Judge, relight, stored_light
 from furbake.pelt.quantise import dequantise, from_signed_bytes
 from furbake.pelt.states import WETNESS
 from furbake.pelt.states import chosen as states_of
+from furbake.pelt.transport import hemisphere
 
 SMALL = replace(BakeOptions(), layers=6, size=32, lights=32)
 
@@ -213,8 +214,9 @@ def test_dry_fur_is_the_same_hairs_with_and_without_states(living: Path, tmp_pat
     np.testing.assert_array_equal(one.tint, other.tint)
     assert read_asset(tmp_path / "out").fur["version"] == "2.0"
     assert one.state == other.state
-    light = [dequantise(pelt.codes, pelt.scale, pelt.bias)[one.alpha > 25] for pelt in (one, other)]
-    assert np.percentile(np.abs(light[0] - light[1]), 99) < 2 * other.scale.max()
+    # The mean curves suit all states, so that the two pelts differ in their numbers; what they say is the same light.
+    light = [stored_light(pelt, hemisphere(9, turn=0.5))[:, one.alpha > 25] for pelt in (one, other)]
+    assert np.percentile(np.abs(light[0] - light[1]), 99) < 0.05 * np.percentile(light[0], 99)
 
 
 def test_eigen_states_share_their_curves(tmp_path: Path) -> None:
