@@ -103,7 +103,8 @@ test('the body has as many patches and fins as were baked', async ({ page }) => 
 	expect(numbers).toContain(
 		`of ${asset.shells.faces} triangles, ${(asset.shells.faces / asset.skin.faces).toFixed(2)}`,
 	);
-	expect(numbers).toContain(`${asset.fins.faces} triangles of fins`);
+	// Each fin is cut into four strips, so that light changes along its height.
+	expect(numbers).toContain(`${4 * asset.fins.faces} triangles of fins`);
 	for (const name of ['shells alone', 'a colour per patch', 'fins alone', 'hull', 'shells and fins']) {
 		const before = await pixels(page, 'body');
 		await page.getByRole('radio', { name }).check();
@@ -119,7 +120,7 @@ test('the article’s figures have the brightness of their coefficients', async 
 	expect(watch.complaints).toEqual([]);
 
 	await show(page, 'turning');
-	const a = seenFromAbove('pelt-paper');
+	const a = seenFromAbove('torus-512-colour');
 	// Where the lamp stands before anybody has moved it: x, y up, z; in the tile's frame v runs against z.
 	const [x, y, z] = [-0.62, 0.62, 0.48].map((part) => part / Math.hypot(0.62, 0.62, 0.48)) as [number, number, number];
 	const lit = (turn: number, of = a) => {
@@ -132,7 +133,7 @@ test('the article’s figures have the brightness of their coefficients', async 
 	expect(y).toBeGreaterThan(0);
 
 	await show(page, 'short');
-	const swings = ['pelt-paper', 'pelt-short'].map((name) => {
+	const swings = ['torus-512-colour', 'pelt-short'].map((name) => {
 		const of = seenFromAbove(name);
 		const values = Array.from({ length: 36 }, (_, i) => lit(10 * i, of));
 		const [least, most] = [Math.min(...values), Math.max(...values)];

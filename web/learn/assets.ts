@@ -5,6 +5,9 @@ import { type GLTF, GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { type Fur, FurLoaderPlugin } from '../fur/index.ts';
 import type { Lesson } from './lesson.ts';
 
+/** Long fur in the article's own form: colours, and no mean curves. `pelt-short` is the same, short. */
+export const ARTICLE_FORM = 'torus-512-colour';
+
 export interface Furry {
 	object: Object3D;
 	fur: Fur;

@@ -3,7 +3,7 @@
 import type { Fur, MethodName } from '../../fur/index.ts';
 import { dress, furMethod } from '../../fur/index.ts';
 import { ARTICLE, type Table1Row } from '../../measure/results.ts';
-import { loadFurry, reach } from '../assets.ts';
+import { ARTICLE_FORM, loadFurry, reach } from '../assets.ts';
 import { action, controlRow, note, pane, panes } from '../controls.ts';
 import type { Lesson, Mount } from '../lesson.ts';
 import { View, type ViewOptions } from '../view.ts';
@@ -11,8 +11,6 @@ import { View, type ViewOptions } from '../view.ts';
 const MODEL = 'torus-4608';
 const SHELLS = 16;
 const METHODS = ['unlit', 'lengyel', 'shadow-layers', 'ptm'] as const satisfies MethodName[];
-/** With texels in the article's own form: colours, and no mean curves. */
-const ARTICLE_FORM = 'torus-512-colour';
 
 export const mount: Mount = async (place, lesson) => {
 	const [furry, article] = await Promise.all([loadFurry(MODEL, lesson), loadFurry(ARTICLE_FORM, lesson)]);

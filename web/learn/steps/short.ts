@@ -2,7 +2,7 @@
 
 import { Object3D, Vector3 } from 'three';
 import { lit, onTile, seenFromAbove } from '../above.ts';
-import { loadFurry } from '../assets.ts';
+import { ARTICLE_FORM, loadFurry } from '../assets.ts';
 import { pane, panes } from '../controls.ts';
 import type { Mount } from '../lesson.ts';
 import { FurPatch } from '../patch.ts';
@@ -15,7 +15,7 @@ const STEPS = 36;
 export const mount: Mount = async (place, lesson) => {
 	const words = lesson.words.short;
 	const row = panes(place, 2);
-	const pelts = await Promise.all(['pelt-paper', 'pelt-short'].map((name) => loadFurry(name, lesson)));
+	const pelts = await Promise.all([ARTICLE_FORM, 'pelt-short'].map((name) => loadFurry(name, lesson)));
 	for (const [i, { fur }] of pelts.entries()) {
 		const patch = new FurPatch(fur, TILES);
 		const coefficients = seenFromAbove(fur);

@@ -2,7 +2,7 @@
 
 import { MathUtils, Object3D, Vector3 } from 'three';
 import { lit, onTile, seenFromAbove } from '../above.ts';
-import { loadFurry } from '../assets.ts';
+import { ARTICLE_FORM, loadFurry } from '../assets.ts';
 import { pane, panes } from '../controls.ts';
 import type { Mount } from '../lesson.ts';
 import { FurPatch } from '../patch.ts';
@@ -13,7 +13,7 @@ const TILES = 1.5;
 
 export const mount: Mount = async (place, lesson) => {
 	const words = lesson.words.turning;
-	const { fur } = await loadFurry('pelt-paper', lesson);
+	const { fur } = await loadFurry(ARTICLE_FORM, lesson);
 	const patch = new FurPatch(fur, TILES);
 	const coefficients = seenFromAbove(fur);
 	const row = panes(place, TURNS.length);
