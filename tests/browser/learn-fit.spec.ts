@@ -8,7 +8,9 @@ import { expect, site, test } from './harness.ts';
 const file = (name: string) => readFile(new URL(`../../public/${name}`, import.meta.url));
 const record: LessonRecord = JSON.parse((await file('lesson/lesson.json')).toString());
 const bake = JSON.parse((await file('models/torus-512-colour/bake.json')).toString());
-const planes = await Promise.all([0, 1].map(async (i) => decode(await file(`models/torus-512-colour/plane${i}.png`)).data));
+const planes = await Promise.all(
+	[0, 1].map(async (i) => decode(await file(`models/torus-512-colour/plane${i}.png`)).data),
+);
 
 test('lamps, texels, bits and numbers, by mouse and keyboard', async ({ page }) => {
 	await page.setViewportSize({ width: 480, height: 700 });
