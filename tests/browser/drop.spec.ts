@@ -17,7 +17,10 @@ const text = (words: string) => new TextEncoder().encode(words);
 
 const good = zipped(baked);
 const asset = new TextDecoder().decode(baked['model.gltf']);
-const newer = { ...baked, 'model.gltf': text(asset.replace(/("FUR_ptm_shells": \{\s*"version": )"\d\.\d"/, '$1"9.0"')) };
+const newer = {
+	...baked,
+	'model.gltf': text(asset.replace(/("FUR_ptm_shells": \{\s*"version": )"\d\.\d"/, '$1"9.0"')),
+};
 const small = encode({ width: 8, height: 8, channels: 4, depth: 8, data: new Uint8Array(256) });
 
 /** Of a model whose skin has one picture. */

@@ -60,7 +60,8 @@ describe('the menu', () => {
 			const { planes, scale, bias, weights = [] } = asset.pelts[0] as Pelt;
 			const means = { curves: asset.curves as Curves, way: wayOf(asset) };
 			const slab = (asset.size * asset.size) / 8;
-			const [p0, p1] = planes.map((i: number) => decode(readFileSync(file(`${name}/${images[i].uri}`))).data);
+			const decoded = planes.map((i) => decode(readFileSync(file(`${name}/${images[i].uri}`))).data as Uint8Array);
+			const [p0, p1] = decoded as [Uint8Array, Uint8Array];
 			const channel = (of: Uint8Array, c: number) =>
 				Array.from({ length: of.length / 32 }, (_, t) => of[32 * t + c] ?? 0);
 			const bytes = [0, 1, 2].map((c) => channel(p0, c)).concat([channel(p1, 0), channel(p1, 1), channel(p0, 3)]);
