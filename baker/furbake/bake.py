@@ -17,6 +17,7 @@ from furbake.body import prepare
 from furbake.identity import bake_key, describe_input, library_versions
 from furbake.options import BakeOptions
 from furbake.pelt.bent import fit_bends
+from furbake.pelt.eye import fit_eye
 from furbake.pelt.states import Fur, chosen, in_state
 from furbake.pelt.strands import grow
 from furbake.pelt.volume import Volume
@@ -98,6 +99,9 @@ def bake(
             pelts, figures = map(list, zip(*fit_pelts(lit, options), strict=True))
             if not options.flat:
                 pelts[0] = replace(pelts[0], bent=fit_bends(pelts[0], strands, options.coat, step))
+            if options.curves != "none":
+                eye = fit_eye(strands, height, options.layers, options.size, options.coat, flat=options.flat)
+                pelts[0] = replace(pelts[0], eye=eye)
         with clock.stage("fins"):
             fins = None
             if options.fins:

@@ -1,5 +1,5 @@
 import { Color, type ShaderMaterialParameters, Vector4 } from 'three';
-import { bentWeights, leanOf, wayOf } from './bent.ts';
+import { bentWeights, eyeWeights, leanOf, wayOf } from './bent.ts';
 import type { FurAsset } from './format.ts';
 import { ALPHA_CUT } from './lod.ts';
 import { type FurTextures, PeltMaterial } from './PeltMaterial.ts';
@@ -109,6 +109,7 @@ export class FurMaterial extends PeltMaterial {
 					drift: { value: driftKnots(asset.drift) },
 					lean: { value: leanOf(asset) },
 					bent: { value: bentWeights(asset) },
+					...(asset.eye && { eye: { value: eyeWeights(asset) } }),
 					alphaCut: { value: ALPHA_CUT },
 					skinColour: { value: new Color(1, 1, 1) },
 					root: { value: new Color(...ramp.root) },
@@ -117,7 +118,7 @@ export class FurMaterial extends PeltMaterial {
 					tipShare: { value: 1 },
 					rampPower: { value: ramp.power },
 				},
-				defines: { MAX_SLANT: '6.0', HAIR: '0.2', LAYERS: asset.layers },
+				defines: { MAX_SLANT: '6.0', HAIR: '0.2', LAYERS: asset.layers, ...(asset.eye && { EYE: '' }) },
 				depthWrite: true,
 			},
 			MIRRORED,

@@ -22,5 +22,13 @@ export function bentWeights(asset: Pick<FurAsset, 'drift' | 'height' | 'bent'>):
 		[-1.8, 0, 2.7, -1.5, 0, 0, 0, 0],
 		[0, 0, 0, 0, 0, 0, 0, 0],
 	];
-	return rows.flatMap((row) => [0, 4].map((first) => new Vector4().fromArray(row, first)));
+	return vectors(rows);
 }
+
+/** Weights of twelve terms of the law of light and eye, three vectors for each of 1, s and s²; of zeros where none were baked. */
+export function eyeWeights({ eye }: Pick<FurAsset, 'eye'>): Vector4[] {
+	return vectors(eye ?? [1, 2, 3].map(() => new Array<number>(12).fill(0)));
+}
+
+const vectors = (rows: readonly (readonly number[])[]): Vector4[] =>
+	rows.flatMap((row) => Array.from({ length: row.length / 4 }, (_, i) => new Vector4().fromArray(row, 4 * i)));

@@ -7,6 +7,7 @@ import curves from './shaders/curves.glsl?raw';
 import density from './shaders/density.glsl?raw';
 import dip from './shaders/dip.glsl?raw';
 import displacement from './shaders/displacement.glsl?raw';
+import eye from './shaders/eye.glsl?raw';
 import follicle from './shaders/follicle.glsl?raw';
 import horizon from './shaders/horizon.glsl?raw';
 import lamps from './shaders/lamps.glsl?raw';
@@ -29,7 +30,7 @@ export const texelChunks = [trim, density, weather, weatherIn];
 /** How lamps light a point of the fur. @param curved by mean curves, as of format 2.x */
 export const lampChunks = (curved: boolean): string[] => [
 	...['#include <common>', '#include <lights_pars_begin>'],
-	...[view, moments, trimmed, bent, curved ? curves : horizon, shadow, lamps],
+	...[view, moments, trimmed, bent, eye, curved ? curves : horizon, shadow, lamps],
 ];
 
 /** How the environment does. */

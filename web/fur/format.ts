@@ -128,6 +128,8 @@ export interface FurAsset {
 	drift: [number, number][];
 	/** Light on bent hairs: rows for 1, s and s², in each the weights of eight terms; where absent, of any fur. */
 	bent?: number[][];
+	/** Light that goes to an eye beside the hairs: rows for 1, s and s², in each the weights of twelve terms. */
+	eye?: number[][];
 	/** Linear colours along a hair: mix(root, tip, s^power). */
 	ramp: {
 		/** At the skin. */

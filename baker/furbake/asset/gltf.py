@@ -34,6 +34,9 @@ VERSION, VERSION_STATES, VERSION_CURVES = "1.0", "1.1", "2.0"
 
 QUANTIZATION = "KHR_mesh_quantization"
 
+LAWS = ("bent", "eye")
+"""Numbers of the fur as a whole, where it has any."""
+
 STATE = ("wetness", "dirt", "length", "shade", "gloss", "sharpness")
 """Numbers of a pelt's state."""
 
@@ -135,7 +138,7 @@ def extension(pelts: Sequence[Pelt], length: float, tiles: float, images: list[s
         "basis": basis,
         **lit,
         "drift": [numbers(row) for row in pelt.drift],
-        **({} if pelt.bent is None else {"bent": [numbers(row) for row in pelt.bent]}),
+        **{name: [numbers(row) for row in law] for name in LAWS if (law := getattr(pelt, name)) is not None},
         "ramp": {
             "root": numbers(np.array(pelt.ramp.root)),
             "tip": numbers(np.array(pelt.ramp.tip)),

@@ -85,6 +85,7 @@ def _pelt(fur: dict[str, Any], asset: Asset, index: int) -> Pelt:
         fin=_fin(stored["fin"], asset) if "fin" in stored else None,
         direction=texels.direction,
         bent=_array(fur["bent"], 3, 8) if "bent" in fur else None,
+        eye=_array(fur["eye"], 3, 12) if "eye" in fur else None,
         curves=curves,
         weights=None if curves is None else _array(stored["weights"], layers, curves.count),
         state=state,

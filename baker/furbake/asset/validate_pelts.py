@@ -30,7 +30,7 @@ def pelts(asset: Asset) -> Iterator[str]:
     wrong = list(_basis(fur["basis"], count))
     yield from wrong
     lists = {"drift": (fur["drift"], layers)}
-    lists |= {key: (fur[key], rows) for key, rows in (("environment", count), ("bent", 3)) if key in fur}
+    lists |= {key: (fur[key], rows) for key, rows in (("environment", count), ("bent", 3), ("eye", 3)) if key in fur}
     if fur["basis"]["kind"] == "eigen" and not wrong:
         lists["basis.matrix"] = (fur["basis"]["matrix"], count)
     for i, pelt in enumerate(fur["pelts"]):

@@ -11,17 +11,20 @@ Array = NDArray[np.float64]
 Real = TypeVar("Real", np.float32, np.float64)
 
 
-def cylinder(tangent: NDArray[Real], light: Array) -> NDArray[Real]:
-    """D: a Lambertian cylinder of direction `tangent` (..., 3), lit from `light`, seen from straight above.
+ABOVE = np.array([0.0, 0.0, 1.0])
+"""Towards the eye that slabs are seen by when they are stored."""
+
+
+def cylinder(tangent: NDArray[Real], light: Array, eye: Array = ABOVE) -> NDArray[Real]:
+    """D: a Lambertian cylinder of direction `tangent` (..., 3), lit from `light`, seen from `eye`.
 
     sinθ·[sin φ + (π − φ)·cos φ], θ between light and fibre, φ between light and eye around the fibre. Where the fibre
     points at the eye φ has no meaning and its mean, (4/π)·sinθ, holds.
     """
-    up = tangent[..., 2]
-    along = tangent @ light.astype(tangent.dtype)
+    up, along = (tangent @ way.astype(tangent.dtype) for way in (eye, light))
     sin_light = np.sqrt(np.maximum(1 - along * along, 0))
     sin_view = np.sqrt(np.maximum(1 - up * up, 0))
-    cos_phi = np.clip((float(light[2]) - along * up) / np.maximum(sin_light * sin_view, 1e-4), -1, 1)
+    cos_phi = np.clip((float(light @ eye) - along * up) / np.maximum(sin_light * sin_view, 1e-4), -1, 1)
     phi = np.arccos(cos_phi)
     seen = np.sin(phi) + (np.pi - phi) * cos_phi
     sure = sin_view**2 / (sin_view**2 + 0.15**2)

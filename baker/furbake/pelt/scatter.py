@@ -13,6 +13,7 @@ All is linear in the light that comes in, and in the unit of L, so that it adds 
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
@@ -93,11 +94,51 @@ def scatter(
         floor=parts[:, -1],
     )
     medium = _Medium(sigma, slab, tangent, skin, aside)
-    escape = medium.escape()[:, None]
-    arriving = Arriving(arriving.phi / escape, arriving.flux / escape, arriving.floor)
+    arriving = medium.entering(arriving)
     scattered = np.moveaxis(medium.all_orders(arriving, albedo), 0, 1)
     multiple: Single = np.maximum(basis @ scattered.reshape(len(parts), -1), 0)
     return multiple.reshape(caught.shape)
+
+
+def between_hairs(
+    sigma: Single,
+    slab: float,
+    tangent: Single,
+    lights: Array,
+    caught: Single,
+    reaching: Single,
+    floor: Single,
+    *,
+    albedo: float,
+    skin: float,
+) -> Arriving:
+    """Light that arrives at the hairs after it has been scattered at least once; the rest as of `scatter`."""
+    flux = np.moveaxis(reaching[:, None] * lights.astype(np.float32)[:, :, None, None, None], 0, 2)
+    medium = _Medium(sigma, slab, tangent, skin)
+    direct = medium.entering(Arriving(np.moveaxis(caught, 0, 1), flux, floor))
+    found = Arriving(*(np.zeros_like(part) for part in (direct.phi, direct.flux, floor)))
+    for arriving, _, weight in medium.orders(direct, albedo):
+        for total, part in ((found.phi, arriving.phi), (found.flux, arriving.flux), (found.floor, arriving.floor)):
+            total += part * np.float32(weight)
+    return found
+
+
+def sent(arriving: Arriving, tangent: Single, eye: Array) -> Single:
+    """What hairs make of it for an eye in this direction, ∫I·D dω, (K, B, N, N)."""
+    return _sent(arriving.phi, _perpendicular(arriving.flux, tangent), sine(tangent, eye), eye)
+
+
+def _perpendicular(flux: Single, tangent: Single) -> Single:
+    """F⊥, (3, K, B, N, N)."""
+    across = np.moveaxis(tangent, -1, 0)[:, :, None]
+    return np.asarray(flux - across * (flux * across).sum(0))
+
+
+def _sent(phi: Single, perpendicular: Single, width: Single, way: Array) -> Single:
+    source = np.einsum("a,akbrc->kbrc", way.astype(np.float32), perpendicular)
+    source *= np.float32(np.pi / 2) / width[:, None]
+    source += np.float32(4 / np.pi) * phi
+    return np.asarray(source)
 
 
 def _fewer(sources: Single, layers: int, faint: bool) -> tuple[Single, Single]:
@@ -134,20 +175,31 @@ class _Medium:
             share += np.float32(solid_angle * 2 / np.pi**2) * width * -np.expm1(-depth) / depth
         return np.minimum(share, 1)
 
+    def entering(self, direct: Arriving) -> Arriving:
+        """What the hairs catch of the lights, counted where it enters the slabs."""
+        escape = self.escape()[:, None]
+        return Arriving(direct.phi / escape, direct.flux / escape, direct.floor)
+
     def all_orders(self, arriving: Arriving, albedo: float) -> Single:
         """Sum over all orders of what the hairs send to the eye, (K, B, N, N)."""
         seen = np.zeros_like(arriving.phi)
-        before = 0.0
+        for _, to_eye, weight in self.orders(arriving, albedo):
+            seen += to_eye * np.float32(weight)
+        return seen
+
+    def orders(self, arriving: Arriving, albedo: float) -> Iterator[tuple[Arriving, Single, float]]:
+        """Order after order what arrives, what goes to the eye, and how often it counts: the last for all after it."""
+        total = before = 0.0
         for _ in range(MOST_ORDERS):
             arriving, to_eye = self.scattered(arriving, albedo)
-            seen += to_eye
             size = float(np.abs(to_eye).sum())
-            if size <= SPENT * np.abs(seen).sum():
+            total += size
+            if size <= SPENT * total:
                 ratio = min(size / before, 0.95) if before else 0.0
-                seen += to_eye * np.float32(ratio / (1 - ratio))
-                break
+                yield arriving, to_eye, 1 / (1 - ratio)
+                return
+            yield arriving, to_eye, 1.0
             before = size
-        return seen
 
     def scattered(self, arriving: Arriving, albedo: float) -> tuple[Arriving, Single]:
         """What arrives everywhere once light has been scattered again, and ∫I·D dω of it: what goes to the eye.
@@ -158,8 +210,7 @@ class _Medium:
         to_eye = np.zeros_like(arriving.phi)
         floor = np.zeros_like(arriving.floor)
         irradiance = arriving.floor.copy()
-        across = np.moveaxis(self.tangent, -1, 0)[:, :, None]
-        perpendicular = arriving.flux - across * (arriving.flux * across).sum(0)
+        perpendicular = _perpendicular(arriving.flux, self.tangent)
         with ThreadPoolExecutor(os.cpu_count()) as pool:
             for travel in (-self.directions, self.directions):
                 upward = travel[0, 2] > 0
@@ -186,10 +237,7 @@ class _Medium:
         """
         layers, size = self.sigma.shape[0], self.sigma.shape[1]
         width = sine(self.tangent, way)
-        source = np.einsum("a,akbrc->kbrc", way.astype(np.float32), perpendicular)
-        source *= np.float32(np.pi / 2) / width[:, None]
-        source += np.float32(4 / np.pi) * phi
-        source *= share
+        source = _sent(phi, perpendicular, width, way) * share
         passes: Single = np.exp(self.sigma * width * np.float32(-self.slab / abs(way[2])))
         # The light at x comes from x + shift in the slab before; half of it at the skin and above all slabs.
         shift = -way[:2] / abs(way[2]) * self.slab * size

@@ -109,17 +109,12 @@ def sample(
     single = np.empty((len(lights), layers, size, size), np.float32)
     caught, reaching = (np.empty((len(lights), *half), np.float32) for _ in range(2))
     floor = np.empty((len(lights), *half[1:]), np.float32)
-    beam = _Beam(fine, layers, size, None if flat else beta)
+    beam = Beam(fine, layers, size, None if flat else beta)
     with ThreadPoolExecutor(os.cpu_count()) as workers:
         for i, fields in enumerate(workers.map(beam, lights, range(len(lights)))):
             single[i], caught[i], reaching[i], floor[i] = fields
             progress((i + 1) / len(lights) * SINGLE_SHARE)
-    tangent = np.stack([beam.stored(beam.sigma * beam.tangent[..., axis]) for axis in range(3)], -1)
-    tangent[..., 2] += 1e-9  # upright where there is no hair
-    tangent /= np.linalg.norm(tangent, axis=-1, keepdims=True)
-    slab, sigma = fine.height / layers, beam.stored(beam.sigma)
-    if not flat:
-        sigma *= thinned((np.arange(layers) + 0.5) / layers, beta).astype(np.float32)[:, None, None]
+    slab, (sigma, tangent) = fine.height / layers, beam.medium()
     aside = None if fine.aside is None else slab_means(fine.aside, layers)
     multiple = scatter(
         sigma, slab, tangent, lights, caught, reaching, floor,
@@ -129,7 +124,7 @@ def sample(
     return single + doubled(multiple)
 
 
-class _Beam:
+class Beam:
     """One light through the oversampled volume, before anything is scattered twice."""
 
     def __init__(self, fine: Volume, layers: int, size: int, beta: float | None) -> None:
@@ -155,28 +150,48 @@ class _Beam:
     def __call__(self, light: Array, number: int) -> tuple[Single, Single, Single, Single]:
         """T·D averaged down, (K, N, N); T·sin θ and T on average over the hairs, (K, N/2, N/2); the skin's irradiance.
 
-        How a hair shades itself is in D: T is that of all from half a slab away. A hair that the light runs along
-        catches less of it and shades less: its σ counts times the sine between the two. D and that sine are those of
-        the lamp's middle, and so is the path through the voxel's own slab; its rays are averaged in what they pass
-        through on the way.
+        A hair that the light runs along catches less of it and shades less: its σ counts times the sine between the
+        two. D and that sine are those of the lamp's middle.
         """
-        width = sine(self.tangent, light)
-        caught, merged = self.sigma * width, self.merged
+        passed, hairs, skin = self.reach(light, number)
+        single = average_down(passed * cylinder(self.tangent, light), self.shares, self.size)
+        return single, *self.caught(hairs, light), pool(skin, self.half)
+
+    def caught(self, hairs: Single, light: Array) -> tuple[Single, Single]:
+        """T·sin θ and T on average over the hairs, (K, N/2, N/2); hairs : T of the fine voxels' hairs."""
+        lit = hairs * self.sigma
+        return self.stored(lit * sine(self.tangent, light)) / self.hair, self.stored(lit) / self.hair
+
+    def reach(self, light: Array, number: int = 0) -> tuple[Single, Single, Single]:
+        """T of the fine voxels, T on average over their hairs, (K, N, N), and the skin's irradiance, (N, N).
+
+        How a hair shades itself is in D: T is that of all from half a slab away. The path through the voxel's own slab
+        is that of the lamp's middle; its rays are averaged in what they pass through on the way.
+        """
+        caught, merged = self.sigma * sine(self.tangent, light), self.merged
         aside = None if self.aside is None else slab_means(self.aside, len(caught) // merged)
         depth = depth_of(joined(caught, merged), self.slab * merged, self.beta, aside)
         rays = light[None] if self.beta is None else lamp_cone(light, float(number))
+        share = np.float32(1 / len(rays))
         clear, floor = depth.through(rays[0])
         passed, skin = clear, floor * np.float32(max(rays[0, 2], 0))
         for ray in rays[1:]:
             clear, floor = depth.through(ray)
             passed += clear
             skin += floor * np.float32(max(ray[2], 0))
+        passed *= share
         hairs = np.repeat(passed * passing(depth.own(light)), merged, 0)
-        passed = parted(passed, merged)
-        share = np.float32(1 / len(rays))
-        single = average_down(passed * share * cylinder(self.tangent, light), self.shares, self.size)
-        lit = hairs * (share * self.sigma)
-        return single, self.stored(lit * width) / self.hair, self.stored(lit) / self.hair, pool(skin * share, self.half)
+        return parted(passed, merged), hairs, skin * share
+
+    def medium(self) -> tuple[Single, Single]:
+        """σ as thin as it is on the body, (K, N/2, N/2), and the hairs' mean direction, (..., 3), for `scatter`."""
+        tangent = np.stack([self.stored(self.sigma * self.tangent[..., axis]) for axis in range(3)], -1)
+        tangent[..., 2] += 1e-9  # upright where there is no hair
+        tangent /= np.linalg.norm(tangent, axis=-1, keepdims=True)
+        sigma = self.stored(self.sigma)
+        if self.beta is not None:
+            sigma *= thinned((np.arange(self.layers) + 0.5) / self.layers, self.beta).astype(np.float32)[:, None, None]
+        return sigma, tangent
 
     def stored(self, fine: Single) -> Single:
         """Means over blocks of fine voxels, to stored slabs at half the stored resolution."""

@@ -12,10 +12,7 @@ struct Bending {
 	bool there; // whether the fur is bent at all
 	vec3 shear; // what light from straight above is turned by
 	float rise; // share of its height that the fur still has
-	// The factor: even + gradient·l + l·form·l.
-	float even;
-	vec3 gradient;
-	mat3 form;
+	Quadratic factor;
 };
 
 // The way that the fur leans, a unit vector in the axes of lightTS.
@@ -33,9 +30,8 @@ Bending bendingOf(vec3 comb, float s) {
 	Bending bending;
 	float square = dot(comb, comb);
 	bending.there = square > 0.0;
-	bending.shear = bending.gradient = vec3(0.0);
-	bending.even = 1.0;
-	bending.form = mat3(0.0);
+	bending.shear = vec3(0.0);
+	bending.factor = Quadratic(1.0, vec3(0.0), mat3(0.0));
 	bending.rise = sqrt(max(1.0 - square, 0.04));
 	if (!bending.there) return bending;
 	// From s to the end, 1 unless they are cut, the hairs are sheared by (1 + s)·comb on the whole and as much lower: light as
@@ -46,16 +42,16 @@ Bending bendingOf(vec3 comb, float s) {
 	float q = dot(tip, tip);
 	// In the order of the format, with y = leaning·l: x·z, p, q·z, q; x, q·y, q·y·z, x·y.
 	vec4 first = bent[0] + s * (bent[2] + s * bent[4]), second = bent[1] + s * (bent[3] + s * bent[5]);
-	bending.even = 1.0 + first.y * dot(tip, leaning) + first.w * q;
-	bending.gradient = second.x * tip + q * (first.z * upright + second.y * leaning);
-	bending.form = outerProduct(first.x * tip + second.z * q * leaning, upright) + second.w * outerProduct(tip, leaning);
+	bending.factor.even = 1.0 + first.y * dot(tip, leaning) + first.w * q;
+	bending.factor.gradient = second.x * tip + q * (first.z * upright + second.y * leaning);
+	bending.factor.form = outerProduct(first.x * tip + second.z * q * leaning, upright) + second.w * outerProduct(tip, leaning);
 	return bending;
 }
 
 // lightTS: not below the horizon; is turned to where it comes from in the baked fur. Returns what its strength is multiplied
 // by.
 float bentLight(inout vec3 lightTS, Bending bending) {
-	float gain = bending.even + dot(lightTS, bending.gradient + bending.form * lightTS), up = lightTS.UP;
+	float gain = quadratic(bending.factor, lightTS), up = lightTS.UP;
 	lightTS -= up * bending.shear;
 	lightTS.UP = up / bending.rise;
 	lightTS /= max(length(lightTS), 1e-4);

@@ -52,7 +52,7 @@ vec2 highlights(vec3 strand, vec3 normalVS, vec3 light, vec3 viewer) {
 #endif
 }
 
-void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bending, vec3 lightVS, vec3 irradiance) {
+void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bending, Quadratic seen, vec3 lightVS, vec3 irradiance) {
 	vec3 lightTS = lightVS * point.frameVS;
 	float radius = radiusTowards(point, lightTS), height = lightTS.UP, fade = 1.0;
 	if (height < 0.0) {
@@ -61,7 +61,8 @@ void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bendi
 		lightTS.UP = 0.0;
 		lightTS /= max(length(lightTS), 1e-4);
 	}
-	float gain = bending.there ? bentLight(lightTS, bending) : 1.0;
+	float gain = seenOf(seen, lightTS);
+	if (bending.there) gain *= bentLight(lightTS, bending);
 	gain *= meanLight(point, height < 0.0 ? height : lightTS.UP, fade, radius, lightTS);
 	vec3 low, high;
 	basis(lightTS, low, high);
@@ -85,7 +86,7 @@ void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bendi
 #endif
 }
 
-Lamps lampsAt(FurPoint point, Bending bending) {
+Lamps lampsAt(FurPoint point, Bending bending, Quadratic seen) {
 	Lamps lamps = DARKNESS;
 	IncidentLight light;
 	float power = 0.0;
@@ -96,14 +97,14 @@ Lamps lampsAt(FurPoint point, Bending bending) {
 #if defined(USE_SHADOWMAP) && (UNROLLED_LOOP_INDEX < NUM_DIR_LIGHT_SHADOWS)
 		light.color *= shadow(directionalShadowMap[ i ], directionalLightShadows[ i ].shadowMapSize, directionalLightShadows[ i ].shadowIntensity, directionalLightShadows[ i ].shadowBias, directionalLightShadows[ i ].shadowRadius, directionalShadowMatrix[ i ], point, light.direction);
 #endif
-		addLamp(lamps, power, point, bending, light.direction, light.color);
+		addLamp(lamps, power, point, bending, seen, light.direction, light.color);
 	}
 	#pragma unroll_loop_end
 #endif
 #if NUM_POINT_LIGHTS > 0
 	for (int i = 0; i < NUM_POINT_LIGHTS; i++) {
 		getPointLightInfo(pointLights[i], point.pointVS, light);
-		addLamp(lamps, power, point, bending, light.direction, light.color);
+		addLamp(lamps, power, point, bending, seen, light.direction, light.color);
 	}
 #endif
 #if NUM_SPOT_LIGHTS > 0
@@ -113,7 +114,7 @@ Lamps lampsAt(FurPoint point, Bending bending) {
 #if defined(USE_SHADOWMAP) && (UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS)
 		light.color *= shadow(spotShadowMap[ i ], spotLightShadows[ i ].shadowMapSize, spotLightShadows[ i ].shadowIntensity, spotLightShadows[ i ].shadowBias, spotLightShadows[ i ].shadowRadius, spotLightMatrix[ i ], point, light.direction);
 #endif
-		addLamp(lamps, power, point, bending, light.direction, light.color);
+		addLamp(lamps, power, point, bending, seen, light.direction, light.color);
 	}
 	#pragma unroll_loop_end
 #endif

@@ -53,7 +53,7 @@ Lamps receivedLamps() {
 #else
 	FurPoint point = FurPoint(vFrame, comb, vPoint, vTip, vReach, vS, 0.0, vec3(0.0));
 #endif
-	return lampsAt(point, bendingOf(comb, vS));
+	return lampsAt(point, bendingOf(comb, vS), seenByEye(point));
 #else
 	Lamps lamps = DARKNESS;
 	lamps.moments.low = vLampLow;

@@ -67,8 +67,9 @@ vec4 furTip(vec3 normal, float lengthShare) {
 // openness: to the sky, 0..1.
 void passLight(FurPoint point, float openness) {
 	Bending bending = bendingOf(point.comb, point.s);
+	Quadratic seen = seenByEye(point);
 #ifdef SKY
-	Moments sky = environmentMoments(point, bending);
+	Moments sky = environmentMoments(point, bending, seen);
 	vSkyLow = sky.low * openness;
 #ifdef TWO_PLANES
 	vSkyHigh = sky.high * openness;
@@ -89,7 +90,7 @@ void passLight(FurPoint point, float openness) {
 	vCurvatureXY = point.curvature.z;
 #endif
 #else
-	Lamps lamps = lampsAt(point, bending);
+	Lamps lamps = lampsAt(point, bending, seen);
 	vLampLow = lamps.moments.low;
 #ifdef TWO_PLANES
 	vLampHigh = lamps.moments.high;

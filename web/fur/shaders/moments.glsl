@@ -39,6 +39,17 @@ struct Radiance {
 	mat3 form[3]; // traceless, one for each channel
 };
 
+// even + gradient·l + l·form·l
+struct Quadratic {
+	float even;
+	vec3 gradient;
+	mat3 form;
+};
+
+float quadratic(Quadratic of, vec3 at) {
+	return of.even + dot(at, of.gradient + of.form * at);
+}
+
 // A point of the fur that is lit.
 struct FurPoint {
 	mat3 frameVS; // (T, B, N) of the skin; of a fin (along the edge, N, across it)

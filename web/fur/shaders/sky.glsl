@@ -48,9 +48,27 @@ void addBent(inout Moments moments, FurPoint point, Radiance radiance, Bending b
 #endif
 }
 
+#ifdef EYE
+// What the sky's light counts for the eye: the mean over the half sphere above, by n·ω and by the constant and the gradient of
+// the radiance's luminance.
+float seenSky(Quadratic seen, Radiance around) {
+	const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
+	float c = dot(LUMINANCE, around.constant);
+	vec3 g = LUMINANCE * around.gradient, upright = vec3(0.0);
+	upright.UP = 1.0;
+	float rise = g.UP, total = max(c + 2.0 / 3.0 * rise, 1e-6);
+	// ∫ω and ∫ωωᵀ over π.
+	vec3 first = 0.25 * g + (2.0 / 3.0 * c + 0.25 * rise) * upright;
+	mat3 second = mat3(0.25 * c + 2.0 / 15.0 * rise) + outerProduct(upright, 0.25 * c * upright + 2.0 / 15.0 * g) + outerProduct(2.0 / 15.0 * g, upright);
+	mat3 weighted = matrixCompMult(seen.form, second);
+	float sum = dot(seen.gradient, first) + dot(weighted[0] + weighted[1] + weighted[2], vec3(1.0));
+	return max(seen.even + sum / total, LEAST_SEEN);
+}
+#endif
+
 // Moments of the radiance R(ω) = Σ_j radiance[j]·Y_j(ω) in the tangent frame (columns T, B, N), from three's ambient,
 // hemisphere and probe lights.
-Moments environmentMoments(FurPoint point, Bending bending) {
+Moments environmentMoments(FurPoint point, Bending bending, Quadratic seen) {
 	Moments moments;
 	mat3 frameVS = point.frameVS;
 	const float Y0 = 0.28209479, Y1 = 0.48860251;
@@ -102,6 +120,11 @@ Moments environmentMoments(FurPoint point, Bending bending) {
 	addDip(moments, point, around, bending);
 #endif
 	if (bending.there) addBent(moments, point, around, bending);
+#ifdef EYE
+	float eyeGain = seenSky(seen, around);
+	moments.low *= eyeGain;
+	moments.high *= eyeGain;
+#endif
 #ifdef TRIMMED
 	moments = trimmed(moments, point.s);
 #endif

@@ -1,0 +1,182 @@
+"""Light that fur sends to an eye beside it: the nap of velvet, in numbers that are found for each fur.
+
+Texels hold the light that is seen from straight above. From aside other hairs are seen, and other sides of them: most
+is seen of where the light comes from, least against it. For light from l (held on the horizon) and an eye at v, in the
+tile's frame, texels at height s count times
+
+    G(l, v, s) = max(1 + Σ_f c_f(s)·f(l, v), 0.1),   each c_f a parabola over s,
+
+over the terms f of `terms`, all 0 for an eye straight above. They are at most quadratic in l: even + gradient·l +
+l·form·l, as the factor of bent hairs in `bent`, on which it is multiplied.
+
+`fit_eye` finds the 36 numbers in the fur's own fine volume: slab by slab, and slabs over slabs as the eye sees them,
+what the page's texels show is brought to what the hairs send there.
+"""
+
+from __future__ import annotations
+
+import os
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+from numpy.typing import NDArray
+
+from furbake.pelt.basis import held
+from furbake.pelt.curves import unit
+from furbake.pelt.depth import depth_of, passing
+from furbake.pelt.fibre import ABOVE, cylinder
+from furbake.pelt.paths import BODY_RADIUS
+from furbake.pelt.scatter import between_hairs, sent
+from furbake.pelt.strands import Coat, Strands
+from furbake.pelt.transport import Beam
+from furbake.pelt.volume import Volume, average_down, coarsen, doubled, fine_shape, pool, voxelise
+
+Array = NDArray[np.float64]
+Single = NDArray[np.float32]
+
+TERMS = 12
+
+LEAST = 0.1
+"""Of the factor."""
+
+SIZE = 32
+"""Texels a side for which numbers are found: larger tiles of the same hairs have much the same."""
+
+EYE_HEIGHTS, LIGHT_HEIGHTS = (0.85, 0.5, 0.12), (0.9, 0.6, 0.3, 0.05, -0.25)
+"""v·n and l·n of the rings of eyes and lights that the fit sees beside those straight above."""
+
+SPOKES = 5
+"""Of each ring."""
+
+LIGHT_HEIGHTS_FLAT = (0.9, 0.6, 0.3, 0.15)
+"""The same where fur is flat and has no end: light along it reaches nothing."""
+
+FAINT = 0.03
+"""Errors are told as shares of what is seen, and this share of the brightest besides."""
+
+EACH_SLAB = 0.3
+"""Weight of a slab's own error beside that of the sum of them."""
+
+RIDGE = 1e-4
+"""Of the diagonal: terms that do much the same stay small."""
+
+MONOMIALS = np.array([[1.0, 0, 0], [-1, 2, 0], [1, -6, 6]])
+"""Legendre polynomials in 2s − 1 as rows of weights of 1, s, s²."""
+
+
+def terms(lights: Array, eyes: Array, lean: Array) -> Array:
+    """[q, a, q·b, p·b, q·z, q·z², p·z², a², p·a·b, a·z, q·b·z, q·a·b] of pairs of unit vectors (..., 3), (..., 12).
+
+    a = l_h·v_h of the level parts, b = l·m and p = v·m along the lean m, z = l_z, q = |v_h|². What is below the
+    horizon is held on it.
+    """
+    m = unit(lean)
+    light, eye = np.broadcast_arrays(*(held(way.reshape(-1, 3)).reshape(way.shape) for way in (lights, eyes)))
+    a, z = (light[..., :2] * eye[..., :2]).sum(-1), light[..., 2]
+    b, p, q = light[..., :2] @ m, eye[..., :2] @ m, 1 - eye[..., 2] ** 2
+    each = (q, a, q * b, p * b, q * z, q * z * z, p * z * z, a * a, p * a * b, a * z, q * b * z, q * a * b)
+    return np.stack(each, -1)
+
+
+def factor(lights: Array, eyes: Array, lean: Array, s: Array, numbers: Array) -> Array:
+    """G of pairs of directions (n, 3) at heights s (K,), numbers as of `fit_eye`: (n, K)."""
+    over_s = np.stack([np.ones_like(s), s, s * s], -1) @ numbers
+    return np.maximum(1 + terms(lights, eyes, lean) @ over_s.T, LEAST)
+
+
+def rings(heights: tuple[float, ...], spokes: int, turn: float = 0.4) -> Array:
+    """Straight up, then unit vectors at these heights, each ring turned by a share of a spoke: (n, 3)."""
+    ways = [ABOVE[None]]
+    for number, z in enumerate(heights):
+        azimuth = 2 * np.pi * (np.arange(spokes) + turn * number) / spokes
+        level = np.sqrt(1 - z * z)
+        ways.append(np.stack([level * np.cos(azimuth), level * np.sin(azimuth), np.full(spokes, z)], -1))
+    return np.concatenate(ways)
+
+
+def seen_from(
+    fine: Volume, layers: int, size: int, lights: Array, eyes: Array, coat: Coat, beta: float | None = BODY_RADIUS
+) -> tuple[Array, Array]:
+    """What each slab adds to what eyes see under lights, per area of skin: by the hairs, and by stored texels.
+
+    fine : the oversampled volume of which `layers` slabs of `size` × `size` texels are stored
+    lights, eyes : (n, 3), (m, 3); beta : as of `Beam`
+
+    Returns two (n, m, K), in the unit of L. Texels hold what is seen from above; both are composited along the way to
+    the eye, which is that of light to there.
+    """
+    beam, stored = Beam(fine, layers, size, beta), coarsen(fine, layers, size)
+    sigma, tangent = beam.medium()
+    with ThreadPoolExecutor(os.cpu_count()) as workers:
+        passed, hairs, floor = (np.stack(each) for each in zip(*workers.map(beam.reach, lights), strict=True))
+        caught, reaching = (np.stack(each) for each in zip(*map(beam.caught, hairs, lights), strict=True))
+        skin = 0.0 if beta is None else coat.skin
+        floor = pool(floor, size // 2)
+        arriving = between_hairs(
+            sigma, fine.height / layers, tangent, lights, caught, reaching, floor, albedo=coat.albedo, skin=skin
+        )
+
+        def onwards(eye: Array) -> Single:
+            """M towards an eye, (n, K, N/2, N/2)."""
+            return np.moveaxis(np.maximum(sent(arriving, tangent, eye), 0), 1, 0)
+
+        texels = doubled(onwards(ABOVE))
+        for texel, clear, light in zip(texels, passed, lights, strict=True):
+            texel += average_down(clear * cylinder(beam.tangent, light), beam.shares, size)
+
+        def of_eye(eye: Array) -> tuple[Array, Array]:
+            see = visible(fine, eye, beta)
+            blocks = pool(see.reshape(layers, -1, *see.shape[1:]).sum(1), size // 2)
+            once = [_sums(see * clear * cylinder(beam.tangent, light, eye), layers)
+                    for clear, light in zip(passed, lights, strict=True)]  # fmt: skip
+            more = (blocks * onwards(eye)).mean((-1, -2))
+            return np.stack(once) + more, (visible(stored, eye, beta) * texels).mean((-1, -2))
+
+        each = list(workers.map(of_eye, eyes))
+    hairs_show, texels_show = (np.stack(part, 1).astype(np.float64) for part in zip(*each, strict=True))
+    return hairs_show, texels_show
+
+
+def visible(volume: Volume, eye: Array, beta: float | None) -> Single:
+    """Hairs of each voxel that an eye sees, as if they were spread out flat and no thicker, (K, N, N)."""
+    depth = depth_of(volume.sigma.astype(np.float32), volume.slab, beta)
+    return np.asarray(volume.sigma.astype(np.float32) * volume.slab * depth.through(eye)[0] * passing(depth.own(eye)))
+
+
+def _sums(voxels: Single, layers: int) -> Array:
+    """Sum over the fine slabs of each stored one of their means, (K,)."""
+    return np.asarray(voxels.mean((-1, -2), dtype=np.float64).reshape(layers, -1).sum(1))
+
+
+def fit_eye(
+    strands: Strands, height: float, layers: int, size: int, coat: Coat, *, flat: bool = False
+) -> Array | None:
+    """The 36 numbers of the law for this fur, (3, 12) for s⁰, s¹, s²; None where it is black.
+
+    height : of the fur, tile widths; layers, size : slabs and texels a side of its pelt; flat : as of `sample`
+    """
+    size = min(size, SIZE)
+    fine = voxelise(strands, height, *fine_shape(layers, size, height), coat.opacity)
+    lights = rings(LIGHT_HEIGHTS_FLAT if flat else LIGHT_HEIGHTS, SPOKES)
+    eyes = rings(EYE_HEIGHTS, SPOKES)
+    hairs, texels = seen_from(fine, layers, size, lights, eyes, coat, None if flat else BODY_RADIUS)
+    lean = fine.drift[-1] / fine.height
+    return solve(hairs, texels, terms(lights[:, None], eyes[None], lean))
+
+
+def solve(hairs: Array, texels: Array, found: Array) -> Array | None:
+    """Numbers that bring what texels show to what hairs show, both (n, m, K), by terms (n, m, 12)."""
+    whole = hairs.sum(-1)
+    if not whole.max() > 0:
+        return None
+    weight = 1 / (whole + FAINT * whole.max())
+    middle = (np.arange(hairs.shape[-1]) + 0.5) / hairs.shape[-1]
+    over_s = np.polynomial.legendre.legvander(2 * middle - 1, 2)
+    off = (hairs - texels) * weight[..., None]
+    each = np.einsum("nmf,nmk,kp->nmkpf", found, texels * weight[..., None], over_s, optimize=True)
+    rows = np.concatenate([each.sum(2).reshape(-1, 3 * TERMS), EACH_SLAB * each.reshape(-1, 3 * TERMS)])
+    right = np.concatenate([off.sum(-1).ravel(), EACH_SLAB * off.ravel()])
+    matrix = rows.T @ rows
+    diagonal = np.diag(matrix)
+    solved = np.linalg.solve(matrix + np.diag(RIDGE * diagonal + 1e-9 * diagonal.max()), rows.T @ right)
+    return np.asarray(np.round(MONOMIALS.T @ solved.reshape(3, TERMS), 3))
