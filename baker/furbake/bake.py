@@ -101,7 +101,8 @@ def bake(
                 pelts[0] = replace(pelts[0], bent=fit_bends(pelts[0], strands, options.coat, step))
             if options.curves != "none":
                 eye = fit_eye(strands, height, options.layers, options.size, options.coat, flat=options.flat)
-                pelts[0] = replace(pelts[0], eye=eye)
+                if eye is not None:
+                    pelts[0] = replace(pelts[0], eye=eye.weights, surge=eye.surge)
         with clock.stage("fins"):
             fins = None
             if options.fins:

@@ -19,7 +19,7 @@ const MIRRORED = ['finLength', 'finOpacity', 'finHeights'] as const satisfies (k
 
 /** What fins have from the shells that they stand between. */
 const SHARED = [
-	...['tiles', 'furLength', 'furTrim', 'bodyRadius', 'lean', 'bent', 'eye', 'gloss', 'sharpness', 'backlight', 'density'],
+	...['tiles', 'furLength', 'furTrim', 'bodyRadius', 'lean', 'bent', 'eye', 'surge', 'gloss', 'sharpness', 'backlight', 'density'],
 	...['swing', 'stains', 'wetnesses', 'traits', 'mud'],
 	...['skinColour', 'root', 'tip', 'tip2', 'tipShare', 'rampPower'],
 ];

@@ -1,5 +1,5 @@
 import { Color, type ShaderMaterialParameters, Vector4 } from 'three';
-import { bentWeights, eyeWeights, leanOf, wayOf } from './bent.ts';
+import { bentWeights, eyeUniforms, leanOf, wayOf } from './bent.ts';
 import type { FurAsset } from './format.ts';
 import { ALPHA_CUT } from './lod.ts';
 import { type FurTextures, PeltMaterial } from './PeltMaterial.ts';
@@ -109,7 +109,7 @@ export class FurMaterial extends PeltMaterial {
 					drift: { value: driftKnots(asset.drift) },
 					lean: { value: leanOf(asset) },
 					bent: { value: bentWeights(asset) },
-					...(asset.eye && { eye: { value: eyeWeights(asset) } }),
+					...eyeUniforms(asset),
 					alphaCut: { value: ALPHA_CUT },
 					skinColour: { value: new Color(1, 1, 1) },
 					root: { value: new Color(...ramp.root) },

@@ -130,6 +130,8 @@ export interface FurAsset {
 	bent?: number[][];
 	/** Light that goes to an eye beside the hairs: rows for 1, s and s², in each the weights of twelve terms. */
 	eye?: number[][];
+	/** Light of a lamp beside the eye: how much more it is from above, what more of it from aside, and its width, radians. */
+	surge?: [number, number, number];
 	/** Linear colours along a hair: mix(root, tip, s^power). */
 	ramp: {
 		/** At the skin. */

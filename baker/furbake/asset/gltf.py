@@ -139,6 +139,7 @@ def extension(pelts: Sequence[Pelt], length: float, tiles: float, images: list[s
         **lit,
         "drift": [numbers(row) for row in pelt.drift],
         **{name: [numbers(row) for row in law] for name in LAWS if (law := getattr(pelt, name)) is not None},
+        **({} if pelt.surge is None else {"surge": numbers(pelt.surge)}),
         "ramp": {
             "root": numbers(np.array(pelt.ramp.root)),
             "tip": numbers(np.array(pelt.ramp.tip)),

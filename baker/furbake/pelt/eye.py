@@ -7,16 +7,21 @@ tile's frame, texels at height s count times
     G(l, v, s) = max(1 + Σ_f c_f(s)·f(l, v), 0.1),   each c_f a parabola over s,
 
 over the terms f of `terms`, all 0 for an eye straight above. They are at most quadratic in l: even + gradient·l +
-l·form·l, as the factor of bent hairs in `bent`, on which it is multiplied.
+l·form·l, as the factor of bent hairs in `bent`, on which it is multiplied. Beside the light itself the eye sees no
+shadows (Hapke's opposition surge): light of a lamp counts times
+1 + (A + B·q)/(1 + |l − v|²/w²) besides, q = 1 − v_z².
 
-`fit_eye` finds the 36 numbers in the fur's own fine volume: slab by slab, and slabs over slabs as the eye sees them,
-what the page's texels show is brought to what the hairs send there.
+`fit_eye` finds these numbers in the fur's own fine volume: slab by slab, and slabs over slabs as the eye sees them,
+what the page's texels show is brought to what the hairs send there. A ray from a hair to the eye and one to the light
+meet the same neighbours at first: `shared_depth` is what they share of their optical depths.
 """
 
 from __future__ import annotations
 
 import os
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,11 +30,11 @@ from furbake.pelt.basis import held
 from furbake.pelt.curves import unit
 from furbake.pelt.depth import depth_of, passing
 from furbake.pelt.fibre import ABOVE, cylinder
-from furbake.pelt.paths import BODY_RADIUS
+from furbake.pelt.paths import BODY_RADIUS, thinned
 from furbake.pelt.scatter import between_hairs, sent
 from furbake.pelt.strands import Coat, Strands
 from furbake.pelt.transport import Beam
-from furbake.pelt.volume import Volume, average_down, coarsen, doubled, fine_shape, pool, voxelise
+from furbake.pelt.volume import SOLID_SLAB, Volume, average_down, coarsen, doubled, fine_shape, pool, voxelise
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
@@ -45,11 +50,20 @@ SIZE = 32
 EYE_HEIGHTS, LIGHT_HEIGHTS = (0.85, 0.5, 0.12), (0.9, 0.6, 0.3, 0.05, -0.25)
 """v·n and l·n of the rings of eyes and lights that the fit sees beside those straight above."""
 
+SURGE_EYES, SURGE_ANGLES = (0.95, 0.6, 0.25), (0, 4, 9, 20)
+"""v·n of the eyes beside which lights are put for the surge, and how far from them, degrees."""
+
+WIDTHS = np.geomspace(0.02, 0.4, 40)
+"""Of the surge, among which the best is taken."""
+
 SPOKES = 5
 """Of each ring."""
 
 LIGHT_HEIGHTS_FLAT = (0.9, 0.6, 0.3, 0.15)
 """The same where fur is flat and has no end: light along it reaches nothing."""
+
+DARK = 1e-6
+"""Least T that is told from none."""
 
 FAINT = 0.03
 """Errors are told as shares of what is seen, and this share of the brightest besides."""
@@ -84,6 +98,12 @@ def factor(lights: Array, eyes: Array, lean: Array, s: Array, numbers: Array) ->
     return np.maximum(1 + terms(lights, eyes, lean) @ over_s.T, LEAST)
 
 
+def surge(lights: Array, eyes: Array, numbers: Array) -> Array:
+    """Light of a lamp beside the eye, n pairs of unit vectors, (n,), over one aside; numbers : A, B, w."""
+    strength = numbers[0] + numbers[1] * (1 - held(eyes)[:, 2] ** 2)
+    return np.asarray(1 + strength / (1 + ((lights - eyes) ** 2).sum(-1) / numbers[2] ** 2))
+
+
 def rings(heights: tuple[float, ...], spokes: int, turn: float = 0.4) -> Array:
     """Straight up, then unit vectors at these heights, each ring turned by a share of a spoke: (n, 3)."""
     ways = [ABOVE[None]]
@@ -105,8 +125,12 @@ def seen_from(
     Returns two (n, m, K), in the unit of L. Texels hold what is seen from above; both are composited along the way to
     the eye, which is that of light to there.
     """
-    beam, stored = Beam(fine, layers, size, beta), coarsen(fine, layers, size)
+    beam, page = Beam(fine, layers, size, beta), coarsen(fine, layers, size)
+    if beta is not None:  # shells are not thinned as hairs are that diverge
+        middle = (np.arange(layers) + 0.5) / layers
+        page = replace(page, sigma=page.sigma / thinned(middle, beta)[:, None, None])
     sigma, tangent = beam.medium()
+    filled = np.float32(fine.height * SOLID_SLAB / coat.opacity) * fine.sigma.mean((1, 2)).astype(np.float32)
     with ThreadPoolExecutor(os.cpu_count()) as workers:
         passed, hairs, floor = (np.stack(each) for each in zip(*workers.map(beam.reach, lights), strict=True))
         caught, reaching = (np.stack(each) for each in zip(*map(beam.caught, hairs, lights), strict=True))
@@ -125,16 +149,41 @@ def seen_from(
             texel += average_down(clear * cylinder(beam.tangent, light), beam.shares, size)
 
         def of_eye(eye: Array) -> tuple[Array, Array]:
+            clear = depth_of(fine.sigma.astype(np.float32), fine.slab, beta).through(eye)[0]
             see = visible(fine, eye, beta)
             blocks = pool(see.reshape(layers, -1, *see.shape[1:]).sum(1), size // 2)
-            once = [_sums(see * clear * cylinder(beam.tangent, light, eye), layers)
-                    for clear, light in zip(passed, lights, strict=True)]  # fmt: skip
+            once = [
+                _sums(see * lit * cylinder(beam.tangent, light, eye), layers)
+                for light, lit in zip(lights, map(partial(together, eye, clear), lights, passed), strict=True)
+            ]
             more = (blocks * onwards(eye)).mean((-1, -2))
-            return np.stack(once) + more, (visible(stored, eye, beta) * texels).mean((-1, -2))
+            return np.stack(once) + more, (visible(page, eye, beta) * texels).mean((-1, -2))
+
+        def together(eye: Array, clear: Single, light: Array, lit: Single) -> Single:
+            """T of the light where the eye sees; clear : T on the way to it."""
+            depth = np.minimum(*(-np.log(np.maximum(part, DARK)) for part in (lit, clear)))
+            return np.asarray(lit * np.exp(shared_depth(depth, beam.tangent, filled, light, eye)))
 
         each = list(workers.map(of_eye, eyes))
     hairs_show, texels_show = (np.stack(part, 1).astype(np.float64) for part in zip(*each, strict=True))
     return hairs_show, texels_show
+
+
+def shared_depth(depth: Single, tangent: Single, filled: Single, light: Array, eye: Array) -> Single:
+    """Optical depth that the rays from a hair to light and eye share, (K, N, N).
+
+    depth : the lesser of the two rays'; tangent : (K, N, N, 3) of the hairs, about as parallel; filled : (K,) their
+    share of the volume
+
+    Seen along the hairs these are discs, and the rays part at an angle φ. Two parallel rays x apart that meet discs of
+    radius r share 1 − x/2r of them, so that no more than filled/(π·sin(φ/2)) is shared.
+    """
+    along = [tangent @ way.astype(np.float32) for way in (light, eye)]
+    across = np.sqrt(np.maximum(1 - along[0] ** 2, 1e-4)) * np.sqrt(np.maximum(1 - along[1] ** 2, 1e-4))
+    cosine = (np.float32(light @ eye) - along[0] * along[1]) / across
+    half = np.sqrt(np.maximum((1 - cosine) / 2, 1e-6))
+    most = filled[:, None, None] / (np.float32(np.pi) * half)
+    return np.asarray(np.where(depth < 2 * most, depth * (1 - depth / (4 * most)), most), np.float32)
 
 
 def visible(volume: Volume, eye: Array, beta: float | None) -> Single:
@@ -148,20 +197,59 @@ def _sums(voxels: Single, layers: int) -> Array:
     return np.asarray(voxels.mean((-1, -2), dtype=np.float64).reshape(layers, -1).sum(1))
 
 
+@dataclass(frozen=True)
+class EyeLaw:
+    """Numbers of the law: weights (3, 12) of its terms for s⁰, s¹, s², and of the surge, A, B and w."""
+
+    weights: Array
+    surge: Array
+
+
 def fit_eye(
     strands: Strands, height: float, layers: int, size: int, coat: Coat, *, flat: bool = False
-) -> Array | None:
-    """The 36 numbers of the law for this fur, (3, 12) for s⁰, s¹, s²; None where it is black.
+) -> EyeLaw | None:
+    """The law's numbers for this fur; None where it is black.
 
     height : of the fur, tile widths; layers, size : slabs and texels a side of its pelt; flat : as of `sample`
     """
     size = min(size, SIZE)
     fine = voxelise(strands, height, *fine_shape(layers, size, height), coat.opacity)
-    lights = rings(LIGHT_HEIGHTS_FLAT if flat else LIGHT_HEIGHTS, SPOKES)
-    eyes = rings(EYE_HEIGHTS, SPOKES)
-    hairs, texels = seen_from(fine, layers, size, lights, eyes, coat, None if flat else BODY_RADIUS)
-    lean = fine.drift[-1] / fine.height
-    return solve(hairs, texels, terms(lights[:, None], eyes[None], lean))
+    beta, lean = None if flat else BODY_RADIUS, fine.drift[-1] / fine.height
+    lights, eyes = rings(LIGHT_HEIGHTS_FLAT if flat else LIGHT_HEIGHTS, SPOKES), rings(EYE_HEIGHTS, SPOKES)
+    hairs, texels = seen_from(fine, layers, size, lights, eyes, coat, beta)
+    weights = solve(hairs, texels, terms(lights[:, None], eyes[None], lean))
+    if weights is None:
+        return None
+    eyes = rings(SURGE_EYES, 1)[1:]
+    lights = np.concatenate([beside(eye) for eye in eyes])
+    hairs, texels = seen_from(fine, layers, size, lights, eyes, coat, beta)
+    middle = (np.arange(layers) + 0.5) / layers
+    own = np.arange(len(lights)), np.repeat(np.arange(len(eyes)), len(SURGE_ANGLES))
+    law = factor(lights, eyes[own[1]], lean, middle, weights)
+    missing = hairs[own].sum(-1) / np.maximum((texels[own] * law).sum(-1), 1e-12)
+    return EyeLaw(weights, fit_surge(lights, eyes[own[1]], own[1], missing))
+
+
+def beside(eye: Array) -> Array:
+    """Unit vectors `SURGE_ANGLES` above an eye, (n, 3)."""
+    level = np.hypot(*eye[:2])
+    up = np.array([*(-eye[:2] / level * eye[2]), level])
+    angles = np.radians(SURGE_ANGLES)[:, None]
+    return np.asarray(np.cos(angles) * eye + np.sin(angles) * up)
+
+
+def fit_surge(lights: Array, eyes: Array, number: NDArray[np.intp], missing: Array) -> Array:
+    """A, B and w by least squares of what is missing, (n,), but for one factor for each eye; number : of the eye."""
+    even = np.eye(number.max() + 1)[number]
+    best = np.inf, np.zeros(3)
+    for width in WIDTHS:
+        peaks = (surge(lights, eyes, np.array([*strength, width])) - 1 for strength in ((1.0, 0.0), (0.0, 1.0)))
+        rows = np.column_stack([even, *peaks])
+        solved, *_ = np.linalg.lstsq(rows, missing, rcond=None)
+        off = float(((rows @ solved - missing) ** 2).sum())
+        if off < best[0]:
+            best = off, np.array([*solved[-2:] / max(solved[:-2].mean(), 1e-9), width])
+    return np.round(best[1], 3)
 
 
 def solve(hairs: Array, texels: Array, found: Array) -> Array | None:

@@ -87,7 +87,7 @@ class Pelt:
     height : of the fur, tile widths
     fin : its side view, or None
     bent : (3, 8) numbers of the law of bent hairs, or None
-    eye : (3, 12) numbers of the law of light and eye, or None
+    eye, surge : (3, 12) and (3,) numbers of the law of light and eye, or None
     direction : (K, N, N, 3) bytes of the hairs' mean tangent, or None
     curves, weights : the slabs' mean curves, of all states, and the (K, Q) weights of this one; None: the texels'
         polynomials are all of their light
@@ -110,6 +110,7 @@ class Pelt:
     direction: Bytes | None = None
     bent: Floats | None = None
     eye: Floats | None = None
+    surge: Floats | None = None
     curves: Curves | None = None
     weights: Floats | None = None
     state: State = State()

@@ -3,6 +3,7 @@
 
 #ifdef EYE
 uniform vec4 eye[9]; // weights of twelve terms, three vectors for each of 1, s, s²
+uniform vec3 surge; // Light of a lamp beside the eye, which sees no shadows: how much more it is, X from above, X + Y from aside; Z = width of that, radians
 #endif
 
 // What light from a direction counts for the eye, before it is held at LEAST_SEEN.
@@ -27,9 +28,12 @@ Quadratic seenByEye(FurPoint point) {
 
 #define LEAST_SEEN 0.1
 
-float seenOf(Quadratic seen, vec3 lightTS) {
+// lightTS: held on the horizon. lightVS: where it is.
+float seenOf(Quadratic seen, FurPoint point, vec3 lightTS, vec3 lightVS) {
 #ifdef EYE
-	return max(quadratic(seen, lightTS), LEAST_SEEN);
+	vec3 viewer = viewerVS(point.pointVS), apart = (lightVS - viewer) / surge.z;
+	float up = max(dot(viewer, point.frameVS[UPRIGHT]), 0.0);
+	return max(quadratic(seen, lightTS), LEAST_SEEN) * (1.0 + (surge.x + surge.y * (1.0 - up * up)) / (1.0 + dot(apart, apart)));
 #else
 	return 1.0;
 #endif

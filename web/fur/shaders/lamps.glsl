@@ -61,7 +61,7 @@ void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bendi
 		lightTS.UP = 0.0;
 		lightTS /= max(length(lightTS), 1e-4);
 	}
-	float gain = seenOf(seen, lightTS);
+	float gain = seenOf(seen, point, lightTS, lightVS);
 	if (bending.there) gain *= bentLight(lightTS, bending);
 	gain *= meanLight(point, height < 0.0 ? height : lightTS.UP, fade, radius, lightTS);
 	vec3 low, high;
