@@ -13,7 +13,7 @@ from furbake.pelt.strands import Coat, Hairs, grow
 from furbake.pelt.transport import (
     LAMP,
     LOWEST,
-    _Beam,
+    Beam,
     hemisphere,
     lamp_cone,
     lowest,
@@ -201,7 +201,7 @@ def test_light_along_the_hairs_passes_between_them() -> None:
     upright = Hairs(stray=0, curl=0, clump=0, length=(1, 1), count=400)
     coat = Coat(guard=upright, under=replace(upright, count=0), lean=(0, 0), clumps=1)
     fine = voxelise(grow(coat, 0.5, 0), 0.5, 16, 64, 4.0)
-    beam = _Beam(fine, 8, 32, beta=None)
+    beam = Beam(fine, 8, 32, beta=None)
     _, caught, _, floor = beam(np.array([0.0, 0.0, 1.0]), 0)
     _, _, side, _ = beam(np.array([0.8, 0.0, 0.6]), 0)
     covered = fine.coverage.max(0).mean()

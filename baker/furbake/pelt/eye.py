@@ -144,9 +144,8 @@ def seen_from(
             """M towards an eye, (n, K, N/2, N/2)."""
             return np.moveaxis(np.maximum(sent(arriving, tangent, eye), 0), 1, 0)
 
-        texels = doubled(onwards(ABOVE))
-        for texel, clear, light in zip(texels, passed, lights, strict=True):
-            texel += average_down(clear * cylinder(beam.tangent, light), beam.shares, size)
+        single = (clear * cylinder(beam.tangent, light) for clear, light in zip(passed, lights, strict=True))
+        texels = doubled(onwards(ABOVE)) + np.stack([average_down(each, beam.shares, size) for each in single])
 
         def of_eye(eye: Array) -> tuple[Array, Array]:
             clear = depth_of(fine.sigma.astype(np.float32), fine.slab, beta).through(eye)[0]

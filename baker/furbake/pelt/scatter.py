@@ -119,7 +119,7 @@ def between_hairs(
     found = Arriving(*(np.zeros_like(part) for part in (direct.phi, direct.flux, floor)))
     for arriving, _, weight in medium.orders(direct, albedo):
         for total, part in ((found.phi, arriving.phi), (found.flux, arriving.flux), (found.floor, arriving.floor)):
-            total += part * np.float32(weight)
+            np.add(total, part * np.float32(weight), out=total)
     return found
 
 
