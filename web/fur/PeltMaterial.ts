@@ -288,8 +288,8 @@ export class PeltMaterial extends ShaderMaterial {
 	}
 
 	/**
-	 * Whether lamps are summed per fragment, not per vertex: the lamps' light on coarse meshes, and the edges of shadows on
-	 * them, to the pixel, for much of the frame.
+	 * Whether lamps are summed per fragment, not per vertex: the lamps' light on coarse meshes, and the shadows of all lamps, to
+	 * the pixel, for much of the frame.
 	 */
 	get lampsPerFragment(): boolean {
 		return 'LAMPS_PER_FRAGMENT' in this.defines;
