@@ -1,7 +1,7 @@
 import { type DirectionalLight, MathUtils, type Sphere } from 'three';
 
-/** Texels along the longest hair: a path tracer's shadows on fur end within less than a tenth of it. */
-const TEXELS = 24;
+/** Texels along the longest hair, at least: a path tracer's shadows on fur end within a tenth of it. */
+const TEXELS = 12;
 /** Texels per side. */
 const [LEAST, MOST] = [256, 1024];
 /** Softness of the edge on what three lights, lengths of the fur. */
