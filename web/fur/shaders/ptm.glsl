@@ -81,7 +81,11 @@ vec3 hued(vec3 light) {
 vec3 furRadiance(FurTexel texel, vec3 colour, Lamps lamps, Moments sky) {
 	vec3 lamp = relight(texel, lamps.moments);
 #ifdef SHADOW_PER_FRAGMENT
-	if (max(max(lamp.r, lamp.g), lamp.b) > FAINT) {
+	vec3 most = lamp;
+#ifdef BACKLIGHT
+	most += hued(lamps.back) * backlight;
+#endif
+	if (max(max(most.r, most.g), most.b) > FAINT) {
 		float open = firstShadow(lamps.place);
 #ifdef SHADOW_SHARE
 		open = 1.0 - lamps.share * (1.0 - open);
