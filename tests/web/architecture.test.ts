@@ -28,6 +28,7 @@ const floors = [
 	],
 	['levels', 'TrimLight', 'curves', 'stains', 'bent', 'hue'],
 	['texels', 'SlabLight'],
+	['PeltLight'],
 	['PeltMaterial', 'follicles'],
 	['FurMaterial', 'PeltStates', 'FurWeather', 'skin', 'curvature'],
 	['FinMaterial', 'HullMaterial'],

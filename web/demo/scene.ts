@@ -8,6 +8,7 @@ import {
 	HalfFloatType,
 	HemisphereLight,
 	NeutralToneMapping,
+	Object3D,
 	type PerspectiveCamera,
 	Scene,
 	Sphere,
@@ -15,8 +16,8 @@ import {
 	Vector3,
 	WebGLRenderer,
 } from 'three';
-import { type Fur, fitShadow, limitsOf, type TextureLimits } from '../fur/index.ts';
-import { backdrop, ContactShadow } from '../page/backdrop.ts';
+import { type Fur, fitShadow, limitsOf, luminance, type TextureLimits } from '../fur/index.ts';
+import { backdrop, CastShadow, ContactShadow } from '../page/backdrop.ts';
 import { disposeAll } from '../page/dispose.ts';
 import { Crowd } from './crowd.ts';
 import type { Environment } from './environments.ts';
@@ -29,6 +30,9 @@ const maxPixelRatio = 2;
 /** Irradiance: 2.8π makes a white matt surface facing it 2.8 bright. */
 const keyPower = 2.8 * Math.PI;
 const keyColour = new Color(1, 0.95, 0.87).multiplyScalar(keyPower);
+
+const irradiance = new Vector3();
+const sky = new Color();
 
 export class Stage {
 	readonly renderer: WebGLRenderer;
@@ -44,6 +48,7 @@ export class Stage {
 	model: Model | undefined;
 	#crowd: Crowd | undefined;
 	readonly #shadow = new ContactShadow();
+	readonly #cast = new CastShadow();
 	readonly #backdrop: DataTexture;
 	/** Light of the place. */
 	readonly #around = new Group();
@@ -70,8 +75,8 @@ export class Stage {
 		this.sky.color.setRGB(0.55, 0.65, 0.8);
 		this.sky.groundColor.setRGB(0.28, 0.24, 0.2);
 		this.#backdrop = backdrop(Boolean(half));
-		this.#shadow.visible = false;
-		this.scene.add(this.key, this.key.target, this.#lamps, this.sky, this.#around, this.#shadow);
+		this.#shadow.visible = this.#cast.visible = false;
+		this.scene.add(this.key, this.key.target, this.#lamps, this.sky, this.#around, this.#shadow, this.#cast);
 		this.surround(undefined);
 	}
 
@@ -84,7 +89,7 @@ export class Stage {
 		}
 		this.model = model;
 		this.#offset.setScalar(0);
-		this.#shadow.visible = model !== undefined;
+		this.#shadow.visible = this.#cast.visible = model !== undefined;
 		if (model) this.scene.add(model.object);
 	}
 
@@ -110,13 +115,14 @@ export class Stage {
 		}
 		const crowd = this.#crowd;
 		if (crowd) crowd.count = count;
-		model.object.visible = this.#shadow.visible = !many;
+		model.object.visible = this.#shadow.visible = this.#cast.visible = !many;
 		this.closest = model.radius;
 		this.radius = crowd?.radius ?? model.radius;
 		model.box.getCenter(this.centre);
 		const length = fur?.shells.furLength ?? 0.05 * model.radius;
 		this.#shadow.fit(model.box, fur ? length : 0);
-		this.light(this.key.position.clone().sub(this.key.target.position).normalize());
+		this.#cast.fit(model.box, fur ? length : 0);
+		this.#turn();
 		fitShadow(this.key, new Sphere(this.centre, (crowd?.reach ?? this.radius) + length), length);
 	}
 
@@ -132,6 +138,11 @@ export class Stage {
 		this.#offset.copy(offset).multiplyScalar(model.radius);
 		stand(model, this.#offset, yaw);
 		this.#shadow.follow(this.#offset, yaw, heightOf(model));
+		this.#turn();
+	}
+
+	/** The lamp goes along with the body. */
+	#turn(): void {
 		this.light(this.#towards.subVectors(this.key.position, this.key.target.position).normalize());
 	}
 
@@ -143,13 +154,13 @@ export class Stage {
 		this.key.color.copy(environment?.key.colour ?? keyColour);
 		this.scene.background = environment?.background ?? this.#backdrop;
 		this.#around.clear();
-		if (!environment) return;
-		this.#around.add(environment.probe);
-		for (const { direction, colour } of environment.others) {
+		if (environment) this.#around.add(environment.probe);
+		for (const { direction, colour } of environment?.others ?? []) {
 			const lamp = new DirectionalLight(colour);
 			lamp.position.copy(direction);
 			this.#around.add(lamp);
 		}
+		this.#turn();
 	}
 
 	/** @param direction unit vector from the model to the lamp, world axes */
@@ -157,6 +168,16 @@ export class Stage {
 		const target = this.key.target.position.copy(this.centre).add(this.#offset);
 		this.key.position.copy(target).addScaledVector(direction, 4 * this.radius);
 		this.#lamps.turn(direction);
+		this.#cast.follow(target, this.radius, direction, this.#shareOnGround(direction.y));
+	}
+
+	/** The dragged lamp's share in the light on the ground. @param sine of its elevation */
+	#shareOnGround(sine: number): number {
+		const lamp = luminance(this.key.color) * this.key.intensity * Math.max(sine, 0);
+		const { probe } = this.#environment ?? {};
+		if (probe) sky.setRGB(...probe.sh.getIrradianceAt(Object3D.DEFAULT_UP, irradiance).toArray());
+		else sky.copy(this.sky.color).multiplyScalar(this.sky.intensity);
+		return lamp / Math.max(lamp + luminance(sky), 1e-6);
 	}
 
 	/** Lamps in all, 1 to 8: the one that is dragged and those around it. */

@@ -1,9 +1,10 @@
 import { DoubleSide, type IUniform, type ShaderMaterialParameters } from 'three';
 import type { FurMaterial } from './FurMaterial.ts';
 import type { Fin } from './format.ts';
-import { type FurTextures, PeltMaterial } from './PeltMaterial.ts';
+import { PeltMaterial } from './PeltMaterial.ts';
 import fragmentShader from './shaders/fins.frag.glsl?raw';
 import vertexShader from './shaders/fins.vert.glsl?raw';
+import type { FurTextures } from './texels.ts';
 
 /** Properties that a FinMaterial has beside those of every material. */
 export interface FinMaterialParameters extends ShaderMaterialParameters {

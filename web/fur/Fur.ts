@@ -6,10 +6,10 @@ import type { FurWeather } from './FurWeather.ts';
 import { FurFins } from './fins.ts';
 import { Follicles } from './follicles.ts';
 import type { FurAsset, Pelt } from './format.ts';
-import type { FurTextures } from './PeltMaterial.ts';
 import type { PeltStates } from './PeltStates.ts';
 import { FurShells } from './shells.ts';
 import type { Skin, Wetness } from './skin.ts';
+import type { FurTextures } from './texels.ts';
 
 /** What a body brings to a fur: what it stands on, and what is seen between its hairs. */
 export interface Ground {

@@ -2,13 +2,14 @@ import { Color, type ShaderMaterialParameters, Vector4 } from 'three';
 import { bentWeights, eyeUniforms, leanOf, wayOf } from './bent.ts';
 import type { FurAsset } from './format.ts';
 import { ALPHA_CUT } from './lod.ts';
-import { type FurTextures, PeltMaterial } from './PeltMaterial.ts';
+import { PeltMaterial } from './PeltMaterial.ts';
 import hairIn from './shaders/hair.frag.glsl?raw';
 import hairOut from './shaders/hair.vert.glsl?raw';
 import opacity from './shaders/opacity.glsl?raw';
 import shell from './shaders/shell.glsl?raw';
 import fragmentMain from './shaders/shells.frag.glsl?raw';
 import vertexMain from './shaders/shells.vert.glsl?raw';
+import type { FurTextures } from './texels.ts';
 
 /** Properties that a FurMaterial has beside those of every material. */
 export interface FurMaterialParameters extends ShaderMaterialParameters {

@@ -1,4 +1,4 @@
-import { GLSL3, type IUniform, ShaderMaterial, type ShaderMaterialParameters } from 'three';
+import { FrontSide, GLSL3, type IUniform, ShaderMaterial, type ShaderMaterialParameters } from 'three';
 import { hairChunks } from './chunks.ts';
 import type { FurMaterial } from './FurMaterial.ts';
 import fragmentShader from './shaders/hull.frag.glsl?raw';
@@ -12,8 +12,8 @@ const SHARED = ['furLength', 'furTrim', 'swing', 'stains', 'wetnesses', 'traits'
 const PARTS = ['SWING', 'TRIMMED', 'WET'];
 
 /**
- * What fur casts a shadow with: its hull at half the hairs' length, without a hole. Where light gets between the hairs the
- * shadow's filter has its say.
+ * What fur casts a shadow with: its hull at three quarters of the hairs' length, where what light grazes of them hides half of it.
+ * It has no hole.
  */
 export class HullMaterial extends ShaderMaterial {
 	readonly #shells: FurMaterial;
@@ -32,8 +32,14 @@ export class HullMaterial extends ShaderMaterial {
 		Object.assign(this.defaultAttributeValues, shells.defaultAttributeValues);
 	}
 
-	/** Bends hairs where the shells do. To be called before it is drawn. */
+	/**
+	 * Bends hairs where the shells do. To be called before it is drawn.
+	 *
+	 * Its outside casts: the far side of a head lies in the hairs of the neck below, and leaves it no shadow. (The renderer
+	 * takes the inside for every shadow anew.)
+	 */
 	follow(): void {
+		this.side = FrontSide;
 		followParts(this, this.#shells, PARTS);
 	}
 }

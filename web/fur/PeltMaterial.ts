@@ -3,7 +3,6 @@ import {
 	Color,
 	CustomBlending,
 	GLSL3,
-	type IUniform,
 	LessEqualDepth,
 	OneFactor,
 	OneMinusSrcAlphaFactor,
@@ -20,43 +19,21 @@ import {
 import { hairChunks, lampChunks, skyChunks, texelChunks } from './chunks.ts';
 import { followHue } from './hue.ts';
 import { BODY_RADIUS } from './moments.ts';
-import { curveTable, SlabLight, standInWeights, type Weights } from './SlabLight.ts';
+import { PeltLight } from './PeltLight.ts';
 import colour from './shaders/colour.glsl?raw';
 import lightIn from './shaders/light.frag.glsl?raw';
 import lightOut from './shaders/light.vert.glsl?raw';
 import output from './shaders/output.glsl?raw';
 import ptm from './shaders/ptm.glsl?raw';
 import { type Stained, stain, stainUniforms } from './stains.ts';
-import { switchPart } from './switches.ts';
-import { TrimLight } from './TrimLight.ts';
-import { basisDefines, decoder, momentUniforms, type SlabMeanCurves, type Texels } from './texels.ts';
-
-/** An asset's planes as texture arrays, a slab per layer. */
-export interface FurTextures {
-	/** Coefficients (a0, a1, a2, a5); of three coefficients (a0, a1, a2, α). */
-	plane0: Texture;
-	/** (a3, a4, α, tint). */
-	plane1?: Texture | undefined;
-	/** The hairs' own colours, sRGB. */
-	colour?: Texture | undefined;
-	/** Mean tangent of the hairs, for renderers that don't light by coefficients; mips are means, shorter than 1. */
-	direction?: Texture | undefined;
-}
+import { mirrorUniforms, switchPart } from './switches.ts';
+import { basisDefines, decoder, type FurTextures, type SlabMeanCurves, type Texels } from './texels.ts';
 
 /** What the materials of shells and fins have in common: texels of coefficients that meet light moments. */
 export class PeltMaterial extends ShaderMaterial {
 	readonly #followers: PeltMaterial[] = [];
 	readonly #leader: PeltMaterial | undefined;
-	readonly #texels: Texels;
-	readonly #planes: readonly Texture[];
-	#trimLight: TrimLight | undefined;
-	/** Mean curves, and the dry pelt's weights of them, in format 2.x. */
-	readonly means: SlabMeanCurves | undefined;
-	readonly #slabLight: SlabLight | undefined;
-	/** Weights of the states that the textures hold. */
-	#weights: readonly Weights[];
-	/** Stand-ins of the slabs of cut fur. */
-	#places: ArrayLike<number> | undefined;
+	readonly #light: PeltLight;
 
 	/**
 	 * @param parameters own shaders (after the common chunks), uniforms and defines
@@ -72,8 +49,14 @@ export class PeltMaterial extends ShaderMaterial {
 	) {
 		const { scale, offset } = decoder(texels.scale, texels.bias);
 		const { means, basis } = texels;
-		const fin = 'FIN' in (defines ?? {});
-		const slabLight = means && new SlabLight(basis, means, [means.weights], BODY_RADIUS, fin);
+		const planes = [textures.plane0, textures.plane1].filter((plane) => plane !== undefined);
+		const light = new PeltLight(
+			texels,
+			planes,
+			Number(defines?.LAYERS),
+			'FIN' in (defines ?? {}),
+			leader ? leader.#light : undefined,
+		);
 		super({
 			glslVersion: GLSL3,
 			lights: true,
@@ -86,12 +69,7 @@ export class PeltMaterial extends ShaderMaterial {
 				offset0: { value: offset[0] },
 				scale1: { value: new Vector2(scale[1]?.x, scale[1]?.y) },
 				offset1: { value: new Vector2(offset[1]?.x, offset[1]?.y) },
-				...(means
-					? {
-							curveTable: leader?.uniforms.curveTable ?? { value: curveTable(means.curves) },
-							slabLight: { value: slabLight?.texture },
-						}
-					: momentUniforms(texels, fin)),
+				...light.uniforms,
 				bodyRadius: { value: BODY_RADIUS },
 				lean: { value: new Vector2() },
 				gloss: { value: 0 },
@@ -102,7 +80,6 @@ export class PeltMaterial extends ShaderMaterial {
 				swing: { value: null },
 				...stainUniforms(),
 				furTrim: { value: 1 },
-				trimLight: { value: null },
 				...uniforms,
 			},
 			defines: {
@@ -141,25 +118,20 @@ export class PeltMaterial extends ShaderMaterial {
 			follicle: [0],
 			curvature: [0, 0, 0],
 		});
-		for (const name of mirrored) {
-			const uniform = this.uniforms[name];
-			if (!uniform) continue;
-			Object.defineProperty(this, name, {
-				enumerable: true,
-				get: () => uniform.value,
-				set: (value) => {
-					uniform.value = value;
-				},
-			});
-		}
-		this.#texels = texels;
-		this.#planes = [textures.plane0, textures.plane1].filter((plane) => plane !== undefined);
+		mirrorUniforms(this, mirrored);
 		this.#leader = leader;
-		this.means = means;
-		this.#slabLight = slabLight;
-		this.#weights = means ? [means.weights] : [];
+		this.#light = light;
 		this.setTextures(textures);
 		if (leader) leader.#followers.push(this);
+	}
+
+	/** Mean curves, and the dry pelt's weights of them, in format 2.x. */
+	get means(): SlabMeanCurves | undefined {
+		return this.#light.means;
+	}
+
+	get #all(): PeltMaterial[] {
+		return [this, ...this.#followers];
 	}
 
 	/** Whether ambient and hemisphere lights and light probes are seen. Without them a fragment costs less. */
@@ -227,7 +199,7 @@ export class PeltMaterial extends ShaderMaterial {
 	set bodyRadius(radius: number) {
 		const { bodyRadius } = this.uniforms;
 		if (bodyRadius) bodyRadius.value = radius;
-		for (const material of [this, ...this.#followers]) if (material.#slabLight) material.#slabLight.radius = radius;
+		for (const material of this.#all) material.#light.radius = radius;
 	}
 
 	/**
@@ -243,35 +215,9 @@ export class PeltMaterial extends ShaderMaterial {
 		if (share === this.trim) return;
 		const { furTrim } = this.uniforms;
 		if (furTrim) furTrim.value = share;
-		if (share < 1) {
-			const places = this.#light().places(share);
-			for (const material of [this, ...this.#followers]) material.#light().set(places);
-			this.#weigh(places);
-		} else this.#weigh(undefined);
+		const places = share < 1 ? this.#light.places(share) : undefined;
+		for (const material of this.#all) material.#light.cut(places);
 		this.#switch('TRIMMED', share < 1);
-	}
-
-	/** Has slabs, of states that the textures hold, the mean curves of those that stand in for them. */
-	#weigh(places: ArrayLike<number> | undefined, weights = this.#weights): void {
-		this.#places = places;
-		this.#weights = weights;
-		const states = places ? weights.map((own) => standInWeights(own, places)) : weights;
-		for (const material of [this, ...this.#followers]) {
-			const [slabLight, uniform] = [material.#slabLight, material.uniforms.slabLight];
-			if (!slabLight || !uniform) continue;
-			slabLight.states = states;
-			uniform.value = slabLight.texture;
-		}
-	}
-
-	/** Made from the texels that the material was made with: other states of the fur have their light changed alike. */
-	#light(): TrimLight {
-		if (!this.#trimLight) {
-			const { LAYERS, FIN } = this.defines as { LAYERS: number; FIN?: string };
-			this.#trimLight = new TrimLight(this.#planes, this.#texels, LAYERS, FIN === undefined ? LAYERS : 1);
-			(this.uniforms.trimLight as IUniform).value = this.#trimLight.texture;
-		}
-		return this.#trimLight;
 	}
 
 	/** Lamps of one hue cost less. */
@@ -282,14 +228,12 @@ export class PeltMaterial extends ShaderMaterial {
 	/** Frees what it has on the GPU but for the pelt's textures. */
 	override dispose(): void {
 		super.dispose();
-		this.#trimLight?.texture.dispose();
-		this.#slabLight?.texture.dispose();
-		if (!this.#leader) (this.uniforms.curveTable as IUniform<Texture> | undefined)?.value.dispose();
+		this.#light.dispose();
 	}
 
 	/**
-	 * Whether lamps are summed per fragment, not per vertex: the lamps' light on coarse meshes, and the edges of shadows on
-	 * them, to the pixel, for much of the frame.
+	 * Whether lamps are summed per fragment, not per vertex: the lamps' light on coarse meshes, and the shadows of all lamps, to
+	 * the pixel, for much of the frame.
 	 */
 	get lampsPerFragment(): boolean {
 		return 'LAMPS_PER_FRAGMENT' in this.defines;
@@ -308,7 +252,7 @@ export class PeltMaterial extends ShaderMaterial {
 	}
 
 	set multisampled(on: boolean) {
-		for (const material of [this, ...this.#followers]) {
+		for (const material of this.#all) {
 			if (material.alphaToCoverage === on) continue;
 			material.alphaToCoverage = on;
 			material.blendDst = on ? ZeroFactor : OneMinusSrcAlphaFactor;
@@ -331,16 +275,15 @@ export class PeltMaterial extends ShaderMaterial {
 
 	/** Has a part of the shaders compiled in or left out, here and in what follows this material. */
 	#compile(define: string, value: string | number | undefined): void {
-		for (const material of [this, ...this.#followers]) switchPart(material, define, value);
+		for (const material of this.#all) switchPart(material, define, value);
 	}
 
 	/** Wet or dirty fur, as far as the textures hold it. Needs the attribute `follicle`. Undefined costs nothing. */
 	setStains(stained: Stained | undefined): void {
 		const parts = stain(this.uniforms, stained);
 		for (const [define, value] of Object.entries(parts)) this.#compile(define, value);
-		if (!this.means) return;
-		const { weights: dry } = this.means;
-		this.#weigh(this.#places, parts.WET ? (stained?.wet ?? []).map(({ weights = dry }) => weights) : [dry]);
+		const states = parts.WET ? stained?.wet.map(({ weights }) => weights) : undefined;
+		for (const material of this.#all) material.#light.show(states);
 	}
 
 	/** Other planes of the same shape, or of several states of the fur, one after the other. */

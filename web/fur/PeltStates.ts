@@ -3,9 +3,9 @@
 import type { CompressedArrayTexture } from 'three';
 import type { FurAsset, Pelt } from './format.ts';
 import { decodeAll, decodePlanes, type Layout, type Plane, type PlaneFile, type Role, stacked } from './levels.ts';
-import type { FurTextures } from './PeltMaterial.ts';
 import { textureArray } from './planes.ts';
 import { pairFor, type States, statesOf } from './states.ts';
+import type { FurTextures } from './texels.ts';
 
 /** What is stacked; directions are the dry state's whatever the weather. */
 const ROLES = ['plane0', 'plane1', 'colour'] as const satisfies Role[];

@@ -48,7 +48,6 @@ export { FurMotion } from './motion/FurMotion.ts';
 export type { MotionOptions } from './motion/options.ts';
 export { type Spring, springOf } from './motion/spring.ts';
 export type { WindSettings } from './motion/Wind.ts';
-export type { FurTextures } from './PeltMaterial.ts';
 export { fitShadow } from './shadow.ts';
 export { FurShells, MAX_SHELLS } from './shells.ts';
-export type { SlabMeanCurves } from './texels.ts';
+export type { FurTextures, SlabMeanCurves } from './texels.ts';

@@ -4,6 +4,7 @@ import {
 	type BufferGeometry,
 	type Camera,
 	Color,
+	FrontSide,
 	InstancedBufferAttribute,
 	InstancedBufferGeometry,
 	type IUniform,
@@ -205,6 +206,7 @@ export class BodyHull extends Draw {
 	}
 
 	override onBeforeShadow(): void {
+		this.customDepthMaterial.side = FrontSide;
 		this.geometry.instanceCount = this.#count;
 	}
 

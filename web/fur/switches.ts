@@ -21,3 +21,18 @@ export function switchPart(material: ShaderMaterial, part: string, value: string
 export function followParts(material: ShaderMaterial, leader: ShaderMaterial, parts: readonly string[]): void {
 	for (const part of parts) switchPart(material, part, leader.defines[part] as string | number | undefined);
 }
+
+/** Has uniforms of a material be properties of it, too. */
+export function mirrorUniforms(material: ShaderMaterial, names: readonly string[]): void {
+	for (const name of names) {
+		const uniform = material.uniforms[name];
+		if (!uniform) continue;
+		Object.defineProperty(material, name, {
+			enumerable: true,
+			get: () => uniform.value,
+			set: (value) => {
+				uniform.value = value;
+			},
+		});
+	}
+}

@@ -1,9 +1,21 @@
 /** What a texel's bytes and coefficients mean, as uniforms. */
 
-import { type IUniform, Vector3, Vector4 } from 'three';
+import { type IUniform, type Texture, Vector3, Vector4 } from 'three';
 import type { MeanCurves } from './curves.ts';
 import { type Basis, channelOf } from './format.ts';
 import { horizonMoments, polynomialCurves, smoothSum } from './moments.ts';
+
+/** An asset's planes as texture arrays, a slab per layer. */
+export interface FurTextures {
+	/** Coefficients (a0, a1, a2, a5); of three coefficients (a0, a1, a2, α). */
+	plane0: Texture;
+	/** (a3, a4, α, tint). */
+	plane1?: Texture | undefined;
+	/** The hairs' own colours, sRGB. */
+	colour?: Texture | undefined;
+	/** Mean tangent of the hairs, for renderers that don't light by coefficients; mips are means, shorter than 1. */
+	direction?: Texture | undefined;
+}
 
 /** What texels mean: how they are decoded, and what their coefficients multiply. */
 export interface Texels {

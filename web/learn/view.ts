@@ -133,6 +133,8 @@ export class View {
 	cast(softness: number, reach = this.radius): void {
 		this.#shine(this.#here.copy(this.#lesson.light.direction));
 		fitShadow(this.key, new Sphere(this.centre, reach), softness);
+		const { shadow } = this.key;
+		shadow.radius = (softness * shadow.mapSize.x) / (2 * reach);
 	}
 
 	#aim(

@@ -1,7 +1,8 @@
-/** What stands around the model: a soft slate gradient behind it, and the shadow where it would touch the ground. */
+/** What stands around the model: a soft slate gradient behind it, and the shadows where it would touch the ground and that it casts there. */
 
 import {
 	type Box3,
+	CircleGeometry,
 	Color,
 	type ColorRepresentation,
 	DataTexture,
@@ -9,9 +10,11 @@ import {
 	HalfFloatType,
 	LinearFilter,
 	LinearSRGBColorSpace,
+	MathUtils,
 	Mesh,
 	MeshBasicMaterial,
 	PlaneGeometry,
+	ShadowMaterial,
 	SRGBColorSpace,
 	UnsignedByteType,
 	Vector3,
@@ -123,5 +126,44 @@ export class ContactShadow extends Mesh<PlaneGeometry, MeshBasicMaterial> {
 		this.position.z += offset.z;
 		this.rotation.z = yaw;
 		this.material.opacity = darkness * Math.exp((-3 * Math.max(offset.y, 0)) / height);
+	}
+}
+
+/** Opacity of a shadow that no other light reaches. */
+const castDarkness = 0.7;
+
+/** Sine of the lamp's elevation at which the ground has no shadow any more, and all of it. */
+const [none, whole] = [0.12, 0.35];
+
+/** The shadow that a lamp's map has of the body, on the ground below it. */
+export class CastShadow extends Mesh<CircleGeometry, ShadowMaterial> {
+	constructor() {
+		super(new CircleGeometry(1, 48), new ShadowMaterial({ color: '#141414', depthWrite: false }));
+		this.receiveShadow = true;
+		this.rotation.x = -Math.PI / 2;
+		// Before the fur, which blends over it, and the contact's shadow, which lies on it.
+		this.renderOrder = -2;
+	}
+
+	/** Lies under the box. @param fur its length, which reaches beyond the box */
+	fit(box: Box3, fur: number): void {
+		this.position.y = box.min.y - fur / 2;
+	}
+
+	/**
+	 * Goes where the shadow falls.
+	 *
+	 * @param centre of the body; @param radius of it, world units
+	 * @param direction unit vector to the lamp
+	 * @param share that the lamp has in the light on the ground
+	 */
+	follow(centre: Vector3, radius: number, direction: Vector3, share: number): void {
+		const { y } = direction;
+		this.material.opacity = castDarkness * share * MathUtils.smoothstep(y, none, whole);
+		if (!(y > none)) return;
+		const way = (centre.y - this.position.y) / y;
+		this.position.x = centre.x - way * direction.x;
+		this.position.z = centre.z - way * direction.z;
+		this.scale.setScalar(radius / y);
 	}
 }

@@ -46,8 +46,7 @@ void main() {
 #endif
 	if (vFade > 0.0) {
 		float slab = clamp(s * float(LAYERS) - 0.5, 0.0, float(LAYERS) - 1.0);
-		vec4 tip = furTip(n, _fur.y);
-		passLight(FurPoint(turn * frame, comb * frame, pointVS, tip.xyz, tip.w, s, slab, furCurvature(_fur.y)), _fur.z);
+		passLight(FurPoint(turn * frame, comb * frame, pointVS, furReach(_fur.y), s, slab, furCurvature(_fur.y)), _fur.z);
 	} else {
 		passDarkness();
 	}

@@ -3,6 +3,6 @@ layout(location = 14) in vec3 _comb;
 
 void main() {
 	feelWeather();
-	vec3 point = furPoint(position, normalize(normal), furComb(_comb), _fur.y, 0.5 * furTrim);
+	vec3 point = furPoint(position, normalize(normal), furComb(_comb), _fur.y, 0.75 * furTrim);
 	gl_Position = projectionMatrix * bodyModelView() * vec4(point, 1.0);
 }

@@ -11,6 +11,12 @@ struct Lamps {
 #ifdef WET
 	float power; // irradiance
 #endif
+#ifdef SHADOW_PER_FRAGMENT
+	vec3 place; // of the first directional lamp's shadow, see shadowPlace
+#ifdef SHADOW_SHARE
+	float share; // of that lamp in the light of all
+#endif
+#endif
 };
 
 #ifdef ONE_HUE
@@ -19,10 +25,18 @@ struct Lamps {
 #define NO_MOMENTS LampMoments(mat3(0.0), mat3(0.0))
 #endif
 #ifdef WET
-#define DARKNESS Lamps(NO_MOMENTS, Strength(0.0), vec2(0.0), 0.0)
+#define NO_POWER , 0.0
 #else
-#define DARKNESS Lamps(NO_MOMENTS, Strength(0.0), vec2(0.0))
+#define NO_POWER
 #endif
+#if defined(SHADOW_SHARE)
+#define NO_SHADOW , vec3(2.0), 0.0
+#elif defined(SHADOW_PER_FRAGMENT)
+#define NO_SHADOW , vec3(2.0)
+#else
+#define NO_SHADOW
+#endif
+#define DARKNESS Lamps(NO_MOMENTS, Strength(0.0), vec2(0.0) NO_POWER NO_SHADOW)
 
 // Unit vector along the hairs.
 vec3 strandVS(FurPoint point) {
@@ -67,6 +81,9 @@ void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bendi
 	vec3 low, high;
 	basis(lightTS, low, high);
 	float luminance = dot(irradiance, vec3(0.2126, 0.7152, 0.0722));
+#ifdef SHADOW_SHARE
+	lamps.share += max(gain, 0.0) * luminance;
+#endif
 #ifdef ONE_HUE
 	float strength = luminance;
 	lamps.moments.low += (gain * strength) * low;
@@ -90,14 +107,22 @@ Lamps lampsAt(FurPoint point, Bending bending, Quadratic seen) {
 	Lamps lamps = DARKNESS;
 	IncidentLight light;
 	float power = 0.0;
+#ifdef SHADOW_SHARE
+	float first = 0.0;
+#endif
 #if NUM_DIR_LIGHTS > 0
 	#pragma unroll_loop_start
 	for (int i = 0; i < NUM_DIR_LIGHTS; i++) {
 		getDirectionalLightInfo(directionalLights[ i ], light);
-#if defined(USE_SHADOWMAP) && (UNROLLED_LOOP_INDEX < NUM_DIR_LIGHT_SHADOWS)
-		light.color *= shadow(directionalShadowMap[ i ], directionalLightShadows[ i ].shadowMapSize, directionalLightShadows[ i ].shadowIntensity, directionalLightShadows[ i ].shadowBias, directionalLightShadows[ i ].shadowRadius, directionalShadowMatrix[ i ], point, light.direction);
+#if defined(SHADOW_PER_FRAGMENT) && (UNROLLED_LOOP_INDEX == 0)
+		lamps.place = shadowPlace(directionalShadowMatrix[ i ], directionalLightShadows[ i ].shadowBias, 1.0 / directionalLightShadows[ i ].shadowMapSize.x, point, light.direction);
+#elif defined(USE_SHADOWMAP) && (UNROLLED_LOOP_INDEX < NUM_DIR_LIGHT_SHADOWS)
+		light.color *= shadow(directionalShadowMap[ i ], directionalLightShadows[ i ].shadowMapSize, directionalLightShadows[ i ].shadowIntensity, directionalLightShadows[ i ].shadowRadius, shadowPlace(directionalShadowMatrix[ i ], directionalLightShadows[ i ].shadowBias, directionalLightShadows[ i ].shadowRadius / directionalLightShadows[ i ].shadowMapSize.x, point, light.direction));
 #endif
 		addLamp(lamps, power, point, bending, seen, light.direction, light.color);
+#if defined(SHADOW_SHARE) && (UNROLLED_LOOP_INDEX == 0)
+		first = lamps.share;
+#endif
 	}
 	#pragma unroll_loop_end
 #endif
@@ -112,11 +137,14 @@ Lamps lampsAt(FurPoint point, Bending bending, Quadratic seen) {
 	for (int i = 0; i < NUM_SPOT_LIGHTS; i++) {
 		getSpotLightInfo(spotLights[ i ], point.pointVS, light);
 #if defined(USE_SHADOWMAP) && (UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS)
-		light.color *= shadow(spotShadowMap[ i ], spotLightShadows[ i ].shadowMapSize, spotLightShadows[ i ].shadowIntensity, spotLightShadows[ i ].shadowBias, spotLightShadows[ i ].shadowRadius, spotLightMatrix[ i ], point, light.direction);
+		light.color *= shadow(spotShadowMap[ i ], spotLightShadows[ i ].shadowMapSize, spotLightShadows[ i ].shadowIntensity, spotLightShadows[ i ].shadowRadius, shadowPlace(spotLightMatrix[ i ], spotLightShadows[ i ].shadowBias, spotLightShadows[ i ].shadowRadius / spotLightShadows[ i ].shadowMapSize.x, point, light.direction));
 #endif
 		addLamp(lamps, power, point, bending, seen, light.direction, light.color);
 	}
 	#pragma unroll_loop_end
+#endif
+#ifdef SHADOW_SHARE
+	lamps.share = first / max(lamps.share, 1e-6);
 #endif
 	lamps.lobes /= max(power, 1e-6);
 #ifdef WET

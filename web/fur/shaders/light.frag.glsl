@@ -9,7 +9,6 @@ in mat3 vSkyHigh;
 #ifdef LAMPS_PER_FRAGMENT
 in mat3 vFrame;
 in vec3 vPoint;
-in vec3 vTip;
 in float vReach;
 in float vS;
 #ifdef MEAN_CURVES
@@ -32,6 +31,14 @@ in mat3 vLampLow;
 in mat3 vLampHigh;
 #endif
 #endif
+#ifdef SHADOW_PER_FRAGMENT
+in float vShadowX;
+in float vShadowY;
+in float vShadowZ;
+#ifdef SHADOW_SHARE
+in float vShadowShare;
+#endif
+#endif
 #ifdef BACKLIGHT
 in Strength vBack;
 #endif
@@ -49,9 +56,9 @@ Lamps receivedLamps() {
 	vec3 comb = vec3(vCombX, 0.0, 0.0);
 	comb[LEVEL] = vCombY;
 #ifdef MEAN_CURVES
-	FurPoint point = FurPoint(vFrame, comb, vPoint, vTip, vReach, vS, vSlab, vec3(vCurvatureX, vCurvatureY, vCurvatureXY));
+	FurPoint point = FurPoint(vFrame, comb, vPoint, vReach, vS, vSlab, vec3(vCurvatureX, vCurvatureY, vCurvatureXY));
 #else
-	FurPoint point = FurPoint(vFrame, comb, vPoint, vTip, vReach, vS, 0.0, vec3(0.0));
+	FurPoint point = FurPoint(vFrame, comb, vPoint, vReach, vS, 0.0, vec3(0.0));
 #endif
 	return lampsAt(point, bendingOf(comb, vS), seenByEye(point));
 #else
@@ -67,6 +74,12 @@ Lamps receivedLamps() {
 	lamps.lobes = vec2(vLobe, vTintedLobe);
 #ifdef WET
 	lamps.power = vPower;
+#endif
+#endif
+#ifdef SHADOW_PER_FRAGMENT
+	lamps.place = vec3(vShadowX, vShadowY, vShadowZ);
+#ifdef SHADOW_SHARE
+	lamps.share = vShadowShare;
 #endif
 #endif
 	return lamps;

@@ -1,6 +1,6 @@
 // What of the light goes from vertex to fragment: moments, summed here; or, where lamps are summed per fragment, the point.
-// WebGL2 promises no more than 15 vectors: of a shell four matrices and three vec3, with eleven scalars in their gaps; where lamps are summed per
-// fragment three matrices, four vec3 and sixteen scalars.
+// WebGL2 promises no more than 15 vectors: of a shell four matrices and three vec3, with fifteen scalars in their gaps; where lamps are summed per
+// fragment three matrices, three vec3 and sixteen scalars.
 
 #ifdef SKY
 out mat3 vSkyLow;
@@ -11,7 +11,6 @@ out mat3 vSkyHigh;
 #ifdef LAMPS_PER_FRAGMENT
 out mat3 vFrame;
 out vec3 vPoint;
-out vec3 vTip;
 out float vReach;
 out float vS;
 #ifdef MEAN_CURVES
@@ -33,6 +32,14 @@ out vec3 vLampHigh;
 out mat3 vLampLow;
 #ifdef TWO_PLANES
 out mat3 vLampHigh;
+#endif
+#endif
+#ifdef SHADOW_PER_FRAGMENT
+out float vShadowX;
+out float vShadowY;
+out float vShadowZ;
+#ifdef SHADOW_SHARE
+out float vShadowShare;
 #endif
 #endif
 #ifdef BACKLIGHT
@@ -57,11 +64,12 @@ vec3 furCurvature(float lengthShare) {
 	return curvature * (furLength * lengthShare);
 }
 
-// Where shadows of others are caught, and how far from the skin that is: XYZ and W, world units.
-vec4 furTip(vec3 normal, float lengthShare) {
-	float reach = furLength * lengthShare;
-	mat4 placement = bodyModel();
-	return vec4((placement * vec4(position + normal * reach, 1.0)).xyz, reach * length(placement[0].xyz));
+// Of the hair, world units.
+float furReach(float lengthShare) {
+#ifdef WET
+	lengthShare *= furTraits.x;
+#endif
+	return furLength * lengthShare * length(bodyModel()[0].xyz);
 }
 
 // openness: to the sky, 0..1.
@@ -80,7 +88,6 @@ void passLight(FurPoint point, float openness) {
 	vCombX = point.comb.x;
 	vCombY = point.comb[LEVEL];
 	vPoint = point.pointVS;
-	vTip = point.tipWS;
 	vReach = point.reach;
 	vS = point.s;
 #ifdef MEAN_CURVES
@@ -94,6 +101,14 @@ void passLight(FurPoint point, float openness) {
 	vLampLow = lamps.moments.low;
 #ifdef TWO_PLANES
 	vLampHigh = lamps.moments.high;
+#endif
+#ifdef SHADOW_PER_FRAGMENT
+	vShadowX = lamps.place.x;
+	vShadowY = lamps.place.y;
+	vShadowZ = lamps.place.z;
+#ifdef SHADOW_SHARE
+	vShadowShare = lamps.share;
+#endif
 #endif
 #ifdef BACKLIGHT
 	vBack = lamps.back;
@@ -118,7 +133,7 @@ void passDarkness() {
 #endif
 #ifdef LAMPS_PER_FRAGMENT
 	vFrame = mat3(1.0);
-	vPoint = vTip = vec3(0.0);
+	vPoint = vec3(0.0);
 	vS = vReach = vCombX = vCombY = 0.0;
 #ifdef MEAN_CURVES
 	vSlab = vCurvatureX = vCurvatureY = vCurvatureXY = 0.0;
@@ -127,6 +142,12 @@ void passDarkness() {
 	vLampLow = NO_MOMENTS.low;
 #ifdef TWO_PLANES
 	vLampHigh = NO_MOMENTS.high;
+#endif
+#ifdef SHADOW_PER_FRAGMENT
+	vShadowX = vShadowY = vShadowZ = 2.0;
+#ifdef SHADOW_SHARE
+	vShadowShare = 0.0;
+#endif
 #endif
 #ifdef BACKLIGHT
 	vBack = Strength(0.0);

@@ -55,7 +55,6 @@ struct FurPoint {
 	mat3 frameVS; // (T, B, N) of the skin; of a fin (along the edge, N, across it)
 	vec3 comb; // displacement of the tip in that frame, share of the length
 	vec3 pointVS;
-	vec3 tipWS; // the hair's end, where shadows of others are caught
 	float reach; // of the hair, world units
 	float s; // 0 at the skin, 1 at the tip
 	float slab; // that is shown; of a fin the place between slabs' middles

@@ -11,6 +11,7 @@ uniform vec2 offset1; // −λ·Ω of a3, a4
 uniform float gloss; // of both highlights
 uniform float backlight; // of the light that comes through from behind
 
+#define FAINT 2e-3 // light of lamps, 4π·radiance of white, below which nobody looks for their shadow
 #define CREST 2.2 // L of what shines in full where fur is wet
 
 struct FurTexel {
@@ -79,6 +80,23 @@ vec3 hued(vec3 light) {
 // below zero under a strong lamp it must not eat the light of the sky, which turns shadows blue.
 vec3 furRadiance(FurTexel texel, vec3 colour, Lamps lamps, Moments sky) {
 	vec3 lamp = relight(texel, lamps.moments);
+#ifdef SHADOW_PER_FRAGMENT
+	vec3 most = lamp;
+#ifdef BACKLIGHT
+	most += hued(lamps.back) * backlight;
+#endif
+	if (max(max(most.r, most.g), most.b) > FAINT) {
+		float open = firstShadow(lamps.place);
+#ifdef SHADOW_SHARE
+		open = 1.0 - lamps.share * (1.0 - open);
+#endif
+		lamp *= open;
+		lamps.back *= open;
+#ifdef WET
+		lamps.power *= open;
+#endif
+	}
+#endif
 	vec3 light = lamp;
 #ifdef SKY
 	light += relight(texel, sky);

@@ -1,8 +1,17 @@
-// How much of a lamp reaches a point of the fur past other parts of the scene: three's shadow maps, filtered over a disc
-// of the light's own radius. What the fur itself shades is in the polynomials, and what the body below it shades as far as
-// it is round: so taps ask what stands before the ball on which the hair's tip lies, not before the tip.
+// How much of a lamp reaches a point of the fur past other parts of the scene: three's shadow maps. What the fur itself shades
+// is in the polynomials, and what the body below it shades as far as it is round: so maps are asked what stands before the place where
+// light leaves the ball on which the hairs' tips lie. The map's place of that is the point's own, whatever its depth.
+// The first directional lamp's shadow is caught per fragment, by one tap: a truth's edge is no softer. Those of others are caught per
+// vertex, filtered over a disc of the light's own radius.
 
 #if defined(USE_SHADOWMAP) && (NUM_DIR_LIGHT_SHADOWS > 0 || NUM_SPOT_LIGHT_SHADOWS > 0)
+
+#if NUM_DIR_LIGHT_SHADOWS > 0 && !defined(LAMPS_PER_FRAGMENT)
+#define SHADOW_PER_FRAGMENT
+#if NUM_DIR_LIGHTS + NUM_POINT_LIGHTS + NUM_SPOT_LIGHTS > 1
+#define SHADOW_SHARE // that lamp's part of the light of all
+#endif
+#endif
 
 #define SHADOW_TAPS 9
 
@@ -26,30 +35,33 @@ float shadowTap(ShadowMap map, vec3 at) {
 #endif
 }
 
+// Where light leaves the fur on its way from a point to the lamp, XY of the map and depth in it; as far on as clears the ball for
+// everything `spread` aside, share of the map's width. Outside of the map for what catches no shadows.
 // matrix: the world's axes → the map's.
-float shadow(ShadowMap map, vec2 size, float intensity, float bias, float radius, mat4 matrix, FurPoint point, vec3 lightVS) {
-	vec4 place = matrix * vec4(point.tipWS, 1.0);
-	vec3 at = place.xyz / place.w;
-	at.z += bias;
-	mat4 rows = transpose(matrix);
-	mat3 slopes = mat3(rows[0].xyz, rows[1].xyz, rows[2].xyz) - outerProduct(rows[3].xyz, at);
-	slopes /= place.w; // of X, Y and depth of the map, per unit of the world
-	vec3 lightWS = lightVS * mat3(viewMatrix), normalWS = point.frameVS[UPRIGHT] * mat3(viewMatrix);
-	float ball = point.reach * (radiusTowards(point, lightVS * point.frameVS) + 1.0), height = dot(normalWS, lightWS);
-	vec3 aside = ball * (normalWS - height * lightWS); // from the ball's axis to the tip
-	vec3 right = slopes[0] / dot(slopes[0], slopes[0]), up = slopes[1] / dot(slopes[1], slopes[1]);
-	float deeper = dot(slopes[2], lightWS);
+vec3 shadowPlace(mat4 matrix, float bias, float spread, FurPoint point, vec3 lightVS) {
+	if (!receiveShadow) return vec3(2.0);
+	vec3 pointWS = (point.pointVS - viewMatrix[3].xyz) * mat3(viewMatrix);
+	vec3 across = vec3(matrix[0].x, matrix[1].x, matrix[2].x);
+	spread *= dot(vec4(matrix[0].w, matrix[1].w, matrix[2].w, matrix[3].w), vec4(pointWS, 1.0)) / length(across);
+	vec3 lightTS = lightVS * point.frameVS;
+	float skin = point.reach * radiusTowards(point, lightTS), rise = point.reach * sqrt(max(1.0 - dot(point.comb, point.comb), 0.0));
+	float tips = skin + rise, here = skin + rise * (point.s / furTrim), ahead = here * lightTS.UP;
+	float aside = max(sqrt(max(here * here - ahead * ahead, 0.0)) - spread, 0.0);
+	float way = sqrt(max(tips * tips - aside * aside, 0.0)) - ahead + spread;
+	vec4 place = matrix * vec4(pointWS + way * (lightVS * mat3(viewMatrix)), 1.0);
+	return place.xyz / place.w + vec3(0.0, 0.0, bias);
+}
+
+// Share of the light that reaches a place of the map, and `radius` texels around it.
+float shadow(ShadowMap map, vec2 size, float intensity, float radius, vec3 at) {
 	// Half a turn's golden angle from tap to tap fills the disc evenly.
 	float sum = 0.0;
 	for (int i = 0; i < SHADOW_TAPS; i++) {
 		float r = sqrt((float(i) + 0.5) / float(SHADOW_TAPS)), angle = 2.3999632 * float(i);
-		vec2 offset = r * radius / size * vec2(cos(angle), sin(angle));
-		vec3 away = aside + offset.x * right + offset.y * up;
-		float rise = sqrt(max(ball * ball - dot(away, away), 0.0)) - ball * height;
-		sum += shadowTap(map, at + vec3(offset, rise * deeper));
+		sum += shadowTap(map, at + vec3(r * radius / size * vec2(cos(angle), sin(angle)), 0.0));
 	}
 	bool mapped = all(greaterThan(at, vec3(0.0))) && all(lessThan(at, vec3(1.0)));
-	return receiveShadow && mapped ? mix(1.0, sum / float(SHADOW_TAPS), intensity) : 1.0;
+	return mapped ? mix(1.0, sum / float(SHADOW_TAPS), intensity) : 1.0;
 }
 
 #if NUM_DIR_LIGHT_SHADOWS > 0
@@ -63,6 +75,15 @@ struct DirectionalLightShadow {
 uniform DirectionalLightShadow directionalLightShadows[NUM_DIR_LIGHT_SHADOWS];
 uniform mat4 directionalShadowMatrix[NUM_DIR_LIGHT_SHADOWS];
 uniform ShadowMap directionalShadowMap[NUM_DIR_LIGHT_SHADOWS];
+
+#ifdef SHADOW_PER_FRAGMENT
+// Share of the first directional lamp's light that reaches a place of its map.
+float firstShadow(vec3 at) {
+	vec2 away = abs(at.xy - 0.5);
+	if (max(away.x, away.y) > 0.5 || at.z > 1.0) return 1.0;
+	return mix(1.0, shadowTap(directionalShadowMap[0], at), directionalLightShadows[0].shadowIntensity);
+}
+#endif
 #endif
 
 #if NUM_SPOT_LIGHT_SHADOWS > 0

@@ -1,9 +1,8 @@
 void main() {
 	ShellPoint shell = shellPoint();
 	if (shell.there) {
-		vec4 tip = furTip(shell.normal, _fur.y);
 		vec3 bend = furCurvature(_fur.y);
-		passLight(FurPoint(shell.frameVS, shell.comb, shell.pointVS, tip.xyz, tip.w, shell.s, vAt.z, bend), _fur.z);
+		passLight(FurPoint(shell.frameVS, shell.comb, shell.pointVS, furReach(_fur.y), shell.s, vAt.z, bend), _fur.z);
 	} else {
 		passDarkness();
 	}

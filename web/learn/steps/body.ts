@@ -18,7 +18,7 @@ import { View } from '../view.ts';
 
 const MODEL = 'bunny';
 /** Of the fur's length, where the hull stands that casts the shadow. */
-const HULL = 0.5;
+const HULL = 0.75;
 
 interface Report {
 	asset: Record<'skin' | 'shells', { faces: number }>;

@@ -1,0 +1,97 @@
+import type { IUniform, Texture } from 'three';
+import { BODY_RADIUS } from './moments.ts';
+import { curveTable, SlabLight, standInWeights, type Weights } from './SlabLight.ts';
+import { TrimLight } from './TrimLight.ts';
+import { momentUniforms, type SlabMeanCurves, type Texels } from './texels.ts';
+
+/** What slabs are lit by in one material: the mean curves of the states that it shows, and what changes when hairs are cut. */
+export class PeltLight {
+	/** Of shaders, by their names. */
+	readonly uniforms: Record<string, IUniform>;
+	/** Mean curves, and the dry pelt's weights of them, in format 2.x. */
+	readonly means: SlabMeanCurves | undefined;
+	readonly #texels: Texels;
+	readonly #planes: readonly Texture[];
+	readonly #layers: number;
+	readonly #fin: boolean;
+	/** Whose table of curves it shares. */
+	readonly #leader: PeltLight | undefined;
+	readonly #slabLight: SlabLight | undefined;
+	#trimLight: TrimLight | undefined;
+	/** Weights of the states that the textures hold. */
+	#weights: readonly Weights[];
+	/** Stand-ins of the slabs of cut fur. */
+	#places: ArrayLike<number> | undefined;
+
+	/** @param planes of the coefficients @param layers slabs of the pelt @param fin whether the frame is a fin's */
+	constructor(texels: Texels, planes: readonly Texture[], layers: number, fin: boolean, leader?: PeltLight) {
+		const { means, basis } = texels;
+		this.means = means;
+		this.#texels = texels;
+		this.#planes = planes;
+		this.#layers = layers;
+		this.#fin = fin;
+		this.#leader = leader;
+		this.#weights = means ? [means.weights] : [];
+		this.#slabLight = means && new SlabLight(basis, means, this.#weights, BODY_RADIUS, fin);
+		this.uniforms = {
+			...(means
+				? {
+						curveTable: leader?.uniforms.curveTable ?? { value: curveTable(means.curves) },
+						slabLight: { value: this.#slabLight?.texture },
+					}
+				: momentUniforms(texels, fin)),
+			trimLight: { value: null },
+		};
+	}
+
+	/** β of the body as a whole, for the sky. */
+	set radius(radius: number) {
+		if (this.#slabLight) this.#slabLight.radius = radius;
+	}
+
+	/** Where in whole fur slabs have the light that these have when a share is left of them. */
+	places(share: number): Float64Array {
+		return this.#trim().places(share);
+	}
+
+	/** Has slabs lit as at these places; undefined: as they are. */
+	cut(places: Float64Array | undefined): void {
+		if (places) this.#trim().set(places);
+		this.#places = places;
+		this.#weigh();
+	}
+
+	/** Weights of the states that the textures hold, the driest first; undefined: of the dry pelt. */
+	show(states: readonly (Weights | undefined)[] = [undefined]): void {
+		const { means } = this;
+		if (!means) return;
+		this.#weights = states.map((weights = means.weights) => weights);
+		this.#weigh();
+	}
+
+	/** Has slabs, of states that the textures hold, the mean curves of those that stand in for them. */
+	#weigh(): void {
+		const { slabLight } = this.uniforms;
+		const places = this.#places;
+		if (!this.#slabLight || !slabLight) return;
+		this.#slabLight.states = places ? this.#weights.map((own) => standInWeights(own, places)) : this.#weights;
+		slabLight.value = this.#slabLight.texture;
+	}
+
+	/** Made from the texels that the material was made with: other states of the fur have their light changed alike. */
+	#trim(): TrimLight {
+		if (!this.#trimLight) {
+			this.#trimLight = new TrimLight(this.#planes, this.#texels, this.#layers, this.#fin ? 1 : this.#layers);
+			(this.uniforms.trimLight as IUniform).value = this.#trimLight.texture;
+		}
+		return this.#trimLight;
+	}
+
+	/** Frees what it has on the GPU. */
+	dispose(): void {
+		this.#trimLight?.texture.dispose();
+		this.#slabLight?.texture.dispose();
+		if (!this.#leader) (this.uniforms.curveTable as IUniform<Texture> | undefined)?.value.dispose();
+	}
+}
