@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from furbake.pelt.basis import Basis
 from furbake.pelt.curves import Curves
+from furbake.pelt.multiple import Multiple
 from furbake.pelt.paths import BODY_RADIUS
 
 Bytes = NDArray[np.uint8]
@@ -90,6 +91,7 @@ class Pelt:
     direction : (K, N, N, 3) bytes of the hairs' mean tangent, or None
     curves, weights : the slabs' mean curves, of all states, and the (K, Q) weights of this one; None: the texels'
         polynomials are all of their light
+    multiple : what of the slabs' light has met several hairs, None where that is not told
     state : dry unless the fur has others; in a dirty one `tint` is the mud's share of the coverage, here and in the fin
     """
 
@@ -110,6 +112,7 @@ class Pelt:
     bent: Floats | None = None
     curves: Curves | None = None
     weights: Floats | None = None
+    multiple: Multiple | None = None
     state: State = State()
 
     @property
