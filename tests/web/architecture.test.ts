@@ -27,6 +27,7 @@ const floors = [
 		'trim',
 	],
 	['levels', 'TrimLight', 'curves', 'stains', 'bent', 'hue'],
+	['multiple'],
 	['texels', 'SlabLight'],
 	['PeltMaterial', 'follicles'],
 	['FurMaterial', 'PeltStates', 'FurWeather', 'skin', 'curvature'],

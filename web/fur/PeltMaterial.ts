@@ -20,7 +20,7 @@ import {
 import { hairChunks, lampChunks, skyChunks, texelChunks } from './chunks.ts';
 import { followHue } from './hue.ts';
 import { BODY_RADIUS } from './moments.ts';
-import { curveTable, SlabLight, standInWeights, type Weights } from './SlabLight.ts';
+import { curveTable, SlabLight, type SlabState, standInState } from './SlabLight.ts';
 import colour from './shaders/colour.glsl?raw';
 import lightIn from './shaders/light.frag.glsl?raw';
 import lightOut from './shaders/light.vert.glsl?raw';
@@ -53,8 +53,8 @@ export class PeltMaterial extends ShaderMaterial {
 	/** Mean curves, and the dry pelt's weights of them, in format 2.x. */
 	readonly means: SlabMeanCurves | undefined;
 	readonly #slabLight: SlabLight | undefined;
-	/** Weights of the states that the textures hold. */
-	#weights: readonly Weights[];
+	/** What is told of the slabs of the states that the textures hold. */
+	#states: readonly SlabState[];
 	/** Stand-ins of the slabs of cut fur. */
 	#places: ArrayLike<number> | undefined;
 
@@ -73,7 +73,7 @@ export class PeltMaterial extends ShaderMaterial {
 		const { scale, offset } = decoder(texels.scale, texels.bias);
 		const { means, basis } = texels;
 		const fin = 'FIN' in (defines ?? {});
-		const slabLight = means && new SlabLight(basis, means, [means.weights], BODY_RADIUS, fin);
+		const slabLight = means && new SlabLight(basis, means, [means], BODY_RADIUS, fin);
 		super({
 			glslVersion: GLSL3,
 			lights: true,
@@ -108,6 +108,7 @@ export class PeltMaterial extends ShaderMaterial {
 			defines: {
 				...basisDefines(basis),
 				...(means && { MEAN_CURVES: '' }),
+				...(means?.multiple && { MULTIPLE: '' }),
 				...(texels.scale.length > 3 && { TWO_PLANES: '' }),
 				...(textures.colour && { COLOUR_PLANE: '' }),
 				SKY: '',
@@ -157,7 +158,7 @@ export class PeltMaterial extends ShaderMaterial {
 		this.#leader = leader;
 		this.means = means;
 		this.#slabLight = slabLight;
-		this.#weights = means ? [means.weights] : [];
+		this.#states = means ? [means] : [];
 		this.setTextures(textures);
 		if (leader) leader.#followers.push(this);
 	}
@@ -251,11 +252,11 @@ export class PeltMaterial extends ShaderMaterial {
 		this.#switch('TRIMMED', share < 1);
 	}
 
-	/** Has slabs, of states that the textures hold, the mean curves of those that stand in for them. */
-	#weigh(places: ArrayLike<number> | undefined, weights = this.#weights): void {
+	/** Has slabs, of states that the textures hold, the mean light of those that stand in for them. */
+	#weigh(places: ArrayLike<number> | undefined, own = this.#states): void {
 		this.#places = places;
-		this.#weights = weights;
-		const states = places ? weights.map((own) => standInWeights(own, places)) : weights;
+		this.#states = own;
+		const states = places ? own.map((state) => standInState(state, places)) : own;
 		for (const material of [this, ...this.#followers]) {
 			const [slabLight, uniform] = [material.#slabLight, material.uniforms.slabLight];
 			if (!slabLight || !uniform) continue;
@@ -339,8 +340,9 @@ export class PeltMaterial extends ShaderMaterial {
 		const parts = stain(this.uniforms, stained);
 		for (const [define, value] of Object.entries(parts)) this.#compile(define, value);
 		if (!this.means) return;
-		const { weights: dry } = this.means;
-		this.#weigh(this.#places, parts.WET ? (stained?.wet ?? []).map(({ weights = dry }) => weights) : [dry]);
+		const dry = this.means;
+		const wet = (stained?.wet ?? []).map(({ weights = dry.weights, multiple }) => ({ weights, multiple }));
+		this.#weigh(this.#places, parts.WET ? wet : [dry]);
 	}
 
 	/** Other planes of the same shape, or of several states of the fur, one after the other. */

@@ -2,7 +2,7 @@
 
 import { type IUniform, Vector3, Vector4 } from 'three';
 import type { MeanCurves } from './curves.ts';
-import { type Basis, channelOf } from './format.ts';
+import { type Basis, channelOf, type Multiple } from './format.ts';
 import { horizonMoments, polynomialCurves, smoothSum } from './moments.ts';
 
 /** What texels mean: how they are decoded, and what their coefficients multiply. */
@@ -20,6 +20,8 @@ export interface Texels {
 export interface SlabMeanCurves extends MeanCurves {
 	/** A row per slab, slab 0 first. */
 	weights: readonly (readonly number[])[];
+	/** Colour of light that has met several hairs in it. */
+	multiple?: Multiple | undefined;
 }
 
 /** GLSL of light curves 0..2 and 3..5, as defines; of a PTM there are none. */

@@ -97,7 +97,7 @@ def _multiple(stored: dict[str, Any], layers: int) -> Multiple:
     """Light that has met several hairs."""
     return Multiple(
         albedo=float(stored["albedo"]),
-        shares=_array(stored["shares"], layers, 4),
+        shares=_array(stored["shares"], layers, 3),
         ratio=_array(stored["ratio"], layers),
         seen=_array(stored["seen"], layers),
         tint=_array(stored["tint"], layers),

@@ -71,23 +71,27 @@ def curves(asset: Asset) -> Iterator[str]:
             yield f"{EXTENSION}: pelts[{i}].weights has a row of {length} numbers, expected {len(even)}"
         if pelt.get("dirt", 0) and rows != fur["pelts"][0]["weights"]:
             yield f"{EXTENSION}: pelts[{i}].weights differs though it is dirty, expected that of pelts[0]"
-        if "multiple" in pelt:
-            yield from _multiple(pelt, i, fur)
-    several = ["multiple" in pelt for pelt in fur["pelts"]]
-    if any(several) and not all(several):
-        yield f"{EXTENSION}: {several.count(False)} of {len(several)} pelts have no multiple, expected all or none"
     if "environment" in fur or any("environment" in pelt.get("fin", {}) for pelt in fur["pelts"]):
         yield f"{EXTENSION}: an environment in version {fur['version']}, expected none: curves tell it"
 
 
-def _multiple(pelt: dict[str, Any], i: int, fur: dict[str, Any]) -> Iterator[str]:
-    """A row or number per slab."""
-    multiple = pelt["multiple"]
-    for key in ("shares", "ratio", "seen", "tint", *(["colour"] if "colour" in multiple else [])):
-        if len(multiple[key]) != fur["layers"]:
-            yield f"{EXTENSION}: pelts[{i}].multiple.{key} has {len(multiple[key])} rows, expected {fur['layers']}"
-    if ("colour" in multiple) != ("colour" in fur["pelts"][0]):
-        yield f"{EXTENSION}: pelts[{i}].multiple and pelts[0] differ in having colours, expected both or none"
+def multiple(asset: Asset) -> Iterator[str]:
+    """In all pelts or none, a row or number per slab, colours there where the first has a plane of them."""
+    fur = asset.fur
+    several = ["multiple" in pelt for pelt in fur["pelts"]]
+    if not any(several):
+        return
+    if not all(several):
+        yield f"{EXTENSION}: {several.count(False)} of {len(several)} pelts have no multiple, expected all or none"
+    if "curves" not in fur:
+        yield f"{EXTENSION}: multiple without curves, expected both"
+    for i, pelt in enumerate(fur["pelts"]):
+        told = pelt.get("multiple", {})
+        for key in ("shares", "ratio", "seen", "tint", "colour"):
+            if key in told and len(told[key]) != fur["layers"]:
+                yield f"{EXTENSION}: pelts[{i}].multiple.{key} has {len(told[key])} rows, expected {fur['layers']}"
+        if told and ("colour" in told) != ("colour" in fur["pelts"][0]):
+            yield f"{EXTENSION}: one of pelts[{i}].multiple and pelts[0] has no colour, expected both or none"
 
 
 def states(asset: Asset) -> Iterator[str]:

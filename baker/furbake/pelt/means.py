@@ -53,7 +53,7 @@ class Measured:
     """Mean light of the slabs: lights (n, 3), values (n, K), on a body of radius β.
 
     albedo : of the hairs
-    multiple : (n, K) what of it has met several hairs; darker : the same with `LESS` of the albedo, where it is measured
+    multiple : (n, K) of the light that has met several hairs; darker : the same with `LESS` of the albedo
     """
 
     beta: float

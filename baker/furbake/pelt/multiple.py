@@ -1,12 +1,17 @@
-"""Colour of light that has met many hairs: what share of a slab's light it is, and how it follows the hairs' colour.
+"""Colour of light that has met many hairs: what share of a slab's light it is, and how it follows their colour.
 
-Light that met n hairs has their colour to the power n, while the samples' hairs are of one grey ϖ. M, the light that was
-scattered more than once, is nearly a geometric series whose orders shrink by ρ·c: hairs of colour c get
+Light that met n hairs has their colour to the power n, while the samples' hairs are of one grey ϖ. M, the light that
+was scattered more than once, is nearly a geometric series whose orders shrink by ρ·c: hairs of colour c get
 
     g(c) = (c/ϖ)·(1 − ρϖ)/(1 − ρc)
 
-times the M that was sampled; T·D is as it was. So a slab's light is its samples' times 1 + x(l)·(g − 1), x = M/(T·D + M).
-With the colours of the own slab alone, transport in hairs of the presets' ramps, seen from above, is met within 2 %.
+times the M that was sampled; T·D is as it was. So a slab's light is its samples' times 1 + x·(g − 1), x = M/(T·D + M).
+With the colours of the own slab alone, transport in hairs of the presets' ramps, seen from above, is met within 4 %
+on the mean of all lights.
+
+x goes by the height of the light, not by its azimuth. Straight from above it does, since light across the lean shows
+the dark or the bright side of the hairs, but eyes elsewhere see other sides. (Fox on a ball, path-traced: if x goes by
+azimuth, too, up to 16 % of the light are missing, otherwise 3 to 7 %.)
 """
 
 from __future__ import annotations
@@ -17,7 +22,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.pelt.basis import held
 from furbake.pelt.curves import Curves, sphere
 from furbake.pelt.means import LESS, Measured, rounded
 from furbake.pelt.paths import BODY_RADIUS
@@ -37,7 +41,7 @@ class Multiple:
     """Light that has met several hairs in the slabs of one state.
 
     albedo : ϖ of the hairs that were sampled
-    shares : (K, 4) numbers of x, see `share`
+    shares : (K, 3) numbers of x, see `share`
     ratio : (K,) ρ
     seen : (K,) share of each slab in what is seen of the fur from above, in even light
     tint : (K,) mean of the texels' tint; colour : (K, 3) mean colour of the hairs, linear, None without a colour plane
@@ -50,9 +54,9 @@ class Multiple:
     tint: Array
     colour: Array | None = None
 
-    def share(self, lights: Array, lean: Array, beta: float = BODY_RADIUS) -> Array:
+    def share(self, lights: Array, beta: float = BODY_RADIUS) -> Array:
         """x, (n, 3) unit directions → (n, K) in 0..1."""
-        return np.clip(terms(lights, lean, beta) @ self.shares.T, 0, 1)
+        return np.clip(terms(lights, beta) @ self.shares.T, 0, 1)
 
     def gain(self, colour: Array) -> Array:
         """g, for hairs of colours (..., K) or (..., 1)."""
@@ -60,11 +64,10 @@ class Multiple:
         return np.asarray(held_colour / self.albedo * (1 - self.ratio * self.albedo) / (1 - self.ratio * held_colour))
 
 
-def terms(lights: Array, lean: Array, beta: float) -> Array:
-    """What the numbers of x multiply, (n, 4): 1, √lz, l_h·m of the light held on the horizon, log₄ β."""
+def terms(lights: Array, beta: float) -> Array:
+    """What the numbers of x multiply, (n, 3): 1, √lz (0 below the horizon), log₄ β."""
     steep = np.sqrt(np.maximum(lights[:, 2], 0))
-    along = held(lights)[:, :2] @ lean
-    return np.stack([np.ones(len(lights)), steep, along, np.full(len(lights), np.log2(beta) / 2)], -1)
+    return np.stack([np.ones(len(lights)), steep, np.full(len(lights), np.log2(beta) / 2)], -1)
 
 
 def multiple_of(
@@ -72,8 +75,8 @@ def multiple_of(
 ) -> Multiple | None:
     """Of the slabs (K) of a state with these weights (K, Q) of the curves.
 
-    bodies : of `measure`, None without any; volume : the stored slabs; colour : (K, N, N, 3) of the hairs in its texels,
-    linear
+    bodies : of `measure`, None without any; volume : the stored slabs
+    colour : (K, N, N, 3) of the hairs in its texels, linear
     """
     if not bodies:
         return None
@@ -87,7 +90,7 @@ def multiple_of(
     seen = (clear * volume.coverage).mean((1, 2)) * light * tint
     return Multiple(
         albedo=bodies[0].albedo,
-        shares=rounded(shares_of(bodies, curves.lean)),
+        shares=rounded(shares_of(bodies)),
         ratio=rounded(shrinking(bodies)),
         seen=rounded(seen / max(seen.sum(), 1e-12)),
         tint=rounded(tint),
@@ -95,13 +98,13 @@ def multiple_of(
     )
 
 
-def shares_of(bodies: Sequence[Measured], lean: Array) -> Array:
-    """Numbers of x, (K, 4), by least squares: lights count by how bright they leave a slab."""
-    rows = np.concatenate([terms(body.lights, lean, body.beta) for body in bodies])
+def shares_of(bodies: Sequence[Measured]) -> Array:
+    """Numbers of x, (K, 3), by least squares: lights count by how bright they leave a slab."""
+    rows = np.concatenate([terms(body.lights, body.beta) for body in bodies])
     light = np.maximum(np.concatenate([body.values for body in bodies]), 1e-9)
     multiple = np.concatenate([body.values if body.multiple is None else body.multiple for body in bodies])
     # In a slab that no light reaches all of it has met other hairs.
-    small = 1e-9 * np.eye(4)
+    small = 1e-9 * np.eye(3)
     matrix = np.einsum("nk,ni,nj->kij", light, rows, rows) + small
     return np.asarray(np.linalg.solve(matrix, ((multiple.T @ rows) + small[0])[..., None])[..., 0])
 

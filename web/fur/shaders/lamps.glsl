@@ -8,6 +8,9 @@ struct Lamps {
 	LampMoments moments;
 	Strength back; // light that comes through the hairs from behind
 	vec2 lobes; // highlights: white, of the hair's colour; times the lamps' light on the texel
+#ifdef TINGED
+	vec4 tinge; // RGB = what light that met several hairs has made of their sum; A = light that told it
+#endif
 #ifdef WET
 	float power; // irradiance
 #endif
@@ -18,10 +21,16 @@ struct Lamps {
 #else
 #define NO_MOMENTS LampMoments(mat3(0.0), mat3(0.0))
 #endif
-#ifdef WET
-#define DARKNESS Lamps(NO_MOMENTS, Strength(0.0), vec2(0.0), 0.0)
+#define FAINT 1e-4 // light whose colour is of no account
+#ifdef TINGED
+#define NO_TINGE , vec4(FAINT)
 #else
-#define DARKNESS Lamps(NO_MOMENTS, Strength(0.0), vec2(0.0))
+#define NO_TINGE
+#endif
+#ifdef WET
+#define DARKNESS Lamps(NO_MOMENTS, Strength(0.0), vec2(0.0) NO_TINGE, 0.0)
+#else
+#define DARKNESS Lamps(NO_MOMENTS, Strength(0.0), vec2(0.0) NO_TINGE)
 #endif
 
 // Unit vector along the hairs.
@@ -52,7 +61,8 @@ vec2 highlights(vec3 strand, vec3 normalVS, vec3 light, vec3 viewer) {
 #endif
 }
 
-void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bending, vec3 lightVS, vec3 irradiance) {
+// many: what is left of light that has met several hairs.
+void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bending, vec3 many, vec3 lightVS, vec3 irradiance) {
 	vec3 lightTS = lightVS * point.frameVS;
 	float radius = radiusTowards(point, lightTS), height = lightTS.UP, fade = 1.0;
 	if (height < 0.0) {
@@ -70,10 +80,16 @@ void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bendi
 	float strength = luminance;
 	lamps.moments.low += (gain * strength) * low;
 	lamps.moments.high += (gain * strength) * high;
+#ifdef TINGED
+	lamps.tinge += max(gain * strength, 0.0) * vec4(lampTinge(point, many, radius, max(height, 0.0)), 1.0);
+#endif
 #else
-	vec3 strength = irradiance;
-	lamps.moments.low += outerProduct(gain * strength, low);
-	lamps.moments.high += outerProduct(gain * strength, high);
+	vec3 strength = irradiance, coloured = gain * strength;
+#ifdef MULTIPLE
+	coloured *= lampTinge(point, many, radius, max(height, 0.0));
+#endif
+	lamps.moments.low += outerProduct(coloured, low);
+	lamps.moments.high += outerProduct(coloured, high);
 #endif
 #if defined(GLOSS) || defined(BACKLIGHT)
 	vec3 strand = strandVS(point), viewer = viewerVS(point.pointVS);
@@ -89,6 +105,11 @@ Lamps lampsAt(FurPoint point, Bending bending) {
 	Lamps lamps = DARKNESS;
 	IncidentLight light;
 	float power = 0.0;
+#ifdef MULTIPLE
+	vec3 many = multipleGain(point);
+#else
+	vec3 many = vec3(1.0);
+#endif
 #if NUM_DIR_LIGHTS > 0
 	#pragma unroll_loop_start
 	for (int i = 0; i < NUM_DIR_LIGHTS; i++) {
@@ -96,14 +117,14 @@ Lamps lampsAt(FurPoint point, Bending bending) {
 #if defined(USE_SHADOWMAP) && (UNROLLED_LOOP_INDEX < NUM_DIR_LIGHT_SHADOWS)
 		light.color *= shadow(directionalShadowMap[ i ], directionalLightShadows[ i ].shadowMapSize, directionalLightShadows[ i ].shadowIntensity, directionalLightShadows[ i ].shadowBias, directionalLightShadows[ i ].shadowRadius, directionalShadowMatrix[ i ], point, light.direction);
 #endif
-		addLamp(lamps, power, point, bending, light.direction, light.color);
+		addLamp(lamps, power, point, bending, many, light.direction, light.color);
 	}
 	#pragma unroll_loop_end
 #endif
 #if NUM_POINT_LIGHTS > 0
 	for (int i = 0; i < NUM_POINT_LIGHTS; i++) {
 		getPointLightInfo(pointLights[i], point.pointVS, light);
-		addLamp(lamps, power, point, bending, light.direction, light.color);
+		addLamp(lamps, power, point, bending, many, light.direction, light.color);
 	}
 #endif
 #if NUM_SPOT_LIGHTS > 0
@@ -113,11 +134,14 @@ Lamps lampsAt(FurPoint point, Bending bending) {
 #if defined(USE_SHADOWMAP) && (UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS)
 		light.color *= shadow(spotShadowMap[ i ], spotLightShadows[ i ].shadowMapSize, spotLightShadows[ i ].shadowIntensity, spotLightShadows[ i ].shadowBias, spotLightShadows[ i ].shadowRadius, spotLightMatrix[ i ], point, light.direction);
 #endif
-		addLamp(lamps, power, point, bending, light.direction, light.color);
+		addLamp(lamps, power, point, bending, many, light.direction, light.color);
 	}
 	#pragma unroll_loop_end
 #endif
 	lamps.lobes /= max(power, 1e-6);
+#ifdef TINGED
+	lamps.tinge /= lamps.tinge.w;
+#endif
 #ifdef WET
 	lamps.lobes *= furTraits.z;
 	lamps.power = power;

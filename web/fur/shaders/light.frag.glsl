@@ -32,6 +32,9 @@ in mat3 vLampLow;
 in mat3 vLampHigh;
 #endif
 #endif
+#ifdef TINGED
+in vec3 vTinge;
+#endif
 #ifdef BACKLIGHT
 in Strength vBack;
 #endif
@@ -59,6 +62,9 @@ Lamps receivedLamps() {
 	lamps.moments.low = vLampLow;
 #ifdef TWO_PLANES
 	lamps.moments.high = vLampHigh;
+#endif
+#ifdef TINGED
+	lamps.tinge.rgb = vTinge;
 #endif
 #ifdef BACKLIGHT
 	lamps.back = vBack;

@@ -35,6 +35,9 @@ out mat3 vLampLow;
 out mat3 vLampHigh;
 #endif
 #endif
+#ifdef TINGED
+out vec3 vTinge;
+#endif
 #ifdef BACKLIGHT
 out Strength vBack;
 #endif
@@ -94,6 +97,9 @@ void passLight(FurPoint point, float openness) {
 #ifdef TWO_PLANES
 	vLampHigh = lamps.moments.high;
 #endif
+#ifdef TINGED
+	vTinge = lamps.tinge.rgb;
+#endif
 #ifdef BACKLIGHT
 	vBack = lamps.back;
 #endif
@@ -126,6 +132,9 @@ void passDarkness() {
 	vLampLow = NO_MOMENTS.low;
 #ifdef TWO_PLANES
 	vLampHigh = NO_MOMENTS.high;
+#endif
+#ifdef TINGED
+	vTinge = vec3(1.0);
 #endif
 #ifdef BACKLIGHT
 	vBack = Strength(0.0);

@@ -79,6 +79,9 @@ vec3 hued(vec3 light) {
 // below zero under a strong lamp it must not eat the light of the sky, which turns shadows blue.
 vec3 furRadiance(FurTexel texel, vec3 colour, Lamps lamps, Moments sky) {
 	vec3 lamp = relight(texel, lamps.moments);
+#ifdef TINGED
+	lamp *= lamps.tinge.rgb;
+#endif
 	vec3 light = lamp;
 #ifdef SKY
 	light += relight(texel, sky);

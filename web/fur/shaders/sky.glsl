@@ -102,6 +102,12 @@ Moments environmentMoments(FurPoint point, Bending bending) {
 	addDip(moments, point, around, bending);
 #endif
 	if (bending.there) addBent(moments, point, around, bending);
+#ifdef MULTIPLE
+	vec3 tinge = skyTinge(point, multipleGain(point));
+	mat3 rows = mat3(tinge, tinge, tinge);
+	moments.low = matrixCompMult(moments.low, rows);
+	moments.high = matrixCompMult(moments.high, rows);
+#endif
 #ifdef TRIMMED
 	moments = trimmed(moments, point.s);
 #endif
