@@ -1,7 +1,8 @@
 /** Light that has met several hairs, and colours as they are seen because of it. Knows no three. */
 
 import { curveValues, heldRadius, type MeanCurves, rings } from './curves.ts';
-import type { Multiple } from './format.ts';
+import type { FurAsset, Multiple } from './format.ts';
+import { BODY_RADIUS } from './moments.ts';
 
 /** Of hairs, where light is counted that they send to each other. */
 const MOST_COLOUR = 0.98;
@@ -49,7 +50,10 @@ export function skyShares(
 	return sums.map(([many, all]) => (all > 0 ? many / all : 1));
 }
 
-/** Colours as hairs have them and as their fur is seen; to and fro, channel by channel, linear. */
+/**
+ * Colours as hairs have them and as their fur is seen, to and fro: hairs take light from each other, so that fur of one
+ * colour is darker, and more of that colour, than its hairs. Linear, channel by channel.
+ */
 export class SeenColours {
 	readonly #multiple: Multiple;
 	readonly #shares: readonly number[];
@@ -60,7 +64,15 @@ export class SeenColours {
 		this.#shares = shares;
 	}
 
-	/** Fur of hairs of one colour in even light, over the same fur's light if none were lost between hairs: what is seen. */
+	/** Of an asset's dry pelt; undefined where it does not tell, and hairs are seen in their own colours. */
+	static of(asset: Pick<FurAsset, 'curves' | 'pelts'>): SeenColours | undefined {
+		const { curves, pelts } = asset;
+		const { multiple, weights = [] } = pelts[0] ?? {};
+		if (!curves || !multiple) return undefined;
+		return new SeenColours(multiple, skyShares(multiple, { curves, way: [0, 1] }, weights, BODY_RADIUS));
+	}
+
+	/** The mean colour, from above and in even light, of fur whose hairs are of one colour; over that of the samples' light. */
 	seen(colour: number): number {
 		const { seen, tint } = this.#multiple;
 		return seen.reduce((sum, part, k) => {
@@ -69,7 +81,7 @@ export class SeenColours {
 		}, 0);
 	}
 
-	/** Which hairs are seen so; no more than 1. */
+	/** Which hairs are seen so; no more than 1, of which the palest are. */
 	hairs(seen: number): number {
 		let [low, high] = [0, 1];
 		for (let i = 0; i < 40; i++) {
