@@ -19,6 +19,7 @@ from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt, skin_colour
 from furbake.options import OptionError
 from furbake.pelt.basis import environment
+from furbake.pelt.multiple import sky_share
 from furbake.pelt.paths import BODY_RADIUS
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.quantise import dequantise, srgb_bytes
@@ -173,15 +174,16 @@ def radiance(
     root, tip = np.array(pelt.ramp.root), np.array(pelt.ramp.tip)
 
     mean = pelt.mean(lights)
+    tinge = tinges(pelt, hairs, lights, base)
 
     def lit(at: Array, k: int, s: float) -> Iterator[Array]:
         """Light of all pixels of slab k under each lamp."""
-        sky = np.maximum(at @ sky_moments[k], 0)
+        sky = tinge[-1, k] * np.maximum(at @ sky_moments[k], 0)
         for n, light in enumerate(lights):
             seen, fade = above_horizon(light, s)
             share = fade if mean is None else mean[n, k]
             curve = np.maximum(at @ (share * pelt.basis(seen[None])[0]), 0)
-            yield (curve[..., None] * lamp + sky) / (4 * np.pi)
+            yield (curve[..., None] * (tinge[n, k] * lamp) + sky) / (4 * np.pi)
 
     bare = resample(coefficients[0], pixels, (0.0, 0.0))
     images: Array = np.stack([SKIN * base * root * light for light in lit(bare, 0, 0.0)])
@@ -198,6 +200,22 @@ def radiance(
         for n, light in enumerate(lit(a, k, float(s))):
             images[n] += opacity * (colour * light - images[n])
     return images
+
+
+def tinges(pelt: Pelt, hairs: Pelt, lights: Array, base: Array) -> Array:
+    """What the light of n lamps, and last of the sky, is multiplied by for the hairs' colour, (n + 1, K, 3).
+
+    base : (3,) by which the hairs' colours are multiplied
+    """
+    multiple, curves, weights = pelt.multiple, pelt.curves, pelt.weights
+    if multiple is None or curves is None or weights is None:
+        return np.ones((len(lights) + 1, pelt.layers, 3))
+    colour = multiple.colour if hairs.colour is not None else None
+    if colour is None:
+        colour = hairs.ramp.colour(multiple.tint, np.zeros(pelt.layers))
+    shares = np.concatenate([multiple.share(lights), sky_share(multiple, curves, weights)[None]])
+    gain = multiple.gain((base * colour).T).T
+    return np.asarray(1 + shares[..., None] * (gain - 1))
 
 
 def sky_of(pelt: Pelt) -> Array:

@@ -64,6 +64,13 @@ class Multiple:
         return np.asarray(held_colour / self.albedo * (1 - self.ratio * self.albedo) / (1 - self.ratio * held_colour))
 
 
+def sky_share(multiple: Multiple, curves: Curves, weights: Array, beta: float = BODY_RADIUS) -> Array:
+    """x under an even sky, (K,): the mean of all lights, each by what it gives."""
+    directions, area = sphere(beta)
+    light = np.maximum(curves.mean(directions, weights, beta), 0) * area[:, None]
+    return np.asarray((light * multiple.share(directions, beta)).sum(0) / np.maximum(light.sum(0), 1e-12))
+
+
 def terms(lights: Array, beta: float) -> Array:
     """What the numbers of x multiply, (n, 3): 1, √lz (0 below the horizon), log₄ β."""
     steep = np.sqrt(np.maximum(lights[:, 2], 0))

@@ -22,9 +22,9 @@ RGB = tuple[float, float, float]
 class Ramp:
     """Colour along a hair, linear Rec. 709: mix(root, mix(tip, tip2, hue), s^power)."""
 
-    root: RGB = (0.06, 0.030, 0.016)
-    tip: RGB = (0.60, 0.37, 0.20)
-    tip2: RGB = (0.90, 0.76, 0.58)
+    root: RGB = (0.104, 0.053, 0.028)
+    tip: RGB = (0.795, 0.556, 0.327)
+    tip2: RGB = (0.99, 0.92, 0.78)
     power: float = 1.2
 
     def colour(self, tint: Floats, hue: Floats) -> Floats:
