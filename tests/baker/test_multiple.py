@@ -18,11 +18,12 @@ from furbake.options import BakeOptions, preset
 from furbake.pelt.means import Measured, coarser, directions, mean_light
 from furbake.pelt.multiple import Multiple, multiple_of, shares_of, shrinking, terms
 from furbake.pelt.paths import BODY_RADIUS
-from furbake.pelt.pelt import Pelt, State
+from furbake.pelt.pelt import Pelt, Ramp, State
 from furbake.pelt.states import DIRTY, in_state, moistened
 from furbake.pelt.strands import grow
 from furbake.pelt.transport import sample_apart
 from furbake.pelt.volume import Volume, coarsen
+from furbake.swatch import radiance
 from furbake.tile import fit_pelt, fit_pelts, grown, light, sampled
 
 RNG = np.random.default_rng(8)
@@ -153,3 +154,19 @@ def test_no_bodies_tell_nothing(baked: tuple[BakeOptions, Volume, Pelt]) -> None
     assert pelt.curves is not None
     assert pelt.weights is not None
     assert multiple_of((), pelt.curves, pelt.weights, coarsen(fine, 8, 16), None) is None
+
+
+def test_the_pelt_on_the_cpu_is_darker_between_dark_hairs(baked: tuple[BakeOptions, Volume, Pelt]) -> None:
+    _, _, pelt = baked
+    multiple = replace(told(pelt), tint=np.ones(8), colour=None)
+    lights = np.array([[0.6, 0.0, 0.8]])
+
+    def shown(grey: float, known: bool) -> float:
+        ramp = Ramp((grey,) * 3, (grey,) * 3, (grey,) * 3)
+        plain = replace(
+            pelt, ramp=ramp, colour=None, tint=np.full_like(pelt.tint, 255), multiple=multiple if known else None
+        )
+        return float(radiance(plain, lights, 16).mean())
+
+    assert shown(multiple.albedo, True) == pytest.approx(shown(multiple.albedo, False), rel=1e-6)
+    assert 0.35 < shown(0.2, True) / shown(0.2, False) < 0.75
