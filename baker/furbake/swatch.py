@@ -19,7 +19,6 @@ from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt, skin_colour
 from furbake.options import OptionError
 from furbake.pelt.basis import environment
-from furbake.pelt.multiple import sky_share
 from furbake.pelt.paths import BODY_RADIUS
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.quantise import dequantise, srgb_bytes
@@ -174,7 +173,9 @@ def radiance(
     root, tip = np.array(pelt.ramp.root), np.array(pelt.ramp.tip)
 
     mean = pelt.mean(lights)
-    tinge = tinges(pelt, hairs, lights, base)
+    tinge = np.ones((len(lights) + 1, pelt.layers, 3))
+    if pelt.multiple is not None and pelt.curves is not None and pelt.weights is not None:
+        tinge = pelt.multiple.tinges(pelt.curves, pelt.weights, hairs.ramp, base, lights)
 
     def lit(at: Array, k: int, s: float) -> Iterator[Array]:
         """Light of all pixels of slab k under each lamp."""
@@ -200,22 +201,6 @@ def radiance(
         for n, light in enumerate(lit(a, k, float(s))):
             images[n] += opacity * (colour * light - images[n])
     return images
-
-
-def tinges(pelt: Pelt, hairs: Pelt, lights: Array, base: Array) -> Array:
-    """What the light of n lamps, and last of the sky, is multiplied by for the hairs' colour, (n + 1, K, 3).
-
-    base : (3,) by which the hairs' colours are multiplied
-    """
-    multiple, curves, weights = pelt.multiple, pelt.curves, pelt.weights
-    if multiple is None or curves is None or weights is None:
-        return np.ones((len(lights) + 1, pelt.layers, 3))
-    colour = multiple.colour if hairs.colour is not None else None
-    if colour is None:
-        colour = hairs.ramp.colour(multiple.tint, np.zeros(pelt.layers))
-    shares = np.concatenate([multiple.share(lights), sky_share(multiple, curves, weights)[None]])
-    gain = multiple.gain((base * colour).T).T
-    return np.asarray(1 + shares[..., None] * (gain - 1))
 
 
 def sky_of(pelt: Pelt) -> Array:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TextIO
@@ -31,7 +32,12 @@ def write_painted(folder: Path, control: Floats, colours: NDArray[np.floating]) 
     between = (colours[:, :-1].astype(np.float64) + colours[:, 1:]) / 2
     seen = between.reshape(-1, 3) ** (1 / GAMMA)
     some = seen[np.random.default_rng(0).integers(len(seen), size=SAMPLES)]
-    centres, _ = kmeans2(some, some[:COLOURS].copy(), minit="matrix", iter=20)
+    centres = np.unique(np.round(some, 4), axis=0)
+    if len(centres) > COLOURS:
+        start = centres[np.linspace(0, len(centres) - 1, COLOURS).astype(np.intp)]
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)  # a shade that no piece is nearest to stays empty
+            centres, _ = kmeans2(some, start, minit="matrix", iter=20)
     kind = vq(seen, centres)[0].reshape(between.shape[:2])
     for number in range(len(centres)):
         hair, piece = np.nonzero(kind == number)

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,9 @@ from furbake.pelt.curves import Curves, sphere
 from furbake.pelt.means import LESS, Measured, rounded
 from furbake.pelt.paths import BODY_RADIUS
 from furbake.pelt.volume import Volume
+
+if TYPE_CHECKING:
+    from furbake.pelt.pelt import Ramp
 
 Array = NDArray[np.float64]
 
@@ -62,6 +66,15 @@ class Multiple:
         """g, for hairs of colours (..., K) or (..., 1)."""
         held_colour = np.clip(colour, 0, MOST_COLOUR)
         return np.asarray(held_colour / self.albedo * (1 - self.ratio * self.albedo) / (1 - self.ratio * held_colour))
+
+    def tinges(self, curves: Curves, weights: Array, ramp: Ramp, base: Array, lights: Array) -> Array:
+        """What the light of n lamps, and last of an even sky, is multiplied by for the hairs' colour, (n + 1, K, 3).
+
+        ramp : of the hairs, where they have no colours of their own; base : (3,) what all of these are multiplied by
+        """
+        colour = ramp.colour(self.tint, np.zeros(len(self.tint))) if self.colour is None else self.colour
+        shares = np.concatenate([self.share(lights), sky_share(self, curves, weights)[None]])
+        return np.asarray(1 + shares[..., None] * (self.gain((base * colour).T).T - 1))
 
 
 def sky_share(multiple: Multiple, curves: Curves, weights: Array, beta: float = BODY_RADIUS) -> Array:
