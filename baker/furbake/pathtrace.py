@@ -27,8 +27,8 @@ TILES = 2
 THINNEST = 1e-6
 """Radius below which no hair falls, tile widths."""
 
-LLVM = "llvm_ad_mono"
-"""Mitsuba's variant that compiles what it renders."""
+LLVM, LLVM_COLOUR = "llvm_ad_mono", "llvm_ad_rgb"
+"""Mitsuba's variants that compile what they render: in greys, and in colours."""
 
 ABOVE = 8.0
 """Height of the orthographic camera above the skin, tile widths. Fur is at most 4 long."""
@@ -38,19 +38,20 @@ class VerifyError(ValueError):
     """A bake that cannot be verified; one sentence that says why, and what would help."""
 
 
-def load(fast: bool = False) -> Any:
+def load(fast: bool = False, coloured: bool = False) -> Any:
     """Mitsuba, ready to render; fast : by LLVM, where its library is found. Raises VerifyError where it is missing."""
     try:
         mitsuba: Any = importlib.import_module("mitsuba")
     except ImportError as error:
         raise VerifyError(f"mitsuba: {error}, expected the optional extra: pip install 'furbake[verify]'") from error
-    mitsuba.set_variant(LLVM if fast and _has_llvm(mitsuba) else "scalar_rgb")
+    variant = LLVM_COLOUR if coloured else LLVM
+    mitsuba.set_variant(variant if fast and _has_llvm(mitsuba, variant) else "scalar_rgb")
     mitsuba.set_log_level(mitsuba.LogLevel.Error)
     return mitsuba
 
 
-def _has_llvm(mitsuba: Any) -> bool:
-    if LLVM not in mitsuba.variants():
+def _has_llvm(mitsuba: Any, variant: str) -> bool:
+    if variant not in mitsuba.variants():
         return False
     drjit: Any = importlib.import_module("drjit")
     return bool(drjit.has_backend(drjit.JitBackend.LLVM))

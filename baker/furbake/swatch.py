@@ -173,15 +173,18 @@ def radiance(
     root, tip = np.array(pelt.ramp.root), np.array(pelt.ramp.tip)
 
     mean = pelt.mean(lights)
+    tinge = np.ones((len(lights) + 1, pelt.layers, 3))
+    if pelt.multiple is not None and pelt.curves is not None and pelt.weights is not None:
+        tinge = pelt.multiple.tinges(pelt.curves, pelt.weights, hairs.ramp, base, lights)
 
     def lit(at: Array, k: int, s: float) -> Iterator[Array]:
         """Light of all pixels of slab k under each lamp."""
-        sky = np.maximum(at @ sky_moments[k], 0)
+        sky = tinge[-1, k] * np.maximum(at @ sky_moments[k], 0)
         for n, light in enumerate(lights):
             seen, fade = above_horizon(light, s)
             share = fade if mean is None else mean[n, k]
             curve = np.maximum(at @ (share * pelt.basis(seen[None])[0]), 0)
-            yield (curve[..., None] * lamp + sky) / (4 * np.pi)
+            yield (curve[..., None] * (tinge[n, k] * lamp) + sky) / (4 * np.pi)
 
     bare = resample(coefficients[0], pixels, (0.0, 0.0))
     images: Array = np.stack([SKIN * base * root * light for light in lit(bare, 0, 0.0)])

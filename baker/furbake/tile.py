@@ -16,6 +16,7 @@ from furbake.pelt.eigen import eigen, eigen_of_slabs
 from furbake.pelt.fill import fill, fill_directions
 from furbake.pelt.fit import Judge, fit, relight
 from furbake.pelt.means import Measured, mean_light, measure, shared, tables
+from furbake.pelt.multiple import Multiple, multiple_of
 from furbake.pelt.pelt import Pelt, State
 from furbake.pelt.quantise import byte_range, dequantise, gram, quantise, signed_bytes, srgb_bytes, unit_bytes
 from furbake.pelt.states import Fur
@@ -125,6 +126,7 @@ def fit_pelts(states: Sequence[Sampled], options: BakeOptions) -> list[tuple[Pel
     alphas = np.concatenate([state.volume.coverage for state in states])
     joined = samples[0] if len(states) == 1 else np.concatenate(samples, axis=1)
     curves, weights = (None, [None] * len(states)) if options.curves == "none" else mean_curves(states)
+    multiples = several(states, curves, weights, options)
     means = [None if curves is None or w is None else curves.mean(seen, w) for w in weights]
     of_all = None if curves is None else np.concatenate([mean for mean in means if mean is not None], axis=1)
     basis = choose_basis(joined, alphas, seen, options, of_all)
@@ -132,7 +134,9 @@ def fit_pelts(states: Sequence[Sampled], options: BakeOptions) -> list[tuple[Pel
     filled = [fill(part, state.volume.coverage) for part, state in zip(coefficients, states, strict=True)]
     scale, bias = byte_range(np.concatenate(filled), alphas)
     found = []
-    for state, fitted, stored, own, mean in zip(states, coefficients, filled, weights, means, strict=True):
+    for state, fitted, stored, own, mean, multiple in zip(
+        states, coefficients, filled, weights, means, multiples, strict=True
+    ):
         volume, alpha = state.volume, state.volume.coverage
         dirty = state.state.dirt > 0
         codes = quantise(stored, scale, bias, gram(basis(seen), mean))
@@ -153,6 +157,7 @@ def fit_pelts(states: Sequence[Sampled], options: BakeOptions) -> list[tuple[Pel
             direction=signed_bytes(fill_directions(volume.tangent, alpha)) if options.directions else None,
             curves=curves,
             weights=own,
+            multiple=multiple,
             state=state.state,
         )
         judge = Judge(state.lighting.samples[held_out], alpha, np.ones_like(alpha) if dirty else volume.tint)
@@ -179,6 +184,21 @@ def mean_curves(states: Sequence[Sampled]) -> tuple[Curves, list[Floats]]:
     curves, weights = shared(each, [state.volume.coverage.mean((1, 2)) for state in clean], lean)
     of_clean = dict(zip(map(id, clean), weights, strict=True))
     return curves, [of_clean.get(id(state), weights[0]) for state in states]
+
+
+def several(
+    states: Sequence[Sampled], curves: Curves | None, weights: Sequence[Floats | None], options: BakeOptions
+) -> list[Multiple | None]:
+    """What of the states' light has met several hairs. A dirty state has the first's, as it has its weights."""
+    found = list[Multiple | None]()
+    for state, own in zip(states, weights, strict=True):
+        if curves is None or own is None or not state.lighting.bodies:
+            found.append(found[0] if found else None)
+            continue
+        volume = state.volume
+        colour = options.ramp.colour(volume.tint, volume.hue) if options.colour_plane else None
+        found.append(multiple_of(state.lighting.bodies, curves, own, volume, colour))
+    return found
 
 
 def own_light(state: Sampled) -> Measured:

@@ -24,8 +24,10 @@ from furbake.groom.strands import Groom
 from furbake.likeness import page
 from furbake.likeness.ceiling import TOGETHER, directions, sampled_ceiling, shares, visible, write_passes
 from furbake.likeness.cells import FIELD_OF_VIEW, PLANS, Cell, Frame, cells, frame
+from furbake.likeness.colour import compared
 from furbake.likeness.figures import bins, figures, overlap, similarity
 from furbake.likeness.page import Shown, grey_copy, show
+from furbake.likeness.paint import write_painted
 from furbake.likeness.sheet import GAP, row
 from furbake.likeness.tables import lines
 from furbake.likeness.truth import Scene, trace
@@ -222,6 +224,29 @@ def test_pictures_of_the_page_have_row_0_on_top(
     monkeypatch.setattr(subprocess, "Popen", broken)
     with pytest.raises(VerifyError, match="page: no browser for the tests"):
         show(read_asset(tmp_path / "a"), 0.8, 0.2, NEAR, [cell((0, 0, 1))], ["ptm"])
+
+
+def test_hairs_of_many_colours_are_pieces_of_a_few(tmp_path: Path) -> None:
+    """Every piece is in one file, with its own control points, and as good as of its own colour."""
+    control = np.random.default_rng(2).normal(size=(5, 7, 4))
+    colours = np.repeat(np.linspace([0.1, 0.05, 0.02], [0.8, 0.5, 0.3], 5)[None], 5, axis=0)
+    pieces = 0
+    for path, colour in write_painted(tmp_path, control, colours):
+        near = np.abs((colours[0, :-1] + colours[0, 1:]) / 2 - colour).max(1)
+        assert near.min() < 0.02
+        for curve in path.read_text().strip().split("\n\n"):
+            points = np.array([[float(x) for x in line.split()] for line in curve.splitlines()])
+            assert any(np.allclose(points, hair[k : k + len(points)], atol=1e-4) for hair in control for k in range(4))
+            pieces += len(points) - 3
+    assert pieces == 5 * 4
+
+
+def test_mean_colours_are_compared_by_hue_saturation_and_luminance() -> None:
+    found = compared(np.array([0.4, 0.2, 0.1]), np.array([0.2, 0.1, 0.05]))
+    assert found["hue_off"] == pytest.approx(0)
+    assert found["saturation_off"] == pytest.approx(0)
+    assert found["luminance_off"] == pytest.approx(1)
+    assert compared(np.array([1.0, 0.0, 0.1]), np.array([1.0, 0.1, 0.0]))["hue_off"] == pytest.approx(-12)
 
 
 class TestWithMitsuba:

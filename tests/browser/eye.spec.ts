@@ -1,8 +1,9 @@
 /** The law of light and eye in the shaders: its terms, powers of the height and surge, and a sky beside lamps all around. */
 
 import { readFile } from 'node:fs/promises';
+import type { Page } from '@playwright/test';
 import { wayOf } from '../../web/fur/bent.ts';
-import { expect, type Page, test } from './harness.ts';
+import { expect, test } from './harness.ts';
 import { openStage, repository, served } from './library.ts';
 import type { Stage } from './stage.ts';
 
@@ -45,7 +46,11 @@ async function openEyes(page: Page): Promise<(laws: object[]) => Promise<string[
 
 /** Mean light of layer 3 under a lamp. */
 async function lit(page: Page, url: string, lamp: Vector): Promise<number> {
-	const drawn = await page.evaluate(([u, a, l]) => stage.vertices(u, 3, a, { lamp: l }), [url, attributes, lamp] as const);
+	const drawn = await page.evaluate(([u, a, l]) => stage.vertices(u, 3, a, { lamp: l }), [
+		url,
+		attributes,
+		lamp,
+	] as const);
 	return drawn.light.reduce((sum, light) => sum + light, 0) / drawn.light.length;
 }
 
@@ -54,7 +59,10 @@ test('every number meets its term and power of the height', async ({ page }) => 
 	const { drift } = JSON.parse(await readFile(`${repository}${golden}/model.gltf`, 'utf8')).extensions.FUR_ptm_shells;
 	const m = wayOf({ drift });
 	const lamp: Vector = [0.48, 0.36, 0.8];
-	const [l, v] = [lamp, [0, 0, 1] as Vector].map((way) => frame.map((axis) => dot(axis, way)) as Vector) as [Vector, Vector];
+	const [l, v] = [lamp, [0, 0, 1] as Vector].map((way) => frame.map((axis) => dot(axis, way)) as Vector) as [
+		Vector,
+		Vector,
+	];
 	const [a, b, p, z, q] = [
 		l[0] * v[0] + l[1] * v[1],
 		l[0] * m[0] + l[1] * m[1],

@@ -93,6 +93,7 @@ const jobOf = (lamp: BodyJob['cells'][0]['lamp']): BodyJob => ({
 	methods: [],
 	passes: 0,
 	brightest: 0,
+	coloured: false,
 });
 
 for (const [i, { lamp, boxes, traced }] of necks.entries()) {

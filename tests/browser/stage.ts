@@ -21,11 +21,21 @@ import {
 import { LightProbeGenerator } from 'three/addons/lights/LightProbeGenerator.js';
 import { EXRLoader } from 'three/addons/loaders/EXRLoader.js';
 import { environmentLight, type Fur } from '../../web/fur/index.ts';
+import { skyShares } from '../../web/fur/multiple.ts';
 import { measureEnvironment } from '../../web/measure/environment.ts';
 import { measureFins } from '../../web/measure/fins.ts';
 import { loadFur, renderFloats, Studio } from '../../web/measure/studio.ts';
 import { underDome } from './dome.ts';
 import { channel, Flat, readArray, renderer, toBase64, uncovered } from './flat.ts';
+
+/** How a layer is lit. */
+interface Look {
+	lamp?: number[];
+	ambient?: number;
+	tip2?: [number, number, number];
+	blue?: boolean;
+	perFragment?: boolean;
+}
 
 const stage = {
 	/** Both planes as the GPU holds them, base64. */
@@ -156,12 +166,26 @@ const stage = {
 		return pictures;
 	},
 
-	/** One layer of a golden asset whose vertices all have these attributes: red channel and coverage per texel. */
+	/** Of every slab the share of the sky's light that has met several hairs. */
+	async skyShares(url: string): Promise<number[]> {
+		const { asset, material, dispose } = await loadFur(url);
+		const { multiple, weights = [] } = asset.pelts[0] ?? {};
+		if (!multiple || !asset.curves) throw new Error('not told');
+		const shares = skyShares(multiple, { curves: asset.curves, way: [0, 1] }, weights, material.bodyRadius);
+		dispose();
+		return shares;
+	},
+
+	/**
+	 * One layer of a golden asset whose vertices all have these attributes: red channel and coverage per texel.
+	 *
+	 * @param look blue: whether a blue lamp stands beside the white one; the hues of all are then summed apart
+	 */
 	async vertices(
 		url: string,
 		layer: number,
 		attributes: Record<string, number[]>,
-		{ lamp, ambient = 0, tip2 = [1, 1, 1] }: { lamp?: number[]; ambient?: number; tip2?: [number, number, number] },
+		{ lamp, ambient = 0, tip2 = [1, 1, 1], blue = false, perFragment = false }: Look,
 	): Promise<{ light: number[]; alpha: number[] }> {
 		const flat = new Flat(await loadFur(url));
 		for (const [name, value] of Object.entries(attributes)) flat.attribute(name, value);
@@ -171,7 +195,11 @@ const stage = {
 			const light = new DirectionalLight(0xffffff, 4 * Math.PI);
 			light.position.copy(flat.world(lamp));
 			flat.add(light);
+			const other = new DirectionalLight(0x0000ff, blue ? 1 : 0);
+			other.position.copy(light.position);
+			flat.add(other);
 		}
+		flat.fur.material.lampsPerFragment = perFragment;
 		const pixels = flat.render(layer);
 		flat.fur.dispose();
 		return { light: [...uncovered(pixels)], alpha: [...channel(pixels, 3)] };

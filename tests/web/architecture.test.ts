@@ -27,6 +27,7 @@ const floors = [
 		'trim',
 	],
 	['levels', 'TrimLight', 'curves', 'stains', 'bent', 'hue'],
+	['multiple'],
 	['texels', 'SlabLight'],
 	['PeltLight'],
 	['PeltMaterial', 'follicles'],

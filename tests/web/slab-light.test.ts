@@ -1,7 +1,8 @@
 import { DataUtils } from 'three';
 import { describe, expect, it } from 'vitest';
 import { type Curves, KNOTS } from '../../web/fur/format.ts';
-import { curveTable, SlabLight, standInWeights } from '../../web/fur/SlabLight.ts';
+import { curveTable, SlabLight, standInState, standInWeights } from '../../web/fur/SlabLight.ts';
+import { coloured, multiple } from './multiple.ts';
 
 const table = (q: number, part: number) =>
 	[0, 1, 2].map((b) => Array.from({ length: KNOTS }, (_, i) => i / 16 + q + 10 * b + 100 * part));
@@ -24,21 +25,25 @@ describe('SlabLight', () => {
 	const means = { curves, way: [0, 1] as const };
 
 	it('has a row per slab and state, linear in its weights', () => {
-		const light = new SlabLight({ kind: 'ptm' }, means, [[[1, 0]]], 4, false);
+		const light = new SlabLight({ kind: 'ptm' }, means, [{ weights: [[1, 0]] }], 4, false);
 		const read = () => Array.from(light.texture.image.data as Float32Array);
 		const [first] = [read()];
-		light.states = [[[0, 1]]];
+		light.states = [{ weights: [[0, 1]] }];
 		const second = read();
 		const before = light.texture;
 		light.states = [
-			[
-				[1, 0],
-				[0, 1],
-			],
-			[
-				[0, 1],
-				[2, 3],
-			],
+			{
+				weights: [
+					[1, 0],
+					[0, 1],
+				],
+			},
+			{
+				weights: [
+					[0, 1],
+					[2, 3],
+				],
+			},
 		];
 		expect(light.texture).not.toBe(before);
 		const rows = read();
@@ -48,6 +53,28 @@ describe('SlabLight', () => {
 		rows.slice(3 * row).forEach((value, i) => {
 			expect(value).toBeCloseTo(2 * (first?.[i] ?? 0) + 3 * (second[i] ?? 0), 3);
 		});
+	});
+});
+
+describe('what is told of several hairs', () => {
+	const state = { weights: [[1], [2]], multiple };
+
+	it('is in the last three texels of its slab', () => {
+		const { curves: own } = coloured;
+		if (!own) throw new Error('no curves');
+		const light = new SlabLight({ kind: 'ptm' }, { curves: own, way: [0, 1] }, [state], 4, false);
+		const data = light.texture.image.data as Float32Array;
+		const second = data.slice(data.length - 12);
+		const close = (values: number[]) => values.map((value) => expect.closeTo(value, 5));
+		expect([...second]).toEqual(close([0.25, 0, 0.1, 0, 0.5, 0.6 / 0.8, 0.9, 0.35, 0, 0, 0, 0]));
+	});
+
+	it('changes with cut fur, but for what its own hairs are', () => {
+		const cut = standInState(state, [0.5, 1]);
+		expect(cut.weights).toEqual([[1.5], [2]]);
+		expect(cut.multiple?.shares[0]).toEqual([0.625, -0.25, 0.05]);
+		expect(cut.multiple?.ratio).toEqual([0.75, 0.5]);
+		expect(cut.multiple?.tint).toEqual(multiple.tint);
 	});
 });
 

@@ -20,7 +20,20 @@ const MIRRORED = ['finLength', 'finOpacity', 'finHeights'] as const satisfies (k
 
 /** What fins have from the shells that they stand between. */
 const SHARED = [
-	...['tiles', 'furLength', 'furTrim', 'bodyRadius', 'lean', 'bent', 'eye', 'surge', 'gloss', 'sharpness', 'backlight', 'density'],
+	...[
+		'tiles',
+		'furLength',
+		'furTrim',
+		'bodyRadius',
+		'lean',
+		'bent',
+		'eye',
+		'surge',
+		'gloss',
+		'sharpness',
+		'backlight',
+		'density',
+	],
 	...['swing', 'stains', 'wetnesses', 'traits', 'mud'],
 	...['skinColour', 'root', 'tip', 'tip2', 'tipShare', 'rampPower'],
 ];
@@ -40,7 +53,9 @@ export class FinMaterial extends PeltMaterial {
 	declare finHeights: number;
 
 	constructor(fin: Fin, textures: FurTextures, shells: FurMaterial, parameters: FinMaterialParameters = {}) {
-		const shared = SHARED.filter((name) => name in shells.uniforms).map((name) => [name, shells.uniforms[name]] as [string, IUniform]);
+		const shared = SHARED.filter((name) => name in shells.uniforms).map(
+			(name) => [name, shells.uniforms[name]] as [string, IUniform],
+		);
 		super(
 			{ ...fin, means: shells.means },
 			textures,
@@ -55,7 +70,14 @@ export class FinMaterial extends PeltMaterial {
 					finHeights: { value: shells.uniforms.tiles?.value },
 				},
 				// |n·v| of the faces, between which a fin fades out; half a mip level finer than even, since fins are seen askew.
-				defines: { FIN: '', LAYERS: shells.defines.LAYERS, ...('EYE' in shells.defines && { EYE: '' }), FADE_FROM: '0.03', FADE_TO: '0.15', LOD_BIAS: '-0.5' },
+				defines: {
+					FIN: '',
+					LAYERS: shells.defines.LAYERS,
+					...('EYE' in shells.defines && { EYE: '' }),
+					FADE_FROM: '0.03',
+					FADE_TO: '0.15',
+					LOD_BIAS: '-0.5',
+				},
 				depthWrite: false,
 				side: DoubleSide,
 			},

@@ -94,7 +94,7 @@ export class FurMaterial extends PeltMaterial {
 		const pelt = asset.pelts[0];
 		if (!pelt) throw new Error('FUR_ptm_shells/pelts: got none, expected at least one');
 		const { basis, environment, curves, ramp } = asset;
-		const means = curves && { curves, way: wayOf(asset), weights: pelt.weights ?? [] };
+		const means = curves && { curves, way: wayOf(asset), weights: pelt.weights ?? [], multiple: pelt.multiple };
 		super(
 			{ ...pelt, basis, environment, means },
 			textures,

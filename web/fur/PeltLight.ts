@@ -1,6 +1,6 @@
 import type { IUniform, Texture } from 'three';
 import { BODY_RADIUS } from './moments.ts';
-import { curveTable, SlabLight, standInWeights, type Weights } from './SlabLight.ts';
+import { curveTable, SlabLight, type SlabState, standInState } from './SlabLight.ts';
 import { TrimLight } from './TrimLight.ts';
 import { momentUniforms, type SlabMeanCurves, type Texels } from './texels.ts';
 
@@ -18,8 +18,8 @@ export class PeltLight {
 	readonly #leader: PeltLight | undefined;
 	readonly #slabLight: SlabLight | undefined;
 	#trimLight: TrimLight | undefined;
-	/** Weights of the states that the textures hold. */
-	#weights: readonly Weights[];
+	/** What is told of the slabs of the states that the textures hold. */
+	#states: readonly SlabState[];
 	/** Stand-ins of the slabs of cut fur. */
 	#places: ArrayLike<number> | undefined;
 
@@ -32,8 +32,8 @@ export class PeltLight {
 		this.#layers = layers;
 		this.#fin = fin;
 		this.#leader = leader;
-		this.#weights = means ? [means.weights] : [];
-		this.#slabLight = means && new SlabLight(basis, means, this.#weights, BODY_RADIUS, fin);
+		this.#states = means ? [means] : [];
+		this.#slabLight = means && new SlabLight(basis, means, this.#states, BODY_RADIUS, fin);
 		this.uniforms = {
 			...(means
 				? {
@@ -62,20 +62,20 @@ export class PeltLight {
 		this.#weigh();
 	}
 
-	/** Weights of the states that the textures hold, the driest first; undefined: of the dry pelt. */
-	show(states: readonly (Weights | undefined)[] = [undefined]): void {
+	/** States that the textures hold, the driest first; those without weights have the dry pelt's. */
+	show(states: readonly Partial<SlabState>[] = [this.means ?? {}]): void {
 		const { means } = this;
 		if (!means) return;
-		this.#weights = states.map((weights = means.weights) => weights);
+		this.#states = states.map(({ weights = means.weights, multiple }) => ({ weights, multiple }));
 		this.#weigh();
 	}
 
-	/** Has slabs, of states that the textures hold, the mean curves of those that stand in for them. */
+	/** Has slabs, of states that the textures hold, the mean light of those that stand in for them. */
 	#weigh(): void {
 		const { slabLight } = this.uniforms;
 		const places = this.#places;
 		if (!this.#slabLight || !slabLight) return;
-		this.#slabLight.states = places ? this.#weights.map((own) => standInWeights(own, places)) : this.#weights;
+		this.#slabLight.states = places ? this.#states.map((state) => standInState(state, places)) : this.#states;
 		slabLight.value = this.#slabLight.texture;
 	}
 

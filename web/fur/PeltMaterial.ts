@@ -85,6 +85,7 @@ export class PeltMaterial extends ShaderMaterial {
 			defines: {
 				...basisDefines(basis),
 				...(means && { MEAN_CURVES: '' }),
+				...(means?.multiple && { MULTIPLE: '' }),
 				...(texels.scale.length > 3 && { TWO_PLANES: '' }),
 				...(textures.colour && { COLOUR_PLANE: '' }),
 				SKY: '',
@@ -282,7 +283,7 @@ export class PeltMaterial extends ShaderMaterial {
 	setStains(stained: Stained | undefined): void {
 		const parts = stain(this.uniforms, stained);
 		for (const [define, value] of Object.entries(parts)) this.#compile(define, value);
-		const states = parts.WET ? stained?.wet.map(({ weights }) => weights) : undefined;
+		const states = parts.WET ? stained?.wet : undefined;
 		for (const material of this.#all) material.#light.show(states);
 	}
 

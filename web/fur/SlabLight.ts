@@ -1,12 +1,24 @@
 import { ClampToEdgeWrapping, DataTexture, DataUtils, FloatType, HalfFloatType, LinearFilter, RGBAFormat } from 'three';
 import { type CurveSky, curveSkies, type MeanCurves } from './curves.ts';
-import { type Basis, type Curves, KNOTS, RADII } from './format.ts';
+import { type Basis, type Curves, KNOTS, type Multiple, RADII } from './format.ts';
+import { orderFactor, skyShares } from './multiple.ts';
 
 /** Texels of a row: see shaders/curves.glsl. */
-const ROW = 33;
+const ROW = 36;
+
+/** Texels of light that has met several hairs: numbers of its share; ρ and the like; the hairs' mean colour. */
+const [SHARES, ORDERS, HAIRS] = [33, 34, 35] as const;
 
 /** A row per slab, one weight per curve. */
 export type Weights = readonly (readonly number[])[];
+
+/** What is told of the slabs of a state. */
+export interface SlabState {
+	/** Of the mean curves. */
+	weights: Weights;
+	/** Colour of light that has met several hairs. */
+	multiple?: Multiple | undefined;
+}
 
 /** Mean curves as shaders look them up: `even` at three radii, then `along`; RGBA are up to four curves, along x their knots. */
 export function curveTable({ even, along }: Curves): DataTexture {
@@ -32,10 +44,10 @@ export class SlabLight {
 	readonly #fin: boolean;
 	#skies: CurveSky[] = [];
 	#radius = Number.NaN;
-	#states: readonly Weights[];
+	#states: readonly SlabState[];
 
 	/** @param fin whether the frame is a fin's */
-	constructor(basis: Basis, means: MeanCurves, states: readonly Weights[], radius: number, fin: boolean) {
+	constructor(basis: Basis, means: MeanCurves, states: readonly SlabState[], radius: number, fin: boolean) {
 		this.#basis = basis;
 		this.#means = means;
 		this.#fin = fin;
@@ -56,9 +68,9 @@ export class SlabLight {
 		this.#fill();
 	}
 
-	/** Weights of the states that the pelt's textures hold, the driest first. */
-	set states(states: readonly Weights[]) {
-		const rows = states.reduce((sum, { length }) => sum + length, 0);
+	/** Of the states that the pelt's textures hold, the driest first. */
+	set states(states: readonly SlabState[]) {
+		const rows = rowsOf(states);
 		this.#states = states;
 		if (rows !== this.texture.image.height) {
 			this.texture.dispose();
@@ -70,10 +82,19 @@ export class SlabLight {
 	#fill(): void {
 		const data = this.texture.image.data as Float32Array;
 		data.fill(0);
-		for (const [k, weights] of this.#states.flat().entries()) {
-			const row = data.subarray(4 * ROW * k, 4 * ROW * (k + 1));
-			row.set(weights);
-			for (const [q, weight] of weights.entries()) this.#add(row, weight, this.#skies[q]);
+		let slab = 0;
+		for (const { weights, multiple } of this.#states) {
+			const skies = multiple && skyShares(multiple, this.#means, weights, this.#radius);
+			for (const [k, own] of weights.entries()) {
+				const row = data.subarray(4 * ROW * slab, 4 * ROW * ++slab);
+				row.set(own);
+				for (const [q, weight] of own.entries()) this.#add(row, weight, this.#skies[q]);
+				if (!multiple) continue;
+				row.set(multiple.shares[k] ?? [], 4 * SHARES);
+				const orders = [multiple.ratio[k], orderFactor(multiple, k), multiple.tint[k], skies?.[k]];
+				row.set(orders as number[], 4 * ORDERS);
+				row.set(multiple.colour?.[k] ?? [], 4 * HAIRS);
+			}
 		}
 		this.texture.needsUpdate = true;
 	}
@@ -95,12 +116,31 @@ export class SlabLight {
 	}
 }
 
-function tableOf(states: readonly Weights[]): DataTexture {
-	const rows = states.reduce((sum, { length }) => sum + length, 0);
+function tableOf(states: readonly SlabState[]): DataTexture {
+	const rows = rowsOf(states);
 	return new DataTexture(new Float32Array(4 * ROW * rows), ROW, rows, RGBAFormat, FloatType);
 }
 
-/** Weights of slabs that stand in for those of cut fur: rows mixed linearly. @param places as from `standIns` */
+function rowsOf(states: readonly SlabState[]): number {
+	return states.reduce((sum, { weights }) => sum + weights.length, 0);
+}
+
+/** A state of cut fur: slabs have the light of those that stand in for them, and their own hairs. */
+export function standInState({ weights, multiple }: SlabState, places: ArrayLike<number>): SlabState {
+	return {
+		weights: standInWeights(weights, places),
+		multiple: multiple && {
+			...multiple,
+			shares: standInWeights(multiple.shares, places) as number[][],
+			ratio: standInWeights(
+				multiple.ratio.map((ratio) => [ratio]),
+				places,
+			).flat(),
+		},
+	};
+}
+
+/** Rows of slabs that stand in for those of cut fur, mixed linearly. @param places as from `standIns` */
 export function standInWeights(weights: Weights, places: ArrayLike<number>): Weights {
 	return weights.map((_, k) => {
 		const place = places[Math.min(k, places.length - 1)] ?? k;

@@ -83,13 +83,13 @@ export function curvedMoments(
 }
 
 /** A ring of directions of one height, and the solid angle that each of them stands for. */
-interface Ring {
+export interface Ring {
 	height: number;
 	share: number;
 }
 
 /** From the lowest direction that tips see up to the zenith; above the horizon as the tables' knots lie. */
-function rings(radius: number): Ring[] {
+export function rings(radius: number): Ring[] {
 	const [above, below] = [48, 24];
 	const dip = dipOf(heldRadius(radius));
 	const step = (2 * Math.PI) / SPOKES;

@@ -64,6 +64,22 @@ export interface Curves {
 	along: number[][][];
 }
 
+/** What share of the slabs' light has met several hairs, and how it follows their colour; all lists go by slab. */
+export interface Multiple {
+	/** ϖ of the hairs in the samples. */
+	albedo: number;
+	/** What 1, √lz and log₄ β count in the share x. */
+	shares: number[][];
+	/** ρ, by which orders of scattering shrink between white hairs. */
+	ratio: number[];
+	/** Share in what is seen from above in even light. */
+	seen: number[];
+	/** Mean of the texels' tint. */
+	tint: number[];
+	/** Mean colour of the hairs, linear, where there is a colour plane. */
+	colour?: RGB[];
+}
+
 /** One state of the fur. */
 export interface Pelt {
 	/** Of the preset that it was baked by. */
@@ -80,6 +96,8 @@ export interface Pelt {
 	bias: number[];
 	/** A row per slab, slab 0 first: weights of the mean curves; in 2.x only. */
 	weights?: number[][];
+	/** Colour of light that has met several hairs; where absent it is as of the samples' grey ones. */
+	multiple?: Multiple;
 	/** Its side view, where the asset has fins. */
 	fin?: Fin;
 	/** How wet this state of the fur is, 0 where absent, to 1: soaked. Of dirty ones 0. */
@@ -250,8 +268,12 @@ function curveCounts({ version, curves, pelts, layers }: FurAsset): Count[] {
 				...table.map((knots, b): Count => [`curves.${name}.${q}.${b}`, knots.length, KNOTS]),
 			]),
 		),
-		...pelts.flatMap(({ name, weights = [] }): Count[] => [
+		...pelts.flatMap(({ name, weights = [], multiple }): Count[] => [
 			[`${name}.weights`, weights.length, curves ? layers : 0],
+			[`${name}.multiple`, multiple ? 1 : 0, curves && pelts[0]?.multiple ? 1 : 0],
+			...Object.entries(multiple ?? {}).flatMap(([key, rows]): Count[] =>
+				Array.isArray(rows) ? [[`${name}.multiple.${key}`, rows.length, layers]] : [],
+			),
 			...weights.map((row, k): Count => [`${name}.weights.${k}`, row.length, count]),
 		]),
 	];

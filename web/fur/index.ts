@@ -27,6 +27,7 @@ export {
 	EXTENSION,
 	type Fin,
 	type FurAsset,
+	type Multiple,
 	type Pelt,
 	type RGB,
 	type Slot,
@@ -48,6 +49,7 @@ export { FurMotion } from './motion/FurMotion.ts';
 export type { MotionOptions } from './motion/options.ts';
 export { type Spring, springOf } from './motion/spring.ts';
 export type { WindSettings } from './motion/Wind.ts';
+export { SeenColours } from './multiple.ts';
 export { fitShadow } from './shadow.ts';
 export { FurShells, MAX_SHELLS } from './shells.ts';
 export type { FurTextures, SlabMeanCurves } from './texels.ts';

@@ -2,7 +2,7 @@
 
 import { type IUniform, type Texture, Vector3, Vector4 } from 'three';
 import type { MeanCurves } from './curves.ts';
-import { type Basis, channelOf } from './format.ts';
+import { type Basis, channelOf, type Multiple } from './format.ts';
 import { horizonMoments, polynomialCurves, smoothSum } from './moments.ts';
 
 /** An asset's planes as texture arrays, a slab per layer. */
@@ -32,6 +32,8 @@ export interface Texels {
 export interface SlabMeanCurves extends MeanCurves {
 	/** A row per slab, slab 0 first. */
 	weights: readonly (readonly number[])[];
+	/** Colour of light that has met several hairs in it. */
+	multiple?: Multiple | undefined;
 }
 
 /** GLSL of light curves 0..2 and 3..5, as defines; of a PTM there are none. */

@@ -60,7 +60,7 @@ export class BodyScene {
 		fur.material.skinColour.set(1, 1, 1);
 	}
 
-	/** Rows from the bottom: light of the picture, premultiplied, then its coverage. */
+	/** Rows from the bottom: light of the picture, premultiplied, one number or three, then its coverage. */
 	draw(cell: number, method: string): Float32Array {
 		const { lamp, eye } = this.job.cells[cell] as BodyCell;
 		this.#look(eye);
@@ -76,7 +76,7 @@ export class BodyScene {
 		worn.before(this.#renderer, light);
 		const pixels = this.#render();
 		worn.dispose();
-		return pairs(pixels);
+		return this.job.coloured ? pixels : pairs(pixels);
 	}
 
 	/**

@@ -25,6 +25,8 @@ export interface BodyJob {
 	cells: readonly BodyCell[];
 	/** A method's name, with `-bare` after it where no shadow map is wanted. */
 	methods: readonly string[];
+	/** Whether pictures are red, green and blue, then coverage, in place of light and coverage. */
+	coloured: boolean;
 	/** Of the samples' own composite, in passes/NN beside the model; 0: it is not drawn. */
 	passes: number;
 	/** What a white texel of a pass stands for, in the unit of L. */

@@ -18,6 +18,7 @@ from furbake.asset.skin import Looks, feature_nodes, fur_colour, skin_primitives
 from furbake.asset.vertices import fin_vertices, grid, quantise_positions, settle, shell_vertices, tiles_across
 from furbake.pelt.basis import environment
 from furbake.pelt.fin import fin_environment
+from furbake.pelt.multiple import Multiple
 from furbake.pelt.pelt import Pelt
 from furbake.surface.charts import Charts
 from furbake.surface.coat import VertexFur
@@ -163,6 +164,8 @@ def _state(pelt: Pelt, images: list[str], prefix: str, several: bool) -> Record:
     }
     if pelt.weights is not None:
         state["weights"] = [numbers(row) for row in pelt.weights]
+    if pelt.multiple is not None:
+        state["multiple"] = _multiple(pelt.multiple)
     for role in ("colour", "direction"):
         if f"{prefix}{role}.png" in images:
             state[role] = images.index(f"{prefix}{role}.png")
@@ -181,6 +184,17 @@ def _state(pelt: Pelt, images: list[str], prefix: str, several: bool) -> Record:
         if f"{prefix}fin-colour.png" in images:
             state["fin"]["colour"] = images.index(f"{prefix}fin-colour.png")
     return state
+
+
+def _multiple(multiple: Multiple) -> Record:
+    """The JSON object of light that has met several hairs."""
+    lists = {name: numbers(getattr(multiple, name)) for name in ("ratio", "seen", "tint")}
+    rows = {"shares": multiple.shares} | ({} if multiple.colour is None else {"colour": multiple.colour})
+    return {
+        "albedo": numbers(np.array([multiple.albedo]))[0],
+        **lists,
+        **{name: [numbers(row) for row in values] for name, values in rows.items()},
+    }
 
 
 def _tables(tables: Floats) -> list[Any]:

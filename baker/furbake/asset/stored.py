@@ -12,6 +12,7 @@ from furbake.asset.planes import PlaneError, Planes, unpack, unpack_fin
 from furbake.asset.read import Asset, AssetError
 from furbake.pelt.basis import smooth_terms
 from furbake.pelt.curves import KNOTS, RADII, Curves, unit
+from furbake.pelt.multiple import Multiple
 from furbake.pelt.pelt import FinPelt, Pelt, Ramp, State
 
 Floats = NDArray[np.float64]
@@ -89,7 +90,20 @@ def _pelt(fur: dict[str, Any], asset: Asset, index: int) -> Pelt:
         surge=_array(fur["surge"], 3) if "surge" in fur else None,
         curves=curves,
         weights=None if curves is None else _array(stored["weights"], layers, curves.count),
+        multiple=_multiple(stored["multiple"], layers) if "multiple" in stored else None,
         state=state,
+    )
+
+
+def _multiple(stored: dict[str, Any], layers: int) -> Multiple:
+    """Light that has met several hairs."""
+    return Multiple(
+        albedo=float(stored["albedo"]),
+        shares=_array(stored["shares"], layers, 3),
+        ratio=_array(stored["ratio"], layers),
+        seen=_array(stored["seen"], layers),
+        tint=_array(stored["tint"], layers),
+        colour=_array(stored["colour"], layers, 3) if "colour" in stored else None,
     )
 
 

@@ -16,7 +16,7 @@ from jsonschema import Draft202012Validator
 from furbake.asset.gltf import EXTENSION, QUANTIZATION
 from furbake.asset.planes import PlaneError
 from furbake.asset.read import Asset, AssetError, inside, read_asset
-from furbake.asset.validate_pelts import curves, pelts, states
+from furbake.asset.validate_pelts import curves, multiple, pelts, states
 
 REQUIRED = ("POSITION", "NORMAL", "TANGENT", "TEXCOORD_0")
 ATTRIBUTES = {
@@ -47,7 +47,7 @@ def validate(folder: Path) -> list[str]:
     problems = [f"{EXTENSION}: {_where(error)}{error.message}" for error in schema().iter_errors(fur)]
     if problems:  # the other checks lean on the schema
         return problems
-    for check in (_document, _nodes, _skin, _shells, _fins, pelts, curves, states, _record):
+    for check in (_document, _nodes, _skin, _shells, _fins, pelts, curves, multiple, states, _record):
         try:
             problems.extend(check(asset))
         except (AssetError, PlaneError) as error:

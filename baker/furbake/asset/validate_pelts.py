@@ -75,6 +75,25 @@ def curves(asset: Asset) -> Iterator[str]:
         yield f"{EXTENSION}: an environment in version {fur['version']}, expected none: curves tell it"
 
 
+def multiple(asset: Asset) -> Iterator[str]:
+    """In all pelts or none, a row or number per slab, colours there where the first has a plane of them."""
+    fur = asset.fur
+    several = ["multiple" in pelt for pelt in fur["pelts"]]
+    if not any(several):
+        return
+    if not all(several):
+        yield f"{EXTENSION}: {several.count(False)} of {len(several)} pelts have no multiple, expected all or none"
+    if "curves" not in fur:
+        yield f"{EXTENSION}: multiple without curves, expected both"
+    for i, pelt in enumerate(fur["pelts"]):
+        told = pelt.get("multiple", {})
+        for key in ("shares", "ratio", "seen", "tint", "colour"):
+            if key in told and len(told[key]) != fur["layers"]:
+                yield f"{EXTENSION}: pelts[{i}].multiple.{key} has {len(told[key])} rows, expected {fur['layers']}"
+        if told and ("colour" in told) != ("colour" in fur["pelts"][0]):
+            yield f"{EXTENSION}: one of pelts[{i}].multiple and pelts[0] has no colour, expected both or none"
+
+
 def states(asset: Asset) -> Iterator[str]:
     """Several states: dry first, each with a name of its own, all to be mixed texel by texel."""
     fur = asset.fur

@@ -24,6 +24,7 @@ from furbake.lesson import STAGES as LESSON_STAGES
 from furbake.lesson import fresh as fresh_lesson
 from furbake.lesson import write as write_lesson
 from furbake.likeness import verify as body
+from furbake.likeness.colour import colour_lines, verify_colour
 from furbake.likeness.tables import lines as body_lines
 from furbake.options import BakeOptions, OptionError, as_toml, override, preset, preset_names, preset_summary
 from furbake.report import STAGES as REPORT_STAGES
@@ -239,6 +240,14 @@ def _verify_body(args: argparse.Namespace, picture: Path | None) -> int:
         ceiling=args.ceiling,
         truth=Path(args.truth) if args.truth else None,
     )
+    if args.colour:
+        with shown(body.STAGES, args.quiet) as progress:
+            figures = verify_colour(Path(args.folder), options, picture=picture, progress=progress)
+        if args.json:
+            print(json.dumps(figures))
+        elif not args.quiet:
+            print("\n".join(colour_lines(figures)))
+        return 0
     with shown(body.STAGES, args.quiet) as progress:
         figures = body.verify_body(Path(args.folder), options, picture=picture, progress=progress)
     if args.json:

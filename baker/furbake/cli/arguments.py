@@ -275,6 +275,7 @@ def _verify_arguments(parser: _Parser) -> None:
         help=f"with --body: ways to light the fur (default: {','.join(METHODS)})",
     )  # fmt: skip
     add("--plan", metavar="|".join(PLANS), help="with --body: eyes and lamps (default: round of sphere and torus)")
+    add("--colour", action="store_true", help="with --body: hairs in their own colours; tells mean colours alone")
     add("--ceiling", action="store_true", help="with --body: the samples' own composite too, without any fit")
     add("--truth", metavar="FILE.npz", type=_path, help="with --body: keeps what was traced for the next run")
     add("--json", action="store_true", help="figures as one JSON object")

@@ -56,28 +56,34 @@ def show(
     methods: Sequence[str],
     step: Callable[[float], None] = lambda fraction: None,
     ceiling: Ceiling | None = None,
+    coloured: bool = False,
 ) -> Shown:
     """The pictures of all cells by all methods. Raises VerifyError where there is no Node, no browser or a failure.
 
     albedo, skin : as of the tracer's hairs and skin
     ceiling : passes of a further method, `SAMPLES`
+    coloured : hairs have their own colours; light then is (height, width, 3)
     """
     with TemporaryDirectory(prefix="furbake-") as scratch:
         folder = Path(scratch)
         (folder / "baked").mkdir()
-        grey_copy(asset, folder / "baked", albedo, skin)
+        if coloured:
+            coloured_copy(asset, folder / "baked")
+        else:
+            grey_copy(asset, folder / "baked", albedo, skin)
         job = {
             "width": seen.width,
             "height": seen.height,
             "fieldOfView": FIELD_OF_VIEW,
             "centre": seen.centre.tolist(),
             "radius": seen.radius,
-            "irradiance": 4 * np.pi / albedo,
+            "irradiance": 4 * np.pi / (1.0 if coloured else albedo),
             "cells": [
                 {"name": cell.name, "view": cell.view, "eye": cell.eye.tolist(), "lamp": cell.to_lamp.tolist()}
                 for cell in cells
             ],
             "methods": list(methods),
+            "coloured": coloured,
             "passes": 0 if ceiling is None else ceiling.passes,
             "brightest": 0.0 if ceiling is None else ceiling.white,
         }
@@ -85,7 +91,7 @@ def show(
             write_passes(ceiling, folder / "baked", folder / "baked" / "passes")
         (folder / "job.json").write_text(json.dumps(job), "utf-8")
         _draw(folder, step)
-        return _read(folder, seen, cells, methods if ceiling is None else (*methods, SAMPLES))
+        return _read(folder, seen, cells, methods if ceiling is None else (*methods, SAMPLES), 4 if coloured else 2)
 
 
 def grey_copy(asset: Asset, folder: Path, albedo: float, skin: float) -> None:
@@ -94,6 +100,9 @@ def grey_copy(asset: Asset, folder: Path, albedo: float, skin: float) -> None:
     fur = next(iter(value for key, value in document["extensions"].items() if key == "FUR_ptm_shells"))
     pelt = fur["pelts"][0]
     fur["pelts"] = [pelt]
+    if "multiple" in pelt:
+        pelt["multiple"]["tint"] = [1.0] * fur["layers"]
+        pelt["multiple"].pop("colour", None)
     fur["ramp"] |= {name: [albedo] * 3 for name in ("root", "tip", "tip2")}
     for part in (pelt, pelt.get("fin", {})):
         part.pop("colour", None)
@@ -106,6 +115,29 @@ def grey_copy(asset: Asset, folder: Path, albedo: float, skin: float) -> None:
     if "direction" in pelt:
         uri = document["images"][pelt["direction"]]["uri"]
         shutil.copyfile(inside(asset.folder, uri), folder / uri)
+    _plain(document, skin)
+    (folder / document["buffers"][0]["uri"]).write_bytes(asset.data)
+    (folder / "model.gltf").write_text(json.dumps(document), "utf-8")
+
+
+def coloured_copy(asset: Asset, folder: Path) -> None:
+    """The dry fur of a baked folder in its own colours, on a white skin without pictures."""
+    document: dict[str, Any] = json.loads(json.dumps(asset.document))
+    fur = next(iter(value for key, value in document["extensions"].items() if key == "FUR_ptm_shells"))
+    pelt = fur["pelts"][0]
+    fur["pelts"] = [pelt]
+    images = {*pelt["planes"], *pelt.get("fin", {}).get("planes", [])}
+    images |= {part[role] for part in (pelt, pelt.get("fin", {})) for role in ("colour", "direction") if role in part}
+    for image in images:
+        uri = document["images"][image]["uri"]
+        shutil.copyfile(inside(asset.folder, uri), folder / uri)
+    _plain(document, 1.0)
+    (folder / document["buffers"][0]["uri"]).write_bytes(asset.data)
+    (folder / "model.gltf").write_text(json.dumps(document), "utf-8")
+
+
+def _plain(document: dict[str, Any], skin: float) -> None:
+    """Gives a model one grey and no pictures."""
     plain = {"baseColorFactor": [skin, skin, skin, 1.0], "metallicFactor": 0.0, "roughnessFactor": 1.0}
     document["materials"] = [{"pbrMetallicRoughness": plain} for _ in document.get("materials", [])]
     for name in ("textures", "samplers"):
@@ -113,8 +145,6 @@ def grey_copy(asset: Asset, folder: Path, albedo: float, skin: float) -> None:
     for mesh in document["meshes"]:
         for primitive in mesh["primitives"]:
             primitive["attributes"].pop("COLOR_0", None)
-    (folder / document["buffers"][0]["uri"]).write_bytes(asset.data)
-    (folder / "model.gltf").write_text(json.dumps(document), "utf-8")
 
 
 def _draw(folder: Path, step: Callable[[float], None]) -> None:
@@ -136,18 +166,18 @@ def _draw(folder: Path, step: Callable[[float], None]) -> None:
         raise VerifyError(f"page: {last or ' '.join(told) or f'exit code {run.returncode}'}, expected its pictures")
 
 
-def _read(folder: Path, seen: Frame, cells: Sequence[Cell], methods: Sequence[str]) -> Shown:
+def _read(folder: Path, seen: Frame, cells: Sequence[Cell], methods: Sequence[str], channels: int) -> Shown:
     def picture(name: str, channels: int) -> Floats:
         """Row 0 on top."""
         floats = np.fromfile(folder / f"{name}.f32", "<f4").astype(np.float64)
         return floats.reshape(seen.height, seen.width, channels)[::-1]
 
-    pairs = {(cell.name, method): picture(f"{cell.name}.{method}", 2) for cell in cells for method in methods}
+    pairs = {(cell.name, method): picture(f"{cell.name}.{method}", channels) for cell in cells for method in methods}
     views = dict.fromkeys(cell.view for cell in cells)
     normals = {view: picture(f"{view}.normals", 4) for view in views}
     return Shown(
-        light={key: pair[..., 0] for key, pair in pairs.items()},
-        cover={key: pair[..., 1] for key, pair in pairs.items()},
+        light={key: pair[..., 0] if channels == 2 else pair[..., :3] for key, pair in pairs.items()},
+        cover={key: pair[..., -1] for key, pair in pairs.items()},
         normal={view: np.where(n[..., 3:] > 0.5, n[..., :3], np.nan) for view, n in normals.items()},
         feature={view: picture(f"{view}.features", 2)[..., 1] > 0.5 for view in views},
     )

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from furbake.asset.read import read_asset
+from furbake.asset.read import Asset, read_asset
 from furbake.groom.ground import read_skin
 from furbake.groom.strands import groom, recorded
 from furbake.likeness.ceiling import sampled_ceiling
@@ -86,15 +86,11 @@ def verify_body(
     load(fast=True)
     asset = read_asset(folder)
     coat = recorded(asset).coat
-    name = options.plan or (
-        "round" if str(asset.record.get("input", {}).get("name")).split(":")[0] in ROUND else "body"
-    )
     vertices, faces = read_skin(asset)
-    seen = frame(vertices, float(asset.fur["length"]), PLANS[name], options.size)
-    wanted = cells(PLANS[name], seen)
+    name, seen, wanted = planned(asset, vertices, options)
     strands = groom(folder, lambda stage, fraction: progress("strands", fraction * (0.5 if stage == "roots" else 1)))
     scene = Scene(strands, vertices, faces, coat.albedo, coat.skin)
-    traced = _traced(scene, seen, wanted, options, lambda fraction: progress("trace", fraction))
+    traced = traced_pictures(scene, seen, wanted, options, lambda fraction: progress("trace", fraction))
     ceiling = sampled_ceiling(asset, wanted) if options.ceiling else None
     shown = show(
         asset,
@@ -119,6 +115,14 @@ def verify_body(
     }
 
 
+def planned(asset: Asset, vertices: Floats, options: Options) -> tuple[str, Frame, list[Cell]]:
+    """Which plan the body is seen by, and what that shows."""
+    model = str(asset.record.get("input", {}).get("name")).split(":")[0]
+    name = options.plan or ("round" if model in ROUND else "body")
+    seen = frame(vertices, float(asset.fur["length"]), PLANS[name], options.size)
+    return name, seen, cells(PLANS[name], seen)
+
+
 def _cell(cell: Cell, shown: Shown, traced: Traced, methods: Sequence[str]) -> dict[str, Any]:
     """Figures of a cell by every method; of the pixels that either picture covers, but for eyes and the like."""
     cosine = shown.normal[cell.view] @ cell.to_lamp
@@ -136,7 +140,7 @@ def _cell(cell: Cell, shown: Shown, traced: Traced, methods: Sequence[str]) -> d
     return found
 
 
-def _traced(
+def traced_pictures(
     scene: Scene, seen: Frame, wanted: list[Cell], options: Options, step: Callable[[float], None]
 ) -> list[Traced]:
     """What the tracer shows, or what the file of an earlier run has of just this."""
@@ -145,19 +149,31 @@ def _traced(
         with np.load(options.truth, allow_pickle=False) as kept:
             if str(kept["key"]) == key:
                 step(1.0)
-                return [Traced(light, cover, (one, two)) for light, cover, one, two in kept["pictures"].astype(float)]
+                return [_whole(*parts) for parts in kept["pictures"].astype(float)]
     traced = trace(scene, seen, wanted, options.spp, step=step)
     if options.truth is not None:
-        pictures = np.stack([[one.light, one.cover, *one.halves] for one in traced]).astype(np.float32)
+        pictures = np.stack([np.broadcast_arrays(*_parts(one)) for one in traced]).astype(np.float32)
         with options.truth.open("wb") as file:
             np.savez_compressed(file, key=key, pictures=pictures)
     return traced
 
 
+def _parts(one: Traced) -> list[Floats]:
+    cover = one.cover if one.light.ndim == one.cover.ndim else one.cover[..., None]
+    return [one.light, cover, *one.halves]
+
+
+def _whole(light: Floats, cover: Floats, one: Floats, two: Floats) -> Traced:
+    """The reverse of `_parts`."""
+    return Traced(light, cover if cover.ndim == 2 else cover[..., 0], (one, two))
+
+
 def _key(scene: Scene, seen: Frame, wanted: list[Cell], spp: int) -> str:
     """SHA-256 of all that decides what is traced."""
-    parts: list[Floats] = [scene.vertices, seen.centre, *(part for cell in wanted for part in (cell.eye, cell.to_lamp))]
+    parts: list[Any] = [scene.vertices, seen.centre, *(part for cell in wanted for part in (cell.eye, cell.to_lamp))]
     found = hashlib.sha256(json.dumps([seen.width, seen.height, spp, scene.albedo, scene.skin]).encode())
+    if scene.colours is not None:
+        parts += [scene.colours, np.array(scene.ground)]
     for part in (scene.groom.points, scene.groom.radius, *parts):
         found.update(np.ascontiguousarray(part).tobytes())
     return found.hexdigest()

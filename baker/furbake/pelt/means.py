@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 
 from furbake.pelt.basis import held
 from furbake.pelt.curves import HORIZON, KNOTS, RADII, Curves, abscissa, elevation, hats
+from furbake.pelt.paths import BODY_RADIUS
 from furbake.pelt.strands import Coat
-from furbake.pelt.transport import sample
+from furbake.pelt.transport import sample_apart
 from furbake.pelt.volume import Volume, coarsen, fine_shape
 
 Array = NDArray[np.float64]
@@ -40,17 +41,27 @@ LEAST_COVER = 0.02
 BELOW, ROUNDS = 30.0, 4
 """What light below 0 counts where a slab's weights are chosen, and how often it is looked for."""
 
+LESS = 0.5
+"""Share of the hairs' and the skin's albedo with which light is measured once more, to see how its orders shrink."""
+
 DIGITS = 4
 """Significant digits of tables and weights."""
 
 
 @dataclass(frozen=True)
 class Measured:
-    """Mean light of the slabs: lights (n, 3), values (n, K), on a body of radius β."""
+    """Mean light of the slabs: lights (n, 3), values (n, K), on a body of radius β.
+
+    albedo : of the hairs
+    multiple : (n, K) of the light that has met several hairs; darker : the same with `LESS` of the albedo
+    """
 
     beta: float
     lights: Array
     values: Array
+    albedo: float = 0.0
+    multiple: Array | None = None
+    darker: Array | None = None
 
 
 def mean_light(samples: NDArray[np.floating], alpha: Array) -> Array:
@@ -85,8 +96,13 @@ def measure(
     found = []
     for i, beta in enumerate(RADII):
         lights = directions(beta)
-        light = sample(wide, layers, size, lights, albedo=coat.albedo, skin=coat.skin, beta=beta)
-        found.append(Measured(beta, lights, mean_light(light, alpha)))
+        single, multiple = sample_apart(
+            wide, layers, size, lights, albedo=coat.albedo, skin=coat.skin, beta=beta,
+            shares=(1.0, LESS) if beta == BODY_RADIUS else (1.0,),
+        )  # fmt: skip
+        more, *darker = (mean_light(part, alpha) for part in multiple)
+        values = mean_light(single, alpha) + more
+        found.append(Measured(beta, lights, values, coat.albedo, more, darker[0] if darker else None))
         step((i + 1) / len(RADII))
     return tuple(found)
 

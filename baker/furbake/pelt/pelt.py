@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from furbake.pelt.basis import Basis
 from furbake.pelt.curves import Curves
+from furbake.pelt.multiple import Multiple
 from furbake.pelt.paths import BODY_RADIUS
 
 Bytes = NDArray[np.uint8]
@@ -21,9 +22,9 @@ RGB = tuple[float, float, float]
 class Ramp:
     """Colour along a hair, linear Rec. 709: mix(root, mix(tip, tip2, hue), s^power)."""
 
-    root: RGB = (0.06, 0.030, 0.016)
-    tip: RGB = (0.60, 0.37, 0.20)
-    tip2: RGB = (0.90, 0.76, 0.58)
+    root: RGB = (0.104, 0.053, 0.028)
+    tip: RGB = (0.795, 0.556, 0.327)
+    tip2: RGB = (0.99, 0.92, 0.78)
     power: float = 1.2
 
     def colour(self, tint: Floats, hue: Floats) -> Floats:
@@ -91,6 +92,7 @@ class Pelt:
     direction : (K, N, N, 3) bytes of the hairs' mean tangent, or None
     curves, weights : the slabs' mean curves, of all states, and the (K, Q) weights of this one; None: the texels'
         polynomials are all of their light
+    multiple : what of the slabs' light has met several hairs, None where that is not told
     state : dry unless the fur has others; in a dirty one `tint` is the mud's share of the coverage, here and in the fin
     """
 
@@ -113,6 +115,7 @@ class Pelt:
     surge: Floats | None = None
     curves: Curves | None = None
     weights: Floats | None = None
+    multiple: Multiple | None = None
     state: State = State()
 
     @property

@@ -13,7 +13,7 @@ with the hairs as thin and as long as on the body.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -25,7 +25,7 @@ from furbake.pelt.paths import BODY_RADIUS, lowest, spread, thinned
 from furbake.pelt.scatter import scatter
 from furbake.pelt.volume import Volume, average_down, doubled, pool, slab_means
 
-__all__ = ["BODY_RADIUS", "LOWEST", "LOWEST_FLAT", "hemisphere", "lowest", "sample"]
+__all__ = ["BODY_RADIUS", "LOWEST", "LOWEST_FLAT", "hemisphere", "lowest", "sample", "sample_apart"]
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
@@ -100,10 +100,34 @@ def sample(
 ) -> Single:
     """L of every stored texel under every light, (n, layers, size, size) float32: once scattered, T·D, and the rest, M.
 
+    Options are those of `sample_apart`.
+    """
+    single, (multiple,) = sample_apart(
+        fine, layers, size, lights, albedo=albedo, skin=skin, flat=flat, beta=beta, progress=progress
+    )
+    return single + multiple
+
+
+def sample_apart(
+    fine: Volume,
+    layers: int,
+    size: int,
+    lights: Array,
+    *,
+    albedo: float = 0.85,
+    skin: float = 0.25,
+    flat: bool = False,
+    beta: float = BODY_RADIUS,
+    shares: Sequence[float] = (1.0,),
+    progress: Callable[[float], None] = lambda fraction: None,
+) -> tuple[Single, list[Single]]:
+    """T·D and M of every stored texel under every light, (n, layers, size, size) float32 each.
+
     `fine` is the oversampled volume; what is returned is averaged down. Lights may be as low as `lowest(beta)`, lower
     ones reach nothing. `albedo` and `skin` are the shares of the light that hairs and skin scatter on; L is in units of
     the former. `beta` is the radius of the body, in lengths of its fur. `flat` leaves out the curve of the body and the
-    size of the lamp, and makes the skin black: a patch that other renderers can check.
+    size of the lamp, and makes the skin black: a patch that other renderers can check. There is an M for each of
+    `shares`, with that share of `albedo` and `skin`.
     """
     half = (layers, size // 2, size // 2)
     single = np.empty((len(lights), layers, size, size), np.float32)
@@ -116,12 +140,15 @@ def sample(
             progress((i + 1) / len(lights) * SINGLE_SHARE)
     slab, (sigma, tangent) = fine.height / layers, beam.medium()
     aside = None if fine.aside is None else slab_means(fine.aside, layers)
-    multiple = scatter(
-        sigma, slab, tangent, lights, caught, reaching, floor,
-        albedo=albedo, skin=0.0 if flat else skin, aside=aside, faint=not flat,
-    )  # fmt: skip
+    multiples = [
+        scatter(
+            sigma, slab, tangent, lights, caught, reaching, floor,
+            albedo=share * albedo, skin=0.0 if flat else share * skin, aside=aside, faint=not flat,
+        )
+        for share in shares
+    ]  # fmt: skip
     progress(1.0)
-    return single + doubled(multiple)
+    return single, [doubled(multiple) for multiple in multiples]
 
 
 class Beam:

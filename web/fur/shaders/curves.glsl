@@ -14,6 +14,10 @@ uniform highp sampler2D slabLight; // a row per slab, of one state after the oth
 #define HARMONIC2_HIGH 14
 #define POLYNOMIALS 15 // curve times φ above the horizon as polynomials: three texels each for (u², v², uv), (u, v, 1), (w, uw, vw), low, then high
 
+#define SHARES 33 // XYZ = what 1, √lz and log₄ β count in the share of light that has met several hairs
+#define ORDERS 34 // X = ρ, by which its orders shrink between white hairs; Y = (1 − ρϖ)/ϖ, ϖ of the baked ones; Z = mean tint; W = share in an even sky
+#define HAIRS 35 // RGB = mean colour, of a pelt with a colour plane
+
 vec4 ofRow(int row, int texel) {
 #ifdef WET
 	int below = stateBelow(vPlace);
@@ -75,3 +79,27 @@ float meanLight(FurPoint point, float height, float fade, float radius, vec3 lig
 	vec4 curves = texture(curveTable, at / vec2(1.0, 6.0)) + along * texture(curveTable, vec2(at.x, (at.y + 3.0) / 6.0));
 	return dot(ofSlab(point, WEIGHTS), curves);
 }
+
+#ifdef MULTIPLE
+// Mean colour of the hairs of the slab at a point, each material's own. tint: mean of its texels'.
+vec3 slabColour(FurPoint point, float tint);
+
+// g: light that has met several hairs of this colour, over that between the samples' grey ones. Pelt/multiple.py has the law.
+vec3 multipleGain(FurPoint point) {
+	vec4 orders = ofSlab(point, ORDERS);
+	vec3 colour = min(slabColour(point, orders.z), 0.98);
+	return orders.y * colour / (1.0 - orders.x * colour);
+}
+
+// What a lamp's light is multiplied by for the hairs' colour. height: of the light over the horizon, no less than 0. nap: what
+// counts of the light for the eye, nearly all of it by light that has met one hair.
+vec3 lampTinge(FurPoint point, vec3 gain, float radius, float height, float nap) {
+	vec3 terms = vec3(1.0, sqrt(height), 0.5 * log2(radius));
+	return mix(vec3(1.0), gain, clamp(dot(ofSlab(point, SHARES).xyz, terms) / nap, 0.0, 1.0));
+}
+
+// The same of the sky's light.
+vec3 skyTinge(FurPoint point, vec3 gain) {
+	return mix(vec3(1.0), gain, ofSlab(point, ORDERS).w);
+}
+#endif

@@ -19,6 +19,16 @@ float finFade(vec2 facing, float broadside) {
 	return (1.0 - smoothstep(FADE_FROM, FADE_TO, off)) * smoothstep(0.15, 0.5, abs(broadside));
 }
 
+#ifdef MULTIPLE
+vec3 slabColour(FurPoint point, float tint) {
+	vec3 colour = furRamp(vSkin.a, point.s) * tint;
+#ifdef COLOUR_PLANE
+	colour = mix(ofSlab(point, HAIRS).rgb, colour, vSkin.a);
+#endif
+	return vSkin.rgb * colour;
+}
+#endif
+
 void main() {
 	feelWeather();
 	vec3 n = normalize(normal);

@@ -8,6 +8,9 @@ struct Lamps {
 	LampMoments moments;
 	Strength back; // light that comes through the hairs from behind
 	vec2 lobes; // highlights: white, of the hair's colour; times the lamps' light on the texel
+#ifdef TINGED
+	vec4 tinge; // RGB = what light that met several hairs has made of their sum; A = light that told it
+#endif
 #ifdef WET
 	float power; // irradiance
 #endif
@@ -24,6 +27,11 @@ struct Lamps {
 #else
 #define NO_MOMENTS LampMoments(mat3(0.0), mat3(0.0))
 #endif
+#ifdef TINGED
+#define NO_TINGE , vec4(1e-4) // of lamps so faint their colour is of no account
+#else
+#define NO_TINGE
+#endif
 #ifdef WET
 #define NO_POWER , 0.0
 #else
@@ -36,7 +44,7 @@ struct Lamps {
 #else
 #define NO_SHADOW
 #endif
-#define DARKNESS Lamps(NO_MOMENTS, Strength(0.0), vec2(0.0) NO_POWER NO_SHADOW)
+#define DARKNESS Lamps(NO_MOMENTS, Strength(0.0), vec2(0.0) NO_TINGE NO_POWER NO_SHADOW)
 
 // Unit vector along the hairs.
 vec3 strandVS(FurPoint point) {
@@ -66,7 +74,8 @@ vec2 highlights(vec3 strand, vec3 normalVS, vec3 light, vec3 viewer) {
 #endif
 }
 
-void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bending, Quadratic seen, vec3 lightVS, vec3 irradiance) {
+// many: what is left of light that has met several hairs.
+void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bending, Quadratic seen, vec3 many, vec3 lightVS, vec3 irradiance) {
 	vec3 lightTS = lightVS * point.frameVS;
 	float radius = radiusTowards(point, lightTS), height = lightTS.UP, fade = 1.0;
 	if (height < 0.0) {
@@ -75,7 +84,7 @@ void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bendi
 		lightTS.UP = 0.0;
 		lightTS /= max(length(lightTS), 1e-4);
 	}
-	float gain = seenOf(seen, point, lightTS, lightVS);
+	float nap = seenOf(seen, point, lightTS, lightVS), gain = nap;
 	if (bending.there) gain *= bentLight(lightTS, bending);
 	gain *= meanLight(point, height < 0.0 ? height : lightTS.UP, fade, radius, lightTS);
 	vec3 low, high;
@@ -88,10 +97,16 @@ void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bendi
 	float strength = luminance;
 	lamps.moments.low += (gain * strength) * low;
 	lamps.moments.high += (gain * strength) * high;
+#ifdef TINGED
+	lamps.tinge += max(gain * strength, 0.0) * vec4(lampTinge(point, many, radius, max(height, 0.0), nap), 1.0);
+#endif
 #else
-	vec3 strength = irradiance;
-	lamps.moments.low += outerProduct(gain * strength, low);
-	lamps.moments.high += outerProduct(gain * strength, high);
+	vec3 strength = irradiance, coloured = gain * strength;
+#ifdef MULTIPLE
+	coloured *= lampTinge(point, many, radius, max(height, 0.0), nap);
+#endif
+	lamps.moments.low += outerProduct(coloured, low);
+	lamps.moments.high += outerProduct(coloured, high);
 #endif
 #if defined(GLOSS) || defined(BACKLIGHT)
 	vec3 strand = strandVS(point), viewer = viewerVS(point.pointVS);
@@ -110,6 +125,11 @@ Lamps lampsAt(FurPoint point, Bending bending, Quadratic seen) {
 #ifdef SHADOW_SHARE
 	float first = 0.0;
 #endif
+#ifdef MULTIPLE
+	vec3 many = multipleGain(point);
+#else
+	vec3 many = vec3(1.0);
+#endif
 #if NUM_DIR_LIGHTS > 0
 	#pragma unroll_loop_start
 	for (int i = 0; i < NUM_DIR_LIGHTS; i++) {
@@ -119,7 +139,7 @@ Lamps lampsAt(FurPoint point, Bending bending, Quadratic seen) {
 #elif defined(USE_SHADOWMAP) && (UNROLLED_LOOP_INDEX < NUM_DIR_LIGHT_SHADOWS)
 		light.color *= shadow(directionalShadowMap[ i ], directionalLightShadows[ i ].shadowMapSize, directionalLightShadows[ i ].shadowIntensity, directionalLightShadows[ i ].shadowRadius, shadowPlace(directionalShadowMatrix[ i ], directionalLightShadows[ i ].shadowBias, directionalLightShadows[ i ].shadowRadius / directionalLightShadows[ i ].shadowMapSize.x, point, light.direction));
 #endif
-		addLamp(lamps, power, point, bending, seen, light.direction, light.color);
+		addLamp(lamps, power, point, bending, seen, many, light.direction, light.color);
 #if defined(SHADOW_SHARE) && (UNROLLED_LOOP_INDEX == 0)
 		first = lamps.share;
 #endif
@@ -129,7 +149,7 @@ Lamps lampsAt(FurPoint point, Bending bending, Quadratic seen) {
 #if NUM_POINT_LIGHTS > 0
 	for (int i = 0; i < NUM_POINT_LIGHTS; i++) {
 		getPointLightInfo(pointLights[i], point.pointVS, light);
-		addLamp(lamps, power, point, bending, seen, light.direction, light.color);
+		addLamp(lamps, power, point, bending, seen, many, light.direction, light.color);
 	}
 #endif
 #if NUM_SPOT_LIGHTS > 0
@@ -139,7 +159,7 @@ Lamps lampsAt(FurPoint point, Bending bending, Quadratic seen) {
 #if defined(USE_SHADOWMAP) && (UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS)
 		light.color *= shadow(spotShadowMap[ i ], spotLightShadows[ i ].shadowMapSize, spotLightShadows[ i ].shadowIntensity, spotLightShadows[ i ].shadowRadius, shadowPlace(spotLightMatrix[ i ], spotLightShadows[ i ].shadowBias, spotLightShadows[ i ].shadowRadius / spotLightShadows[ i ].shadowMapSize.x, point, light.direction));
 #endif
-		addLamp(lamps, power, point, bending, seen, light.direction, light.color);
+		addLamp(lamps, power, point, bending, seen, many, light.direction, light.color);
 	}
 	#pragma unroll_loop_end
 #endif
@@ -147,6 +167,9 @@ Lamps lampsAt(FurPoint point, Bending bending, Quadratic seen) {
 	lamps.share = first / max(lamps.share, 1e-6);
 #endif
 	lamps.lobes /= max(power, 1e-6);
+#ifdef TINGED
+	lamps.tinge /= lamps.tinge.w;
+#endif
 #ifdef WET
 	lamps.lobes *= furTraits.z;
 	lamps.power = power;

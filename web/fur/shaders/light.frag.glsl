@@ -39,6 +39,9 @@ in float vShadowZ;
 in float vShadowShare;
 #endif
 #endif
+#ifdef TINGED
+in vec3 vTinge;
+#endif
 #ifdef BACKLIGHT
 in Strength vBack;
 #endif
@@ -66,6 +69,9 @@ Lamps receivedLamps() {
 	lamps.moments.low = vLampLow;
 #ifdef TWO_PLANES
 	lamps.moments.high = vLampHigh;
+#endif
+#ifdef TINGED
+	lamps.tinge.rgb = vTinge;
 #endif
 #ifdef BACKLIGHT
 	lamps.back = vBack;

@@ -42,6 +42,9 @@ out float vShadowZ;
 out float vShadowShare;
 #endif
 #endif
+#ifdef TINGED
+out vec3 vTinge;
+#endif
 #ifdef BACKLIGHT
 out Strength vBack;
 #endif
@@ -110,6 +113,9 @@ void passLight(FurPoint point, float openness) {
 	vShadowShare = lamps.share;
 #endif
 #endif
+#ifdef TINGED
+	vTinge = lamps.tinge.rgb;
+#endif
 #ifdef BACKLIGHT
 	vBack = lamps.back;
 #endif
@@ -148,6 +154,9 @@ void passDarkness() {
 #ifdef SHADOW_SHARE
 	vShadowShare = 0.0;
 #endif
+#endif
+#ifdef TINGED
+	vTinge = vec3(1.0);
 #endif
 #ifdef BACKLIGHT
 	vBack = Strength(0.0);

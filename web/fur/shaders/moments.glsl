@@ -31,6 +31,9 @@ uniform vec3 lampHue; // of luminance 1
 #define Strength vec3
 #define LampMoments Moments
 #endif
+#if defined(MULTIPLE) && defined(ONE_HUE)
+#define TINGED // a colour multiplies the lamps' light on the texel
+#endif
 
 // R = constant + gradient·ω + ωᵀ·form·ω in the tangent frame.
 struct Radiance {

@@ -80,6 +80,9 @@ vec3 hued(vec3 light) {
 // below zero under a strong lamp it must not eat the light of the sky, which turns shadows blue.
 vec3 furRadiance(FurTexel texel, vec3 colour, Lamps lamps, Moments sky) {
 	vec3 lamp = relight(texel, lamps.moments);
+#ifdef TINGED
+	lamp *= lamps.tinge.rgb;
+#endif
 #ifdef SHADOW_PER_FRAGMENT
 	vec3 most = lamp;
 #ifdef BACKLIGHT

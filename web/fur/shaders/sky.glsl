@@ -125,6 +125,12 @@ Moments environmentMoments(FurPoint point, Bending bending, Quadratic seen) {
 	moments.low *= eyeGain;
 	moments.high *= eyeGain;
 #endif
+#ifdef MULTIPLE
+	vec3 tinge = skyTinge(point, multipleGain(point));
+	mat3 rows = mat3(tinge, tinge, tinge);
+	moments.low = matrixCompMult(moments.low, rows);
+	moments.high = matrixCompMult(moments.high, rows);
+#endif
 #ifdef TRIMMED
 	moments = trimmed(moments, point.s);
 #endif

@@ -1,0 +1,140 @@
+"""Colour of light that has met many hairs: what share of a slab's light it is, and how it follows their colour.
+
+Light that met n hairs has their colour to the power n, while the samples' hairs are of one grey ϖ. M, the light that
+was scattered more than once, is nearly a geometric series whose orders shrink by ρ·c: hairs of colour c get
+
+    g(c) = (c/ϖ)·(1 − ρϖ)/(1 − ρc)
+
+times the M that was sampled; T·D is as it was. So a slab's light is its samples' times 1 + x·(g − 1), x = M/(T·D + M).
+With the colours of the own slab alone, transport in hairs of the presets' ramps, seen from above, is met within 4 %
+on the mean of all lights.
+
+x goes by the height of the light, not by its azimuth. Straight from above it does, since light across the lean shows
+the dark or the bright side of the hairs, but eyes elsewhere see other sides. (Fox on a ball, path-traced: if x goes by
+azimuth, too, up to 16 % of the light are missing, otherwise 3 to 7 %.)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from furbake.pelt.curves import Curves, sphere
+from furbake.pelt.means import LESS, Measured, rounded
+from furbake.pelt.paths import BODY_RADIUS
+from furbake.pelt.volume import Volume
+
+if TYPE_CHECKING:
+    from furbake.pelt.pelt import Ramp
+
+Array = NDArray[np.float64]
+
+MOST_RATIO = 1.0
+"""Of ρ: beyond it hairs of colour 1 would send back more light than they get."""
+
+MOST_COLOUR = 0.98
+"""Of hairs, where light is counted that they send to each other."""
+
+
+@dataclass(frozen=True)
+class Multiple:
+    """Light that has met several hairs in the slabs of one state.
+
+    albedo : ϖ of the hairs that were sampled
+    shares : (K, 3) numbers of x, see `share`
+    ratio : (K,) ρ
+    seen : (K,) share of each slab in what is seen of the fur from above, in even light
+    tint : (K,) mean of the texels' tint; colour : (K, 3) mean colour of the hairs, linear, None without a colour plane
+    """
+
+    albedo: float
+    shares: Array
+    ratio: Array
+    seen: Array
+    tint: Array
+    colour: Array | None = None
+
+    def share(self, lights: Array, beta: float = BODY_RADIUS) -> Array:
+        """x, (n, 3) unit directions → (n, K) in 0..1."""
+        return np.clip(terms(lights, beta) @ self.shares.T, 0, 1)
+
+    def gain(self, colour: Array) -> Array:
+        """g, for hairs of colours (..., K) or (..., 1)."""
+        held_colour = np.clip(colour, 0, MOST_COLOUR)
+        return np.asarray(held_colour / self.albedo * (1 - self.ratio * self.albedo) / (1 - self.ratio * held_colour))
+
+    def tinges(self, curves: Curves, weights: Array, ramp: Ramp, base: Array, lights: Array) -> Array:
+        """What the light of n lamps, and last of an even sky, is multiplied by for the hairs' colour, (n + 1, K, 3).
+
+        ramp : of the hairs, where they have no colours of their own; base : (3,) what all of these are multiplied by
+        """
+        colour = ramp.colour(self.tint, np.zeros(len(self.tint))) if self.colour is None else self.colour
+        shares = np.concatenate([self.share(lights), sky_share(self, curves, weights)[None]])
+        return np.asarray(1 + shares[..., None] * (self.gain((base * colour).T).T - 1))
+
+
+def sky_share(multiple: Multiple, curves: Curves, weights: Array, beta: float = BODY_RADIUS) -> Array:
+    """x under an even sky, (K,): the mean of all lights, each by what it gives."""
+    directions, area = sphere(beta)
+    light = np.maximum(curves.mean(directions, weights, beta), 0) * area[:, None]
+    return np.asarray((light * multiple.share(directions, beta)).sum(0) / np.maximum(light.sum(0), 1e-12))
+
+
+def terms(lights: Array, beta: float) -> Array:
+    """What the numbers of x multiply, (n, 3): 1, √lz (0 below the horizon), log₄ β."""
+    steep = np.sqrt(np.maximum(lights[:, 2], 0))
+    return np.stack([np.ones(len(lights)), steep, np.full(len(lights), np.log2(beta) / 2)], -1)
+
+
+def multiple_of(
+    bodies: Sequence[Measured], curves: Curves, weights: Array, volume: Volume, colour: Array | None
+) -> Multiple | None:
+    """Of the slabs (K) of a state with these weights (K, Q) of the curves.
+
+    bodies : of `measure`, None without any; volume : the stored slabs
+    colour : (K, N, N, 3) of the hairs in its texels, linear
+    """
+    if not bodies:
+        return None
+    cover = np.maximum(volume.coverage, 1e-6)
+    total = cover.sum((1, 2))
+    above = np.cumprod((1 - volume.coverage)[::-1], axis=0)[::-1]
+    clear = np.concatenate([above[1:], np.ones_like(above[:1])])
+    tint = (cover * volume.tint).sum((1, 2)) / total
+    directions, area = sphere(BODY_RADIUS)
+    light = np.maximum(weights @ (area @ curves(directions)), 0)
+    seen = (clear * volume.coverage).mean((1, 2)) * light * tint
+    return Multiple(
+        albedo=bodies[0].albedo,
+        shares=rounded(shares_of(bodies)),
+        ratio=rounded(shrinking(bodies)),
+        seen=rounded(seen / max(seen.sum(), 1e-12)),
+        tint=rounded(tint),
+        colour=None if colour is None else rounded((cover[..., None] * colour).sum((1, 2)) / total[:, None]),
+    )
+
+
+def shares_of(bodies: Sequence[Measured]) -> Array:
+    """Numbers of x, (K, 3), by least squares: lights count by how bright they leave a slab."""
+    rows = np.concatenate([terms(body.lights, body.beta) for body in bodies])
+    light = np.maximum(np.concatenate([body.values for body in bodies]), 1e-9)
+    multiple = np.concatenate([body.values if body.multiple is None else body.multiple for body in bodies])
+    # In a slab that no light reaches all of it has met other hairs.
+    small = 1e-9 * np.eye(3)
+    matrix = np.einsum("nk,ni,nj->kij", light, rows, rows) + small
+    return np.asarray(np.linalg.solve(matrix, ((multiple.T @ rows) + small[0])[..., None])[..., 0])
+
+
+def shrinking(bodies: Sequence[Measured]) -> Array:
+    """ρ of the slabs, (K,): M of the whole albedo over that of `LESS` of it is (1 − ρϖ·LESS)/(LESS·(1 − ρϖ))."""
+    for body in bodies:
+        if body.multiple is not None and body.darker is not None:
+            up = body.lights[:, 2] > 0
+            whole, less = body.multiple[up].sum(0), body.darker[up].sum(0)
+            grown = np.maximum(whole, 1e-12) * LESS / np.maximum(less, 1e-12)
+            return np.asarray(np.clip((grown - 1) / (body.albedo * (grown - LESS)), 0, MOST_RATIO))
+    raise ValueError("bodies: got none with darker hairs, expected one")
