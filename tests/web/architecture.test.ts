@@ -33,7 +33,7 @@ const floors = [
 	['FinMaterial', 'HullMaterial'],
 	['shells', 'fins'],
 	['Fur'],
-	['FurLoaderPlugin'],
+	['FurLoaderPlugin', 'FurFade', 'prepare'],
 	['RivalMaterial'],
 	['UnlitMaterial', 'LengyelMaterial', 'DeepOpacityMaps'],
 	['ShadowLayersMaterial'],

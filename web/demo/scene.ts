@@ -14,6 +14,7 @@ import {
 	UnsignedByteType,
 	Vector3,
 	WebGLRenderer,
+	WebGLRenderTarget,
 } from 'three';
 import { type Fur, fitShadow, limitsOf, type TextureLimits } from '../fur/index.ts';
 import { backdrop, ContactShadow } from '../page/backdrop.ts';
@@ -32,6 +33,8 @@ const keyColour = new Color(1, 0.95, 0.87).multiplyScalar(keyPower);
 
 export class Stage {
 	readonly renderer: WebGLRenderer;
+	/** A target as the scene's own, for what is made ready beside it. */
+	readonly sample: WebGLRenderTarget;
 	readonly scene = new Scene();
 	readonly key = new DirectionalLight();
 	readonly sky = new HemisphereLight(0xffffff, 0xffffff, 0.7 * Math.PI);
@@ -63,6 +66,7 @@ export class Stage {
 		const half = gl?.getExtension('EXT_color_buffer_float') ?? gl?.getExtension('EXT_color_buffer_half_float');
 		const outputBufferType = half ? HalfFloatType : UnsignedByteType;
 		this.renderer = new WebGLRenderer({ canvas, outputBufferType, ...attributes });
+		this.sample = new WebGLRenderTarget(1, 1, { type: outputBufferType });
 		this.renderer.toneMapping = NeutralToneMapping;
 		this.renderer.shadowMap.enabled = true;
 		// One frame is several renders (scene, output): the counts are those of all of them.

@@ -32,6 +32,7 @@ export {
 	type Slot,
 	VERSION,
 } from './format.ts';
+export { FurFade } from './FurFade.ts';
 export { FurGovernor, type GovernorOptions } from './governor.ts';
 export { FurInstances } from './instances.ts';
 export { checkLimits, limitsOf, type TextureLimits } from './limits.ts';
@@ -49,6 +50,7 @@ export type { MotionOptions } from './motion/options.ts';
 export { type Spring, springOf } from './motion/spring.ts';
 export type { WindSettings } from './motion/Wind.ts';
 export type { FurTextures } from './PeltMaterial.ts';
+export { prepareFur } from './prepare.ts';
 export { fitShadow } from './shadow.ts';
 export { FurShells, MAX_SHELLS } from './shells.ts';
 export type { SlabMeanCurves } from './texels.ts';
