@@ -7,7 +7,10 @@ import {
 	Group,
 	HalfFloatType,
 	HemisphereLight,
+	Material,
+	Mesh,
 	NeutralToneMapping,
+	type Object3D,
 	type PerspectiveCamera,
 	Scene,
 	Sphere,
@@ -16,7 +19,7 @@ import {
 	WebGLRenderer,
 	WebGLRenderTarget,
 } from 'three';
-import { type Fur, fitShadow, limitsOf, type TextureLimits } from '../fur/index.ts';
+import { type Fur, fitShadow, limitsOf, SmoothEdges, type TextureLimits } from '../fur/index.ts';
 import { backdrop, ContactShadow } from '../page/backdrop.ts';
 import { disposeAll } from '../page/dispose.ts';
 import { Crowd } from './crowd.ts';
@@ -46,6 +49,9 @@ export class Stage {
 	closest = 1;
 	model: Model | undefined;
 	#crowd: Crowd | undefined;
+	readonly #edges = new SmoothEdges();
+	/** Whether it is done. */
+	readonly #smooth: boolean;
 	readonly #shadow = new ContactShadow();
 	readonly #backdrop: DataTexture;
 	/** Light of the place. */
@@ -66,6 +72,9 @@ export class Stage {
 		const half = gl?.getExtension('EXT_color_buffer_float') ?? gl?.getExtension('EXT_color_buffer_half_float');
 		const outputBufferType = half ? HalfFloatType : UnsignedByteType;
 		this.renderer = new WebGLRenderer({ canvas, outputBufferType, ...attributes });
+		// Effects need a target that is toned at last.
+		this.#smooth = Boolean(half);
+		if (half) this.renderer.setEffects([this.#edges]);
 		this.sample = new WebGLRenderTarget(1, 1, { type: outputBufferType });
 		this.renderer.toneMapping = NeutralToneMapping;
 		this.renderer.shadowMap.enabled = true;
@@ -105,6 +114,7 @@ export class Stage {
 	gather(count: number, fur: Fur | undefined): void {
 		const { model } = this;
 		if (!model) return;
+		if (fur) this.#outline(model.object, fur);
 		const many = fur !== undefined && count > 1;
 		if (!many || this.#crowd?.fur !== fur) this.#disband();
 		if (many && !this.#crowd) {
@@ -122,6 +132,15 @@ export class Stage {
 		this.#shadow.fit(model.box, fur ? length : 0);
 		this.light(this.key.position.clone().sub(this.key.target.position).normalize());
 		fitShadow(this.key, new Sphere(this.centre, (crowd?.reach ?? this.radius) + length), length);
+	}
+
+	/** Has eyes, a nose and the like be smooth where hairs stand around them. */
+	#outline(object: Object3D, fur: Fur): void {
+		if (!this.#smooth) return;
+		for (const child of object.children) {
+			if (child === fur.skin || child === fur.shells.parent || !(child instanceof Mesh)) continue;
+			if (child.material instanceof Material && !child.material.transparent) this.#edges.mark(child.material);
+		}
 	}
 
 	/**

@@ -14,6 +14,7 @@ export {
 } from './environment.ts';
 export { FinMaterial, type FinMaterialParameters } from './FinMaterial.ts';
 export { type DressOptions, dress, Fur, type HasStates } from './Fur.ts';
+export { FurFade } from './FurFade.ts';
 export { type FurLoaderOptions, FurLoaderPlugin } from './FurLoaderPlugin.ts';
 export { FurMaterial, type FurMaterialParameters } from './FurMaterial.ts';
 export { FurWeather, type WeatheredBody, type WeatherOptions } from './FurWeather.ts';
@@ -32,7 +33,6 @@ export {
 	type Slot,
 	VERSION,
 } from './format.ts';
-export { FurFade } from './FurFade.ts';
 export { FurGovernor, type GovernorOptions } from './governor.ts';
 export { FurInstances } from './instances.ts';
 export { checkLimits, limitsOf, type TextureLimits } from './limits.ts';
@@ -51,6 +51,7 @@ export { type Spring, springOf } from './motion/spring.ts';
 export type { WindSettings } from './motion/Wind.ts';
 export type { FurTextures } from './PeltMaterial.ts';
 export { prepareFur } from './prepare.ts';
+export { SmoothEdges } from './SmoothEdges.ts';
 export { fitShadow } from './shadow.ts';
 export { FurShells, MAX_SHELLS } from './shells.ts';
 export type { SlabMeanCurves } from './texels.ts';
