@@ -6,12 +6,14 @@ import {
 	DirectionalLight,
 	HalfFloatType,
 	HemisphereLight,
+	LinearToneMapping,
 	Mesh,
 	MeshBasicMaterial,
 	OrthographicCamera,
 	PerspectiveCamera,
 	Scene,
 	WebGLRenderer,
+	WebGLRenderTarget,
 } from 'three';
 import { dress, FurFade, prepareFur, SmoothEdges } from '../../web/fur/index.ts';
 import { loadFur } from '../../web/measure/studio.ts';
@@ -21,6 +23,7 @@ const SIZE = 96;
 function drawer(size = SIZE) {
 	const renderer = new WebGLRenderer({ outputBufferType: HalfFloatType });
 	renderer.setSize(size, size, false);
+	renderer.toneMapping = LinearToneMapping;
 	const gl = renderer.getContext() as WebGL2RenderingContext;
 	const read = () => {
 		const pixels = new Uint8Array(4 * size * size);
@@ -64,7 +67,9 @@ export async function fade(body: string, pelt: string, steps: number) {
 	const fine = dress(own, other);
 	fine.shells.shellCount = 8;
 	fine.visible = false;
-	await prepareFur(fine, renderer, scene, camera, null);
+	const linear = new WebGLRenderTarget(1, 1, { type: HalfFloatType });
+	await prepareFur(fine, renderer, scene, camera, linear);
+	linear.dispose();
 	const programs = renderer.info.programs?.length ?? 0;
 	const textures = renderer.info.memory.textures;
 	fine.visible = true;
@@ -107,13 +112,13 @@ export function outline(marked: boolean) {
 		return mesh;
 	};
 	add(2, 2, 0, -1, stripes);
-	for (let x = -0.95; marked && x < 1; x += 0.1) add(0.05, 2, x, -0.5, dark);
+	// Whole pixels wide.
+	for (let i = 0; marked && i < 16; i++) add(1 / 16, 2, (i - 7.75) / 8, -0.5, dark);
 	add(1, 1, 0, 0, square).rotation.z = 0.3;
 	const camera = new OrthographicCamera(-1, 1, 1, -1, 0.1, 10);
 	camera.position.z = 2;
 	const draw = (size: number, edges?: SmoothEdges) => {
 		const { renderer, read } = drawer(size);
-		// Effects have the renderer tone, or not, at last.
 		renderer.setEffects(edges ? [edges] : []);
 		renderer.render(scene, camera);
 		const pixels = read();

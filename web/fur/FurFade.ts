@@ -28,12 +28,12 @@ const partsOf = (furs: readonly Fur[]): Parts =>
 
 /**
  * Goes over from some furs of a body to others, such as from coarse planes to fine ones, without a jump: for as long as it
- * takes the scene is drawn with the ones and with the others, and the pictures are mixed, in linear light where the renderer
- * has an `outputBufferType`.
+ * takes the scene is drawn with the ones and with the others, and the pictures are mixed. For a renderer that blends in linear
+ * light: with an `outputBufferType` and tone mapping.
  *
  *     const fine = dress(fur, pelt);
  *     fine.visible = false;
- *     await prepareFur(fine, renderer, scene, camera);
+ *     await prepareFur(fine, renderer, scene, camera, new WebGLRenderTarget());
  *     fine.visible = true;
  *     const fade = new FurFade([fur], [fine]);
  *     scene.add(fade);

@@ -7,8 +7,8 @@ import { turn } from './steps.ts';
  * then. What is switched on later (`gloss`, `swing` …) is compiled later.
  *
  * @param scene with the lights that it will be seen under
- * @param target what the scene will be drawn to, by default the renderer's own of now; of a renderer with an
- * `outputBufferType` any other one: that draws to linear texels, too
+ * @param target what the scene will be drawn to, or one like it; for a renderer with an `outputBufferType` and tone mapping, which
+ * draws to linear texels first, any at all
  */
 export async function prepareFur(
 	fur: Fur,
