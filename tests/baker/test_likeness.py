@@ -25,7 +25,7 @@ from furbake.likeness import page
 from furbake.likeness.ceiling import TOGETHER, directions, sampled_ceiling, shares, visible, write_passes
 from furbake.likeness.cells import FIELD_OF_VIEW, PLANS, Cell, Frame, cells, frame
 from furbake.likeness.colour import compared
-from furbake.likeness.figures import bins, figures, overlap, similarity
+from furbake.likeness.figures import bins, contrast, figures, overlap, similarity
 from furbake.likeness.page import Shown, grey_copy, show
 from furbake.likeness.paint import write_painted
 from furbake.likeness.sheet import GAP, row
@@ -82,6 +82,13 @@ def test_all_of_the_fur_is_in_the_picture() -> None:
         assert ((np.abs(at @ np.cross(back, right)) + 0.2) / depth).max() < slope
 
 
+def test_close_up_the_eye_is_nearer_to_the_same_centre() -> None:
+    corners = np.array([[-1.0, -1, -1], [1, 1, 1]])
+    far, near = (frame(corners, 0.1, PLANS["body"], 120, share) for share in (1.0, 0.35))
+    assert near.distance == pytest.approx(0.35 * far.distance)
+    np.testing.assert_array_equal(near.centre, far.centre)
+
+
 def picture(seed: int) -> np.ndarray:
     """Smooth in part, so that a smaller copy still holds something."""
     chance = np.random.default_rng(seed)
@@ -108,6 +115,16 @@ def test_similarity_is_that_of_its_definition() -> None:
     inner[15:25, 15:25] = True
     expected = (2 * 0.5 * 0.8 + 1e-4) / (0.25 + 0.64 + 1e-4)
     assert similarity(0.5 * flat, 0.8 * flat, inner, 1.0) == pytest.approx(expected)
+
+
+def test_fine_contrast_is_that_of_the_truth_whatever_its_noise_and_the_brightness() -> None:
+    chance = np.random.default_rng(2)
+    truth = 1 + 0.3 * chance.standard_normal((120, 120))
+    over = np.ones((120, 120), bool)
+    halves = (truth + 0.3 * chance.standard_normal(truth.shape), truth + 0.3 * chance.standard_normal(truth.shape))
+    assert contrast(2 * truth, halves, over) == pytest.approx(1, abs=0.03)
+    assert contrast(1 + 0.5 * (truth - 1), halves, over) == pytest.approx(0.5, abs=0.03)
+    assert contrast(np.ones_like(truth), halves, over) == pytest.approx(0, abs=1e-6)
 
 
 def test_bins_are_of_the_skin_that_counts() -> None:
@@ -163,6 +180,7 @@ def test_the_grey_copy_is_a_valid_asset_without_colours(tmp_path: Path, tiny: Ba
         (Options(methods=("ptm", "magic")), "methods: got 'magic'"),
         (Options(size=8), "size: got 8"),
         (Options(spp=1), "spp: got 1"),
+        (Options(distance=0.1), "distance: got 0.1, expected 0.25 to 4"),
     ],
 )
 def test_options_out_of_range_are_refused(tmp_path: Path, options: Options, says: str) -> None:

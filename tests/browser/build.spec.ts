@@ -7,7 +7,7 @@ import { expect, open, state, test } from './harness.ts';
 import { type Host, serveFolder, weightOf } from './host.ts';
 
 /** Bytes over the wire of the demo with its default model. */
-const [UNTIL_FUR, WHOLE] = [1.2e6, 2.5e6];
+const [UNTIL_FUR, COARSE, WHOLE] = [1.2e6, 1.6e6, 3.5e6];
 
 let dist = '';
 let host: Host;
@@ -45,7 +45,7 @@ test.afterEach(({ watch }) => {
 
 test('the built demo, and what it weighs', async ({ page, watch }, { annotations }) => {
 	host.sent.length = 0;
-	await open(page, '?still=1', host.address);
+	await open(page, '?still=1&planes=128', host.address);
 	expect(await state(page)).toBe('ready');
 	// The mark of the first furry frame.
 	const fur = await page.evaluate(() => {
@@ -55,6 +55,7 @@ test('the built demo, and what it weighs', async ({ page, watch }, { annotations
 	await page.waitForLoadState('networkidle');
 	const weights = {
 		'until the first furry frame': weightOf(host.sent.filter(({ ended }) => ended <= fur)),
+		'without finer planes': weightOf(host.sent.filter(({ path }) => !path.startsWith('/models/fine-'))),
 		whole: weightOf(host.sent),
 	};
 	const written = Object.entries(weights).map(([type, bytes]) => ({
@@ -67,8 +68,9 @@ test('the built demo, and what it weighs', async ({ page, watch }, { annotations
 	annotations.push(...written);
 	for (const { path, bytes } of host.sent) annotations.push({ type: path, description: `${bytes} B` });
 	expect(weights['until the first furry frame'], 'until the first furry frame').toBeLessThan(UNTIL_FUR);
+	expect(weights['without finer planes'], 'without finer planes').toBeLessThan(COARSE);
 	expect(weights.whole, 'the whole page').toBeLessThan(WHOLE);
-	expect(weights.whole).toBeGreaterThan(0.5e6);
+	expect(weights.whole).toBeGreaterThan(2e6);
 
 	// The picture is dark in either scheme: words over it are light in the light one, too.
 	await page.emulateMedia({ colorScheme: 'light' });

@@ -6,7 +6,8 @@ describe('a view and its address', () => {
 		{ still: false, ui: true },
 		{ still: true, ui: false },
 		{ model: 'bunny', light: [0, 0.6, 0.8], camera: [30, -12.5, 1.25], shells: 48, fins: false, still: true, ui: true },
-		{ env: 'sunset', still: true, ui: true },
+		{ env: 'sunset', planes: '128', still: true, ui: true },
+		{ planes: 'auto', still: false, ui: true },
 		{ model: 'fox', env: 'none', still: false, ui: true },
 		{ model: 'https://example.org/a b/ä&c=d/', still: false, ui: true },
 		{ model: 'bunny', crowd: 100, still: false, ui: true },
@@ -33,7 +34,7 @@ describe('a view and its address', () => {
 
 	it('are readable: the example of the documentation', () => {
 		const search =
-			'?model=bunny&preset=fox&method=eigen&split=lengyel,0.5&light=0.303,0.808,0.505&lights=3&camera=30,12,1&shells=48&fins=0&length=1.2&density=0.8&colour=33221a,e8b98a&env=sunset&crowd=5&wind=0.4,90&wet=0.75&dirt=0.3&turn=1&still=1&ui=0&lang=zh';
+			'?model=bunny&preset=fox&method=eigen&split=lengyel,0.5&light=0.303,0.808,0.505&lights=3&camera=30,12,1&shells=48&fins=0&length=1.2&density=0.8&colour=33221a,e8b98a&planes=64&env=sunset&crowd=5&wind=0.4,90&wet=0.75&dirt=0.3&turn=1&still=1&ui=0&lang=zh';
 		expect(formatAddress(parseAddress(search).view)).toBe(search);
 	});
 
@@ -63,6 +64,8 @@ describe('reading an address', () => {
 
 	it.each([
 		'model=',
+		'planes=',
+		'planes=256',
 		'env=',
 		'env=mars',
 		'env=Sunset',

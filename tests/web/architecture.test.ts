@@ -9,7 +9,7 @@ const web = fileURLToPath(new URL('../../web/', import.meta.url));
 
 /** The library from the ground up; modules of one floor do not import each other. A new module gets its floor here. */
 const floors = [
-	['format', 'names', 'weld', 'switches', 'steps', 'chunks'],
+	['format', 'SmoothEdges', 'names', 'weld', 'switches', 'steps', 'chunks'],
 	[
 		'planes',
 		'moments',
@@ -35,7 +35,7 @@ const floors = [
 	['FinMaterial', 'HullMaterial'],
 	['shells', 'fins'],
 	['Fur'],
-	['FurLoaderPlugin'],
+	['FurLoaderPlugin', 'FurFade', 'prepare'],
 	['RivalMaterial'],
 	['UnlitMaterial', 'LengyelMaterial', 'DeepOpacityMaps'],
 	['ShadowLayersMaterial'],

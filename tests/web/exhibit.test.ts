@@ -38,7 +38,7 @@ function exhibit(view: View) {
 	return { shown, load, styled };
 }
 
-const view = (): View => ({ ui: true, still: false, wet: 0.5 }) as View;
+const view = (): View => ({ ui: true, still: false, wet: 0.5, planes: '64' });
 
 describe('states of the fur on show', () => {
 	it('are asked for once, when fur is to be wet', async () => {

@@ -12,6 +12,7 @@
  *   So a link shows the same view in a window of any shape. 0,0,1 looks along -z.
  * - shells: number of drawn shells, without it as many as the picture needs; fins=0: none
  * - length, density: of the hairs, in units of what was baked; colour=RRGGBB,RRGGBB: of root and tip, sRGB
+ * - planes: texels of the fur, 64: as the model has them, 128: the preset's own, auto: these where the device is up to it
  * - env: a place whose light falls on the model, or none: the page's own sky
  * - crowd: so many bodies of the model, on a meadow
  * - wind=STRENGTH,DIRECTION: 0 to 1, and where it blows to: degrees as of the camera's azimuth, 90 is to the right
@@ -22,6 +23,7 @@
 
 import { isLanguage, type Language } from '../page/language.ts';
 import { type EnvironmentName, isEnvironment } from './environments.ts';
+import { isPlanes, type Planes } from './fine.ts';
 
 export type Triple = [number, number, number];
 
@@ -52,6 +54,7 @@ export interface View {
 	density?: number | undefined;
 	/** root and tip, sRGB as rrggbb */
 	colour?: [root: string, tip: string] | undefined;
+	planes?: Planes | undefined;
 	env?: EnvironmentName | 'none' | undefined;
 	/** 1..400 */
 	crowd?: number | undefined;
@@ -87,6 +90,7 @@ export type Expected =
 	| 'length'
 	| 'density'
 	| 'colour'
+	| 'planes'
 	| 'env'
 	| 'crowd'
 	| 'wind'
@@ -207,6 +211,7 @@ const parameters: { [Name in keyof View]-?: Parameter<NonNullable<View[Name]>> }
 		},
 		write: (colours) => colours.join(),
 	},
+	planes: chosen('planes', isPlanes),
 	env: chosen('env', (text): text is EnvironmentName | 'none' => text === 'none' || isEnvironment(text)),
 	crowd: whole('crowd', 400),
 	wind: {

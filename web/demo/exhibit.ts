@@ -5,6 +5,7 @@ import { setState } from '../page/element.ts';
 import type { Triple, View } from './address.ts';
 import type { OwnModel } from './drop.ts';
 import { type EnvironmentName, loadEnvironment } from './environments.ts';
+import { wantsFine } from './fine.ts';
 import { Living } from './living.ts';
 import { Looks } from './looks.ts';
 import { textureBytes } from './memory.ts';
@@ -20,10 +21,11 @@ import {
 	sourceAt,
 } from './models.ts';
 import { notice, withdraw } from './notice.ts';
-import { adjust, availableOutfits } from './outfits.ts';
+import { adjust, availableOutfits, fineOutfits, type Wearer } from './outfits.ts';
 import type { Picture } from './picture.ts';
 import { Play } from './play.ts';
 import type { Progress } from './progress.ts';
+import { refine } from './refine.ts';
 import { en } from './words/drop.en.ts';
 import { zh } from './words/drop.zh.ts';
 import { language, words } from './words/index.ts';
@@ -61,8 +63,9 @@ export class Exhibit {
 		this.#progress = progress;
 		this.living = new Living(this.looks, picture.stage, picture.calm);
 		this.play = new Play(picture, this.looks, this.living);
-		picture.live = (elapsed) => this.play.step(elapsed);
-		picture.before = () => this.looks.before(picture.stage.renderer, picture.stage.key);
+		const { stage, camera } = picture;
+		picture.live = (elapsed) => Math.min(this.play.step(elapsed), this.looks.step(elapsed));
+		picture.before = () => this.looks.before(stage.renderer, stage.scene, camera, stage.key);
 	}
 
 	get entry(): MenuEntry | undefined {
@@ -270,9 +273,11 @@ export class Exhibit {
 		this.#soiled = soiled;
 		const wearer = { body: model.fur, soiled, entry: this.entry, limits: stage.limits };
 		const { outfits, whole } = await availableOutfits(view, this.menu, wearer);
+		const wanted = wantsFine(view.planes);
+		const fine = wanted ? await fineOutfits(view, this.menu, wearer, false) : undefined;
 		const late = () => turn !== this.#latestOutfit || model !== stage.model;
 		if (late()) return;
-		this.looks.wear(model.fur, outfits, view);
+		this.looks.wear(model.fur, fine ?? outfits, view);
 		this.looks.cut(view.split?.share ?? 1);
 		this.living.style(view);
 		stage.gather(view.crowd ?? 1, this.looks.fur);
@@ -290,6 +295,23 @@ export class Exhibit {
 		this.living.style(view);
 		this.#weigh();
 		this.changed();
+		if (!wanted || fine) return;
+		const refined = this.#refine(wearer, late);
+		// What was asked for by name belongs to the whole picture.
+		if (view.planes === '128') await refined;
+	}
+
+	/** Has the fur go over to finer planes; where they cannot be had it stays as it is. */
+	async #refine(wearer: Wearer, late: () => boolean): Promise<void> {
+		const view = this.#view;
+		try {
+			const outfits = await fineOutfits(view, this.menu, wearer, true);
+			if (!outfits || late() || !(await refine(this.#picture, this.looks, outfits, view, late))) return;
+			this.#weigh();
+			this.changed();
+		} catch (error) {
+			if (!late() && view.planes === '128') notice(words.planesNotShown((error as Error).message), 'error');
+		}
 	}
 
 	/** Tells the figures what the textures weigh. */

@@ -1,7 +1,7 @@
 /** How the body on show looks: which pelt it wears, by which method that is lit; one way, or two side by side. */
 
-import type { DirectionalLight, Texture, WebGLRenderer } from 'three';
-import { dress, type Fur, type FurMethod, type FurWeather, furMethod, type MethodName } from '../fur/index.ts';
+import type { Camera, DirectionalLight, Scene, Texture, WebGLRenderer } from 'three';
+import { dress, type Fur, FurFade, type FurMethod, type FurWeather, furMethod, type MethodName } from '../fur/index.ts';
 import type { View } from './address.ts';
 import { paint } from './colours.ts';
 
@@ -28,11 +28,19 @@ const coarse = 4;
 const usualGloss = 0.5;
 const backlight = 6;
 
+/** Seconds in which one look goes over into another, and the most of it that a frame takes: slow ones make no jump. */
+const fading = 0.6;
+const longest = 0.2;
+
 export class Looks {
 	#body: Fur | undefined;
 	/** What has been put on this body so far, by pelt: the body itself, and what lies over it. */
 	readonly #worn = new Map<Fur, Fur[]>();
 	#looks: Look[] = [];
+	/** Those that go, as long as they are still seen. */
+	#leaving: readonly Look[] = [];
+	#fade: FurFade | undefined;
+	#finished: () => void = () => {};
 
 	/** What all of them stand on: the model's own fur, worn or not. */
 	get body(): Fur | undefined {
@@ -56,29 +64,102 @@ export class Looks {
 	 * @param view what holds for both
 	 */
 	wear(body: Fur, outfits: readonly Outfit[], view: View): void {
+		this.finish();
 		if (body !== this.#body) this.strip();
 		this.#body = body;
 		const before = this.#looks;
+		this.#put(body, outfits, view);
+		this.#leave(before);
+		this.style(view);
+	}
+
+	/**
+	 * The same on the body that is on show, going over to it little by little: `step` leads on from frame to frame.
+	 *
+	 * @param outfits others than those that are worn
+	 * @param samples of the picture, per pixel
+	 * @returns when nothing else is seen
+	 */
+	exchange(outfits: readonly Outfit[], view: View, scene: Scene, samples: number): Promise<void> {
+		this.finish();
+		const body = this.#body as Fur;
+		this.#leaving = this.#looks;
+		this.#put(body, outfits, view);
+		for (const { fur, rival } of this.#looks) {
+			fur.visible = true;
+			rival?.wear();
+		}
+		this.style(view);
+		const furs = (looks: readonly Look[]) => looks.map(({ fur }) => fur);
+		this.#fade = new FurFade(furs(this.#leaving), furs(this.#looks), samples);
+		scene.add(this.#fade);
+		return new Promise((resolve) => {
+			this.#finished = resolve;
+		});
+	}
+
+	/** Puts outfits on without showing them. @param compile called with each of their furs, in its style */
+	async prepare(outfits: readonly Outfit[], view: View, compile: (fur: Fur) => Promise<void>): Promise<void> {
+		const body = this.#body as Fur;
+		for (const [fur, { gloss }] of this.#furs(body, outfits)) {
+			if (body !== this.#body) return;
+			fur.visible = this.#looks.some((look) => look.fur === fur);
+			style(fur, gloss, view);
+			await compile(fur);
+		}
+	}
+
+	/** Leads on what `exchange` began. @returns milliseconds until another frame is wanted: 0 at once, Infinity none */
+	step(seconds: number): number {
+		const fade = this.#fade;
+		if (!fade) return Number.POSITIVE_INFINITY;
+		fade.share += Math.min(seconds / fading, longest);
+		if (fade.share > 1 - 1e-6) this.finish();
+		return 0;
+	}
+
+	/** Has what `exchange` began be at its end. */
+	finish(): void {
+		if (!this.#fade) return;
+		this.#fade.dispose();
+		this.#fade = undefined;
+		const before = this.#leaving;
+		this.#leaving = [];
+		this.#leave(before);
+		this.#finished();
+	}
+
+	/** The furs of outfits on a body, in their order. */
+	#furs(body: Fur, outfits: readonly Outfit[]): [fur: Fur, outfit: Outfit][] {
 		const counts = new Map<Fur, number>();
-		this.#looks = [];
-		for (const { pelt = body, tips, gloss, method } of outfits) {
+		return outfits.map((outfit) => {
+			const { pelt = body, tips } = outfit;
 			const nth = counts.get(pelt) ?? 0;
 			counts.set(pelt, nth + 1);
-			const fur = this.#on(body, pelt, tips, nth);
+			return [this.#on(body, pelt, tips, nth), outfit];
+		});
+	}
+
+	/** Makes the looks of a body: what it wears is not seen by that. */
+	#put(body: Fur, outfits: readonly Outfit[], view: View): void {
+		this.#looks = this.#furs(body, outfits).map(([fur, { gloss, method }]) => {
 			// Rivals take the switches of the fur's own material as they stand, so these come first.
 			style(fur, gloss, view);
-			this.#looks.push({ fur, gloss, rival: method === 'ptm' ? undefined : furMethod(method, fur) });
-		}
+			return { fur, gloss, rival: method === 'ptm' ? undefined : furMethod(method, fur) };
+		});
+	}
+
+	/** Has the looks of now be seen alone. */
+	#leave(before: readonly Look[]): void {
 		// After the new ones, so that programs which both have in use are not compiled again.
 		for (const { rival } of before) rival?.dispose();
 		for (const { rival } of this.#looks) rival?.wear();
-		for (const fur of [body, ...[...this.#worn.values()].flat()])
+		for (const fur of [...(this.#body ? [this.#body] : []), ...[...this.#worn.values()].flat()])
 			fur.visible = this.#looks.some((look) => look.fur === fur);
 		// Both cast the same shadow.
 		this.#looks.forEach(({ fur }, i) => {
 			fur.shells.castShadow = i === 0;
 		});
-		this.style(view);
 	}
 
 	/** The nth fur of this pelt on the body. */
@@ -122,7 +203,7 @@ export class Looks {
 
 	/** Has them move and be stained alike. @param swing of the hairs' tips; undefined: at rest */
 	live(swing: Texture | undefined, weather: FurWeather | undefined): void {
-		for (const { fur } of this.#looks) {
+		for (const { fur } of [...this.#looks, ...this.#leaving]) {
 			fur.swing = swing;
 			fur.weather = weather;
 		}
@@ -134,8 +215,9 @@ export class Looks {
 	}
 
 	/** To be called before every frame. */
-	before(renderer: WebGLRenderer, key: DirectionalLight): void {
-		for (const { rival } of this.#looks) rival?.before(renderer, key);
+	before(renderer: WebGLRenderer, scene: Scene, camera: Camera, key: DirectionalLight): void {
+		for (const { rival } of [...this.#looks, ...this.#leaving]) rival?.before(renderer, key);
+		this.#fade?.capture(renderer, scene, camera);
 	}
 
 	/** @param share of the picture's width where the second look begins; without a second one nothing is cut */
@@ -147,6 +229,7 @@ export class Looks {
 
 	/** To be called while the context is lost: frees what no scene holds, the maps of methods and materials that are not worn. */
 	forget(): void {
+		this.finish();
 		for (const { fur, rival } of this.#looks) {
 			if (!rival) continue;
 			rival.dispose();
@@ -157,6 +240,7 @@ export class Looks {
 
 	/** Takes all off the body; to be called before it is disposed of. */
 	strip(): void {
+		this.finish();
 		for (const { rival } of this.#looks) rival?.dispose();
 		this.#looks = [];
 		for (const fur of [...this.#worn.values()].flat()) fur.dispose();

@@ -20,6 +20,8 @@ export interface MenuEntry {
 	/** of a pelt, which other models are dressed in: the preset that it is, and what its light curves are */
 	pelt?: string;
 	basis?: 'ptm' | 'eigen';
+	/** of a pelt: whether its planes are the preset's own, finer than those of models that wear it */
+	fine?: boolean;
 	/** of a pelt: strength of the highlights that suits it, where it is not that of all others */
 	gloss?: number;
 	/** of a pelt: how far a model's own second tip colour shows on it, 0..1 */
@@ -76,7 +78,7 @@ export function offered(entries: readonly MenuEntry[]): MenuEntry[] {
 
 /** What models can be dressed in, in the paper's basis or in the light curves found for that very fur. */
 export function pelts(entries: readonly MenuEntry[], basis: 'ptm' | 'eigen' = 'ptm'): MenuEntry[] {
-	return entries.filter((entry) => entry.pelt !== undefined && entry.basis === basis);
+	return entries.filter((entry) => entry.pelt !== undefined && entry.basis === basis && !entry.fine);
 }
 
 /** How a model of the menu wants to be seen first, or all of a crowd. */

@@ -1,6 +1,6 @@
 /** What a model can wear: the pelt of each preset, and each of them with light curves found for it (eigen). */
 
-import type { Fur, TextureLimits } from '../fur/index.ts';
+import type { Fur, MethodName, TextureLimits } from '../fur/index.ts';
 import type { Method, View } from './address.ts';
 import type { Outfit } from './looks.ts';
 import { loadPelt, type MenuEntry, pelts, sourceAt } from './models.ts';
@@ -9,6 +9,8 @@ import { words } from './words/index.ts';
 
 /** Those on their way or there: pelts are small, and come back often. */
 const loaded = new Map<string, Promise<Fur>>();
+/** Those that are there. */
+const here = new Set<string>();
 
 /** The pelt in the menu that this method needs; undefined: there is none. */
 function peltOf(
@@ -21,6 +23,14 @@ function peltOf(
 	const name = preset ?? entry?.preset;
 	return pelts(menu, basis).find(({ pelt }) => pelt === name);
 }
+
+/** The pelt with the planes of its own preset, finer than the model's; undefined: there is none. */
+function finePelt({ preset }: View, entry: MenuEntry | undefined, menu: readonly MenuEntry[]): MenuEntry | undefined {
+	const name = preset ?? entry?.preset;
+	return menu.find(({ pelt, fine }) => fine && pelt === name);
+}
+
+const methodsOf = ({ method, split }: View): Method[] => [method ?? 'ptm', ...(split ? [split.method] : [])];
 
 /** Whether there are eigen curves for what the model wears. */
 export function hasEigen(view: View, entry: MenuEntry | undefined, menu: readonly MenuEntry[]): boolean {
@@ -97,9 +107,8 @@ export interface Wearer {
 function outfitsOf(view: View, menu: readonly MenuEntry[], { body, soiled, entry, limits }: Wearer): Promise<Outfit[]> {
 	// What its own fur does not know its pelt does; dry and clean they are the same.
 	const lent = soiled && !has(body.hasStates) && has(statesOf(peltOf(view, entry, menu, 'ptm')));
-	const wanted: Method[] = [view.method ?? 'ptm', ...(view.split ? [view.split.method] : [])];
 	return Promise.all(
-		wanted.map(async (method): Promise<Outfit> => {
+		methodsOf(view).map(async (method): Promise<Outfit> => {
 			const name = method === 'eigen' ? 'ptm' : method;
 			// A model's own fur is what it was baked with, and better than its pelt.
 			const own = method !== 'eigen' && view.preset === undefined;
@@ -133,10 +142,36 @@ export async function availableOutfits(
 	}
 }
 
+/**
+ * The same outfits in finer planes; undefined where there are none: wet and dirty fur, eigen curves and crowds have theirs
+ * in the model's size alone.
+ *
+ * @param fetching false: only where they have come before
+ * @throws Error of one sentence where they cannot be had
+ */
+export async function fineOutfits(
+	view: View,
+	menu: readonly MenuEntry[],
+	{ soiled, entry, limits }: Wearer,
+	fetching: boolean,
+): Promise<Outfit[] | undefined> {
+	const pelt = finePelt(view, entry, menu);
+	const methods = methodsOf(view);
+	if (!pelt || soiled || (view.crowd ?? 1) > 1 || methods.includes('eigen')) return undefined;
+	if (!fetching && !here.has(pelt.name)) return undefined;
+	// A model's own fur looks as it was baked.
+	const { tips = 1, gloss } = view.preset === undefined ? {} : pelt;
+	const fur = await load(pelt.name, limits);
+	return methods.map((method) => ({ pelt: fur, tips, gloss, method: method as MethodName }));
+}
+
 function load(name: string, limits: TextureLimits): Promise<Fur> {
 	const pelt = loaded.get(name) ?? loadPelt(sourceAt(new URL(`models/${name}/`, document.baseURI)), limits);
 	loaded.set(name, pelt);
 	// What has failed may come another time.
-	pelt.catch(() => loaded.delete(name));
+	pelt.then(
+		() => here.add(name),
+		() => loaded.delete(name),
+	);
 	return pelt;
 }

@@ -91,6 +91,11 @@ export class Picture {
 		return this.#options.calm;
 	}
 
+	/** Whether every frame is drawn in full, besides. */
+	get still(): boolean {
+		return this.#options.still;
+	}
+
 	request(): void {
 		this.#frames.request();
 	}

@@ -7,6 +7,8 @@ import {
 	Group,
 	HalfFloatType,
 	HemisphereLight,
+	Material,
+	Mesh,
 	NeutralToneMapping,
 	Object3D,
 	type PerspectiveCamera,
@@ -15,8 +17,9 @@ import {
 	UnsignedByteType,
 	Vector3,
 	WebGLRenderer,
+	WebGLRenderTarget,
 } from 'three';
-import { type Fur, fitShadow, limitsOf, luminance, type TextureLimits } from '../fur/index.ts';
+import { type Fur, fitShadow, limitsOf, luminance, SmoothEdges, type TextureLimits } from '../fur/index.ts';
 import { backdrop, CastShadow, ContactShadow } from '../page/backdrop.ts';
 import { disposeAll } from '../page/dispose.ts';
 import { Crowd } from './crowd.ts';
@@ -36,6 +39,8 @@ const sky = new Color();
 
 export class Stage {
 	readonly renderer: WebGLRenderer;
+	/** A target as the scene's own, for what is made ready beside it. */
+	readonly sample: WebGLRenderTarget;
 	readonly scene = new Scene();
 	readonly key = new DirectionalLight();
 	readonly sky = new HemisphereLight(0xffffff, 0xffffff, 0.7 * Math.PI);
@@ -47,6 +52,9 @@ export class Stage {
 	closest = 1;
 	model: Model | undefined;
 	#crowd: Crowd | undefined;
+	readonly #edges = new SmoothEdges();
+	/** Whether it is done. */
+	readonly #smooth: boolean;
 	readonly #shadow = new ContactShadow();
 	readonly #cast = new CastShadow();
 	readonly #backdrop: DataTexture;
@@ -68,6 +76,10 @@ export class Stage {
 		const half = gl?.getExtension('EXT_color_buffer_float') ?? gl?.getExtension('EXT_color_buffer_half_float');
 		const outputBufferType = half ? HalfFloatType : UnsignedByteType;
 		this.renderer = new WebGLRenderer({ canvas, outputBufferType, ...attributes });
+		// Effects need a target that is toned at last.
+		this.#smooth = Boolean(half);
+		if (half) this.renderer.setEffects([this.#edges]);
+		this.sample = new WebGLRenderTarget(1, 1, { type: outputBufferType });
 		this.renderer.toneMapping = NeutralToneMapping;
 		this.renderer.shadowMap.enabled = true;
 		// One frame is several renders (scene, output): the counts are those of all of them.
@@ -106,6 +118,7 @@ export class Stage {
 	gather(count: number, fur: Fur | undefined): void {
 		const { model } = this;
 		if (!model) return;
+		if (fur) this.#outline(model.object, fur);
 		const many = fur !== undefined && count > 1;
 		if (!many || this.#crowd?.fur !== fur) this.#disband();
 		if (many && !this.#crowd) {
@@ -124,6 +137,15 @@ export class Stage {
 		this.#cast.fit(model.box, fur ? length : 0);
 		this.#turn();
 		fitShadow(this.key, new Sphere(this.centre, (crowd?.reach ?? this.radius) + length), length);
+	}
+
+	/** Has eyes, a nose and the like be smooth where hairs stand around them. */
+	#outline(object: Object3D, fur: Fur): void {
+		if (!this.#smooth) return;
+		for (const child of object.children) {
+			if (child === fur.skin || child === fur.shells.parent || !(child instanceof Mesh)) continue;
+			if (child.material instanceof Material && !child.material.transparent) this.#edges.mark(child.material);
+		}
 	}
 
 	/**

@@ -14,6 +14,7 @@ export {
 } from './environment.ts';
 export { FinMaterial, type FinMaterialParameters } from './FinMaterial.ts';
 export { type DressOptions, dress, Fur, type HasStates } from './Fur.ts';
+export { FurFade } from './FurFade.ts';
 export { type FurLoaderOptions, FurLoaderPlugin } from './FurLoaderPlugin.ts';
 export { FurMaterial, type FurMaterialParameters } from './FurMaterial.ts';
 export { FurWeather, type WeatheredBody, type WeatherOptions } from './FurWeather.ts';
@@ -50,6 +51,8 @@ export type { MotionOptions } from './motion/options.ts';
 export { type Spring, springOf } from './motion/spring.ts';
 export type { WindSettings } from './motion/Wind.ts';
 export { SeenColours } from './multiple.ts';
+export { prepareFur } from './prepare.ts';
+export { SmoothEdges } from './SmoothEdges.ts';
 export { fitShadow } from './shadow.ts';
 export { FurShells, MAX_SHELLS } from './shells.ts';
 export type { FurTextures, SlabMeanCurves } from './texels.ts';

@@ -28,7 +28,7 @@ const PATIENCE = 300_000;
  */
 async function view(browser, site, light, viewport) {
 	const page = await browser.newPage({ viewport, deviceScaleFactor: FINER });
-	await page.goto(`${site}?model=bunny&still=1&ui=0&camera=${CAMERA}&light=${light}`);
+	await page.goto(`${site}?model=bunny&planes=128&still=1&ui=0&camera=${CAMERA}&light=${light}`);
 	await page.waitForFunction("document.documentElement.dataset.state !== 'loading'", null, { timeout: PATIENCE });
 	const bytes = await page.screenshot({ timeout: PATIENCE });
 	await page.close();
@@ -84,7 +84,7 @@ async function still(browser, site) {
 /** Two methods side by side. @param {Browser} browser; @param {string} site */
 async function demo(browser, site) {
 	const page = await browser.newPage({ viewport: { width: 1280, height: 760 }, colorScheme: 'dark', locale: 'en' });
-	await page.goto(`${site}?model=bunny&split=unlit,0.42&still=1&camera=-20,10,1&light=-0.72,0.6,0.3`);
+	await page.goto(`${site}?model=bunny&planes=128&split=unlit,0.42&still=1&camera=-20,10,1&light=-0.72,0.6,0.3`);
 	await page.waitForFunction("document.documentElement.dataset.state !== 'loading'", null, { timeout: PATIENCE });
 	await photograph(page, 'demo.jpg');
 }

@@ -237,6 +237,7 @@ def _verify_body(args: argparse.Namespace, picture: Path | None) -> int:
         methods=args.methods,
         size=args.size,
         spp=args.spp or body.SPP,
+        distance=args.distance,
         ceiling=args.ceiling,
         truth=Path(args.truth) if args.truth else None,
     )

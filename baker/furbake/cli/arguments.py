@@ -271,6 +271,10 @@ def _verify_arguments(parser: _Parser) -> None:
     add("--spp", metavar="N", type=_whole, help=f"paths per pixel (default: {SAMPLES}, with --body {SPP})")
     add("--size", metavar="N", type=_whole, default=SIZE, help=f"with --body: pixels across (default: {SIZE})")
     add(
+        "--distance", metavar="D", type=_number, default=1.0,
+        help="with --body: of the camera, 1: all of the fur is seen (default), 0.35: close up",
+    )  # fmt: skip
+    add(
         "--methods", metavar="NAME,...", type=_names, default=METHODS,
         help=f"with --body: ways to light the fur (default: {','.join(METHODS)})",
     )  # fmt: skip

@@ -81,10 +81,10 @@ def axes(azimuth: float, elevation: float) -> Floats:
     return np.stack([right, np.cross(back, right), back])
 
 
-def frame(vertices: Floats, length: float, plan: Plan, size: int) -> Frame:
+def frame(vertices: Floats, length: float, plan: Plan, size: int, nearness: float = 1.0) -> Frame:
     """The nearest distance at which all of the fur is in every picture, which is `size` wide and 5/6 of it high.
 
-    vertices : (V, 3) of the skin; length : of the longest fur, model units
+    vertices : (V, 3) of the skin; length : of the longest fur, model units; nearness : share of that distance
     """
     height = round(size * 5 / 6)
     low, high = vertices.min(axis=0), vertices.max(axis=0)
@@ -97,7 +97,7 @@ def frame(vertices: Floats, length: float, plan: Plan, size: int) -> Frame:
         tall = (np.abs(up) + length) / slope
         distance = max(distance, float((back + MARGIN * np.maximum(wide, tall)).max()))
     radius = float(np.linalg.norm(vertices - centre, axis=1).max())
-    return Frame(centre, radius, distance, size, height)
+    return Frame(centre, radius, nearness * distance, size, height)
 
 
 def cells(plan: Plan, seen: Frame) -> list[Cell]:

@@ -67,6 +67,18 @@ def correlation(a: Floats, b: Floats) -> float:
     return float(a @ b) / scale if scale > 0 else 0.0
 
 
+def contrast(page: Floats, halves: tuple[Floats, Floats], over: Mask) -> float:
+    """What is finer than a Gaussian window, standard deviation over its mean, page over truth.
+
+    page : (height, width); halves : two independent estimates of the truth, whose noise falls out of their covariance
+    """
+    fine = [part - gaussian_filter(part, WINDOW, truncate=3.5) for part in (page, *halves)]
+    ours, one, two = (part[over] - part[over].mean() for part in fine)
+    mean = float((halves[0] + halves[1])[over].mean()) / 2
+    truth = float(np.sqrt(max(float((one * two).mean()), 1e-12))) / max(mean, 1e-12)
+    return float(ours.std()) / max(float(page[over].mean()), 1e-12) / truth
+
+
 def similarity(a: Floats, b: Floats, over: Mask, white: float) -> float:
     """Mean structural similarity (Wang, Bovik, Sheikh and Simoncelli 2004) of two pictures whose range is `white`."""
     blurred = [gaussian_filter(part, WINDOW, truncate=3.5) for part in (a, b, a * a, b * b, a * b)]

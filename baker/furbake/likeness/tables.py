@@ -12,14 +12,14 @@ def lines(found: dict[str, Any]) -> list[str]:
     text = [
         f"{what}; brightness is page over truth",
         "",
-        "| cell | method | r | r, quarter | SSIM | SSIM, quarter | brightness |",
-        "|---|---|---|---|---|---|---|",
+        "| cell | method | r | r, quarter | SSIM | SSIM, quarter | brightness | fine contrast |",
+        "|---|---|---|---|---|---|---|---|",
     ]
     for cell in found["cells"]:
         for method, part in cell["methods"].items():
             text.append(
                 f"| {cell['name']} | {method} | {part['r']:.3f} | {part['r_quarter']:.3f} | {part['ssim']:.3f} "
-                f"| {part['ssim_quarter']:.3f} | {part['brightness']:.2f} |"
+                f"| {part['ssim_quarter']:.3f} | {part['brightness']:.2f} | {part['contrast']:.2f} |"
             )
     for cell in found["cells"]:
         text += ["", *_bins(cell)]

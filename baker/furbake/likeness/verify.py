@@ -19,7 +19,7 @@ from furbake.groom.ground import read_skin
 from furbake.groom.strands import groom, recorded
 from furbake.likeness.ceiling import sampled_ceiling
 from furbake.likeness.cells import PLANS, Cell, Floats, Frame, cells, frame
-from furbake.likeness.figures import correlation, figures, overlap
+from furbake.likeness.figures import contrast, correlation, figures, overlap
 from furbake.likeness.page import SAMPLES, Shown, show
 from furbake.likeness.sheet import write_sheets
 from furbake.likeness.truth import Scene, Traced, trace
@@ -33,6 +33,9 @@ METHODS = ("ptm", "ptm-bare", "lengyel", "shadow-layers", "unlit")
 SIZE, SPP = 360, 256
 """Pixels across, and paths per pixel."""
 
+NEAREST = 0.25
+"""Least share of the distance, as on the page."""
+
 STAGES = ("strands", "trace", "page")
 
 ROUND = ("sphere", "torus")
@@ -44,6 +47,7 @@ class Options:
     """How the comparison is made.
 
     plan : of `PLANS`, None: by the model; methods : some of `METHODS`; size : pixels across; spp : paths per pixel
+    distance : of the eyes, share of the one at which all of the fur is seen; close up texels are larger than pixels
     ceiling : whether the samples' own composite is drawn, too, as the last method: what shells show without any fit
     truth : file that keeps what was traced, for the next time the same strands are seen
     """
@@ -52,6 +56,7 @@ class Options:
     methods: tuple[str, ...] = METHODS
     size: int = SIZE
     spp: int = SPP
+    distance: float = 1.0
     ceiling: bool = False
     truth: Path | None = None
 
@@ -63,6 +68,8 @@ class Options:
             raise VerifyError(f"methods: got {unknown[0]!r}, expected some of {', '.join(METHODS)}")
         if not 32 <= self.size <= 2048:
             raise VerifyError(f"size: got {self.size}, expected 32 to 2048")
+        if not NEAREST <= self.distance <= 4:
+            raise VerifyError(f"distance: got {self.distance:g}, expected {NEAREST:g} to 4")
         if self.spp < 2:
             raise VerifyError(f"spp: got {self.spp}, expected at least 2")
 
@@ -111,6 +118,7 @@ def verify_body(
         "plan": name,
         "size": [seen.width, seen.height],
         "spp": options.spp,
+        "distance": options.distance,
         "cells": [_cell(cell, shown, one, methods) for cell, one in zip(wanted, traced, strict=True)],
     }
 
@@ -119,7 +127,7 @@ def planned(asset: Asset, vertices: Floats, options: Options) -> tuple[str, Fram
     """Which plan the body is seen by, and what that shows."""
     model = str(asset.record.get("input", {}).get("name")).split(":")[0]
     name = options.plan or ("round" if model in ROUND else "body")
-    seen = frame(vertices, float(asset.fur["length"]), PLANS[name], options.size)
+    seen = frame(vertices, float(asset.fur["length"]), PLANS[name], options.size, options.distance)
     return name, seen, cells(PLANS[name], seen)
 
 
@@ -136,7 +144,9 @@ def _cell(cell: Cell, shown: Shown, traced: Traced, methods: Sequence[str]) -> d
         light, cover = shown.light[cell.name, method], shown.cover[cell.name, method]
         over = free & ((cover > 0.5) | (traced.cover > 0.5))
         found["outline"] = overlap(cover * free, traced.cover * free)
-        found["methods"][method] = figures(light, traced.light, over, cosine, white)
+        found["methods"][method] = figures(light, traced.light, over, cosine, white) | {
+            "contrast": contrast(light, traced.halves, over)
+        }
     return found
 
 

@@ -124,6 +124,7 @@ export const en = {
 		length: 'a number from 0.2 to 1.5',
 		density: 'a number from 0.2 to 2',
 		colour: 'RRGGBB,RRGGBB: colours of root and tip',
+		planes: '64, 128 or auto',
 		env: (names: string) => `one of ${names}`,
 		crowd: 'a whole number from 1 to 400',
 		wind: 'STRENGTH,DIRECTION: 0 to 1, and degrees',
@@ -139,6 +140,7 @@ export const en = {
 	noFur: (title: string) => `${title}: this model has no fur that this page can grow`,
 	placeNotShown: (name: string, reason: string) => `The environment ${name} cannot be shown: ${reason}`,
 	statesNotShown: (reason: string) => `The fur cannot get wet or dirty: ${reason}`,
+	planesNotShown: (reason: string) => `The finer planes cannot be shown: ${reason}`,
 	presetNotShown: (name: string, reason: string) => `The preset ${name} cannot be worn: ${reason}`,
 
 	fallbackTitle: 'This page needs WebGL2',

@@ -131,6 +131,7 @@ export const zh: Words = {
 		length: ' 0.2 到 1.5 的数',
 		density: ' 0.2 到 2 的数',
 		colour: ' RRGGBB,RRGGBB：根部与尖端的颜色',
+		planes: ' 64、128 或 auto',
 		env: (names) => `以下之一：${names}`,
 		crowd: ' 1 到 400 的整数',
 		wind: ' STRENGTH,DIRECTION：强度 0 到 1，方向为度数',
@@ -145,6 +146,7 @@ export const zh: Words = {
 	noFur: (title) => `${title}：此模型没有本页能生成的毛发`,
 	placeNotShown: (name, reason) => `无法显示环境 ${name}：${reason}`,
 	statesNotShown: (reason) => `毛发无法变湿或变脏：${reason}`,
+	planesNotShown: (reason) => `无法显示更精细的毛发贴图：${reason}`,
 	presetNotShown: (name, reason) => `无法换上毛皮预设 ${name}：${reason}`,
 
 	fallbackTitle: '本页需要 WebGL2',
