@@ -63,11 +63,8 @@ def test_rays_share_the_discs_that_both_meet(angle: float) -> None:
         # The hair itself is no other hair: discs over the point are left out.
         clear[trial] = ~((nearest < radius) & (np.linalg.norm(centre, axis=1) >= radius)[:, None]).any(0)
     depths, joint = -np.log(clear.mean(0)), clear.all(1).mean()
-    light, eye = (np.array([*way, 0.0]) for way in ways)
-    upright = np.array([[[[0.0, 0.0, 1.0]]]], np.float32)
-    shared = shared_depth(
-        np.full((1, 1, 1), depths.min(), np.float32), upright, np.full(1, filled, np.float32), light, eye
-    )
+    one, turn, hair = (np.full(1, value, np.float32) for value in (depths.min(), ways[0] @ ways[1], filled))
+    shared = shared_depth(one[:, None, None], turn[:, None, None], hair)
     told = float(np.exp(-depths.sum() + shared.item()))
     assert told == pytest.approx(joint, rel=0.15)
     apart = float(np.exp(-depths.sum()))

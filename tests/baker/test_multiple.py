@@ -56,7 +56,10 @@ def test_fur_of_other_greys_is_as_bright_as_transport_has_it(
     wide = coarser(fine, 8, 16)
     alpha = coarsen(wide, 8, 16).coverage
     share = colour / coat.albedo
-    single, (white, dark) = sample_apart(wide, 8, 16, lights, albedo=coat.albedo, skin=coat.skin, shares=(1.0, share))
+    single, white, dark = sample_apart(
+        wide, 8, 16, lights, albedo=coat.albedo, skin=coat.skin, darker=(share, np.arange(len(lights)))
+    )
+    assert dark is not None
     above = np.cumprod((1 - alpha)[::-1], axis=0)[::-1]
     seen = (np.concatenate([above[1:], np.ones_like(above[:1])]) * alpha).mean((1, 2))
     direct, many, right = (mean_light(part, alpha) for part in (single, white, dark))
@@ -88,8 +91,8 @@ def test_known_shares_and_ratios_come_back() -> None:
         lights = directions(beta)
         light = RNG.uniform(0.2, 2, (len(lights), 2))
         many = terms(lights, beta) @ numbers.T * light
-        darker = 0.5 * many * (1 - ratio * albedo) / (1 - 0.5 * ratio * albedo)
-        bodies.append(Measured(beta, lights, light, albedo, many, darker if beta == BODY_RADIUS else None))
+        grown = (1 - 0.5 * ratio * albedo) / (0.5 * (1 - ratio * albedo))
+        bodies.append(Measured(beta, lights, light, albedo, many, grown if beta == BODY_RADIUS else None))
     np.testing.assert_allclose(shares_of(bodies), numbers, atol=1e-6)
     np.testing.assert_allclose(shrinking(bodies), ratio, atol=1e-6)
 

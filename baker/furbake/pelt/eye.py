@@ -21,7 +21,6 @@ from __future__ import annotations
 import os
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,11 +28,11 @@ from numpy.typing import NDArray
 from furbake.pelt.basis import held
 from furbake.pelt.curves import unit
 from furbake.pelt.depth import depth_of, passing
-from furbake.pelt.fibre import ABOVE, cylinder
+from furbake.pelt.fibre import ABOVE, across, around, cylinder, scattered
 from furbake.pelt.paths import BODY_RADIUS, thinned
 from furbake.pelt.scatter import between_hairs, sent
 from furbake.pelt.strands import Coat, Strands
-from furbake.pelt.transport import Beam
+from furbake.pelt.transport import Beam, joined, parted
 from furbake.pelt.volume import SOLID_SLAB, Volume, average_down, coarsen, doubled, fine_shape, pool, voxelise
 
 Array = NDArray[np.float64]
@@ -129,66 +128,77 @@ def seen_from(
     if beta is not None:  # shells are not thinned as hairs are that diverge
         middle = (np.arange(layers) + 0.5) / layers
         page = replace(page, sigma=page.sigma / thinned(middle, beta)[:, None, None])
-    sigma, tangent = beam.medium()
+    sigma, tangent = (even(part) for part in beam.medium())
+    tangent /= np.linalg.norm(tangent, axis=-1, keepdims=True)
     filled = np.float32(fine.height * SOLID_SLAB / coat.opacity) * fine.sigma.mean((1, 2)).astype(np.float32)
     with ThreadPoolExecutor(os.cpu_count()) as workers:
         passed, hairs, floor = (np.stack(each) for each in zip(*workers.map(beam.reach, lights), strict=True))
-        caught, reaching = (np.stack(each) for each in zip(*map(beam.caught, hairs, lights), strict=True))
+        caught, reaching = (even(np.stack(each)) for each in zip(*map(beam.caught, hairs, lights), strict=True))
         skin = 0.0 if beta is None else coat.skin
-        floor = pool(floor, size // 2)
+        floor = pool(floor, sigma.shape[-1])
         arriving = between_hairs(
             sigma, fine.height / layers, tangent, lights, caught, reaching, floor, albedo=coat.albedo, skin=skin
         )
 
         def onwards(eye: Array) -> Single:
             """M towards an eye, (n, K, N/2, N/2)."""
-            return np.moveaxis(np.maximum(sent(arriving, tangent, eye), 0), 1, 0)
+            return doubled(np.moveaxis(np.maximum(sent(arriving, tangent, eye), 0), 1, 0))
 
+        along = [beam.tangent @ light.astype(np.float32) for light in lights]
+        crossed = [across(each) for each in along]
+        depths = [-np.log(np.maximum(each, DARK)) for each in passed]
         single = (clear * cylinder(beam.tangent, light) for clear, light in zip(passed, lights, strict=True))
         texels = doubled(onwards(ABOVE)) + np.stack([average_down(each, beam.shares, size) for each in single])
 
         def of_eye(eye: Array) -> tuple[Array, Array]:
-            clear = depth_of(fine.sigma.astype(np.float32), fine.slab, beta).through(eye)[0]
-            see = visible(fine, eye, beta)
+            see, clear = visible(fine, eye, beta, beam.merged)
+            depth = -np.log(np.maximum(clear, DARK))
+            up = beam.tangent @ eye.astype(np.float32)
+            view = across(up)
+            once = []
+            for i, light in enumerate(lights):
+                turn = around(along[i], up, float(light @ eye))
+                shared = shared_depth(np.minimum(depth, depths[i]), turn, filled)
+                once.append(_sums(see * np.exp(shared - depths[i]) * scattered(crossed[i], view, turn), layers))
             blocks = pool(see.reshape(layers, -1, *see.shape[1:]).sum(1), size // 2)
-            once = [
-                _sums(see * lit * cylinder(beam.tangent, light, eye), layers)
-                for light, lit in zip(lights, map(partial(together, eye, clear), lights, passed), strict=True)
-            ]
             more = (blocks * onwards(eye)).mean((-1, -2))
-            return np.stack(once) + more, (visible(page, eye, beta) * texels).mean((-1, -2))
-
-        def together(eye: Array, clear: Single, light: Array, lit: Single) -> Single:
-            """T of the light where the eye sees; clear : T on the way to it."""
-            depth = np.minimum(*(-np.log(np.maximum(part, DARK)) for part in (lit, clear)))
-            return np.asarray(lit * np.exp(shared_depth(depth, beam.tangent, filled, light, eye)))
+            return np.stack(once) + more, (visible(page, eye, beta)[0] * texels).mean((-1, -2))
 
         each = list(workers.map(of_eye, eyes))
     hairs_show, texels_show = (np.stack(part, 1).astype(np.float64) for part in zip(*each, strict=True))
     return hairs_show, texels_show
 
 
-def shared_depth(depth: Single, tangent: Single, filled: Single, light: Array, eye: Array) -> Single:
+def even(field: Single) -> Single:
+    """Half as fine, (..., N, N) or vectors (..., N, N, 3): what is scattered often is smooth."""
+    if field.shape[-1] == field.shape[-2]:
+        return pool(field, field.shape[-1] // 2)
+    return np.stack([pool(part, part.shape[-1] // 2) for part in np.moveaxis(field, -1, 0)], -1)
+
+
+def shared_depth(depth: Single, cos_phi: Single, filled: Single) -> Single:
     """Optical depth that the rays from a hair to light and eye share, (K, N, N).
 
-    depth : the lesser of the two rays'; tangent : (K, N, N, 3) of the hairs, about as parallel; filled : (K,) their
-    share of the volume
+    depth : the lesser of the two rays'; cos_phi : of the angle φ between them around the hair; filled : (K,) share of
+    the volume that hairs fill, about as parallel
 
-    Seen along the hairs these are discs, and the rays part at an angle φ. Two parallel rays x apart that meet discs of
-    radius r share 1 − x/2r of them, so that no more than filled/(π·sin(φ/2)) is shared.
+    Seen along the hairs these are discs, and the rays part at φ. Two parallel rays x apart that meet discs of radius r
+    share 1 − x/2r of them, so that no more than filled/(π·sin(φ/2)) is shared.
     """
-    along = [tangent @ way.astype(np.float32) for way in (light, eye)]
-    across = np.sqrt(np.maximum(1 - along[0] ** 2, 1e-4)) * np.sqrt(np.maximum(1 - along[1] ** 2, 1e-4))
-    cosine = (np.float32(light @ eye) - along[0] * along[1]) / across
-    half = np.sqrt(np.maximum((1 - cosine) / 2, 1e-6))
-    most = filled[:, None, None] / (np.float32(np.pi) * half)
+    most = filled[:, None, None] / (np.float32(np.pi) * np.sqrt(np.maximum((1 - cos_phi) / 2, 1e-6)))
     return np.asarray(np.where(depth < 2 * most, depth * (1 - depth / (4 * most)), most), np.float32)
 
 
-def visible(volume: Volume, eye: Array, beta: float | None) -> Single:
-    """Hairs of each voxel that an eye sees, as if they were spread out flat and no thicker, (K, N, N)."""
-    depth = depth_of(volume.sigma.astype(np.float32), volume.slab, beta)
-    return np.asarray(volume.sigma.astype(np.float32) * volume.slab * depth.through(eye)[0] * passing(depth.own(eye)))
+def visible(volume: Volume, eye: Array, beta: float | None, merged: int = 1) -> tuple[Single, Single]:
+    """Hairs of each voxel that an eye sees, as if they were spread out flat and no thicker, and T to it, (K, N, N).
+
+    merged : slabs that the way to the eye crosses as one
+    """
+    sigma = volume.sigma.astype(np.float32)
+    depth = depth_of(joined(sigma, merged), volume.slab * merged, beta)
+    clear = depth.through(eye)[0]
+    hairs = np.repeat(clear * passing(depth.own(eye)), merged, 0)
+    return np.asarray(sigma * volume.slab * hairs), parted(clear, merged)
 
 
 def _sums(voxels: Single, layers: int) -> Array:

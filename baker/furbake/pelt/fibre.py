@@ -22,14 +22,28 @@ def cylinder(tangent: NDArray[Real], light: Array, eye: Array = ABOVE) -> NDArra
     points at the eye φ has no meaning and its mean, (4/π)·sinθ, holds.
     """
     up, along = (tangent @ way.astype(tangent.dtype) for way in (eye, light))
-    sin_light = np.sqrt(np.maximum(1 - along * along, 0))
-    sin_view = np.sqrt(np.maximum(1 - up * up, 0))
-    cos_phi = np.clip((float(light @ eye) - along * up) / np.maximum(sin_light * sin_view, 1e-4), -1, 1)
-    phi = np.arccos(cos_phi)
+    return scattered(across(along), across(up), around(along, up, float(light @ eye)))
+
+
+def across(along: NDArray[Real]) -> NDArray[Real]:
+    """Sine of the angle whose cosine is `along`."""
+    sine: NDArray[Real] = np.sqrt(np.maximum(1 - along * along, 0))
+    return sine
+
+
+def around(light: NDArray[Real], eye: NDArray[Real], between: float) -> NDArray[Real]:
+    """cos φ around the fibre, of directions with these cosines with it, and `between` each other."""
+    cosine: NDArray[Real] = np.clip((between - light * eye) / np.maximum(across(light) * across(eye), 1e-4), -1, 1)
+    return cosine
+
+
+def scattered(sin_light: NDArray[Real], sin_view: NDArray[Real], cos_phi: NDArray[Real]) -> NDArray[Real]:
+    """D by the sines between fibre and light, fibre and eye, and by cos φ."""
+    phi: NDArray[Real] = np.arccos(cos_phi)
     seen = np.sin(phi) + (np.pi - phi) * cos_phi
-    sure = sin_view**2 / (sin_view**2 + 0.15**2)
-    scattered: NDArray[Real] = sin_light * (sure * seen + (1 - sure) * (4 / np.pi))
-    return scattered
+    sure: NDArray[Real] = sin_view**2 / (sin_view**2 + 0.15**2)
+    lit: NDArray[Real] = sin_light * (sure * seen + (1 - sure) * (4 / np.pi))
+    return lit
 
 
 THINNEST = 0.15

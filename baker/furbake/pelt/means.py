@@ -44,6 +44,9 @@ BELOW, ROUNDS = 30.0, 4
 LESS = 0.5
 """Share of the hairs' and the skin's albedo with which light is measured once more, to see how its orders shrink."""
 
+SPARSE = 4
+"""Of so many lights above the horizon that is measured under one."""
+
 DIGITS = 4
 """Significant digits of tables and weights."""
 
@@ -53,7 +56,8 @@ class Measured:
     """Mean light of the slabs: lights (n, 3), values (n, K), on a body of radius β.
 
     albedo : of the hairs
-    multiple : (n, K) of the light that has met several hairs; darker : the same with `LESS` of the albedo
+    multiple : (n, K) of the light that has met several hairs
+    grown : (K,) how many times as much that is as with `LESS` of the albedo
     """
 
     beta: float
@@ -61,7 +65,7 @@ class Measured:
     values: Array
     albedo: float = 0.0
     multiple: Array | None = None
-    darker: Array | None = None
+    grown: Array | None = None
 
 
 def mean_light(samples: NDArray[np.floating], alpha: Array) -> Array:
@@ -96,13 +100,15 @@ def measure(
     found = []
     for i, beta in enumerate(RADII):
         lights = directions(beta)
-        single, multiple = sample_apart(
-            wide, layers, size, lights, albedo=coat.albedo, skin=coat.skin, beta=beta,
-            shares=(1.0, LESS) if beta == BODY_RADIUS else (1.0,),
-        )  # fmt: skip
-        more, *darker = (mean_light(part, alpha) for part in multiple)
-        values = mean_light(single, alpha) + more
-        found.append(Measured(beta, lights, values, coat.albedo, more, darker[0] if darker else None))
+        some = np.flatnonzero(lights[:, 2] > 0)[::SPARSE]
+        darker = (LESS, some) if beta == BODY_RADIUS else None
+        single, multiple, less = sample_apart(
+            wide, layers, size, lights, albedo=coat.albedo, skin=coat.skin, beta=beta, darker=darker
+        )
+        more, grown = mean_light(multiple, alpha), None
+        if less is not None:
+            grown = more[some].sum(0) / np.maximum(mean_light(less, alpha).sum(0), 1e-12)
+        found.append(Measured(beta, lights, mean_light(single, alpha) + more, coat.albedo, more, grown))
         step((i + 1) / len(RADII))
     return tuple(found)
 

@@ -132,9 +132,7 @@ def shares_of(bodies: Sequence[Measured]) -> Array:
 def shrinking(bodies: Sequence[Measured]) -> Array:
     """ρ of the slabs, (K,): M of the whole albedo over that of `LESS` of it is (1 − ρϖ·LESS)/(LESS·(1 − ρϖ))."""
     for body in bodies:
-        if body.multiple is not None and body.darker is not None:
-            up = body.lights[:, 2] > 0
-            whole, less = body.multiple[up].sum(0), body.darker[up].sum(0)
-            grown = np.maximum(whole, 1e-12) * LESS / np.maximum(less, 1e-12)
+        if body.grown is not None:
+            grown = body.grown * LESS
             return np.asarray(np.clip((grown - 1) / (body.albedo * (grown - LESS)), 0, MOST_RATIO))
     raise ValueError("bodies: got none with darker hairs, expected one")

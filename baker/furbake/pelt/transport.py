@@ -13,7 +13,7 @@ with the hairs as thin and as long as on the body.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -102,7 +102,7 @@ def sample(
 
     Options are those of `sample_apart`.
     """
-    single, (multiple,) = sample_apart(
+    single, multiple, _ = sample_apart(
         fine, layers, size, lights, albedo=albedo, skin=skin, flat=flat, beta=beta, progress=progress
     )
     return single + multiple
@@ -118,16 +118,16 @@ def sample_apart(
     skin: float = 0.25,
     flat: bool = False,
     beta: float = BODY_RADIUS,
-    shares: Sequence[float] = (1.0,),
+    darker: tuple[float, NDArray[np.intp]] | None = None,
     progress: Callable[[float], None] = lambda fraction: None,
-) -> tuple[Single, list[Single]]:
+) -> tuple[Single, Single, Single | None]:
     """T·D and M of every stored texel under every light, (n, layers, size, size) float32 each.
 
     `fine` is the oversampled volume; what is returned is averaged down. Lights may be as low as `lowest(beta)`, lower
     ones reach nothing. `albedo` and `skin` are the shares of the light that hairs and skin scatter on; L is in units of
     the former. `beta` is the radius of the body, in lengths of its fur. `flat` leaves out the curve of the body and the
-    size of the lamp, and makes the skin black: a patch that other renderers can check. There is an M for each of
-    `shares`, with that share of `albedo` and `skin`.
+    size of the lamp, and makes the skin black: a patch that other renderers can check. `darker` asks for M once more,
+    with that share of `albedo` and `skin`, under some of the lights.
     """
     half = (layers, size // 2, size // 2)
     single = np.empty((len(lights), layers, size, size), np.float32)
@@ -140,15 +140,18 @@ def sample_apart(
             progress((i + 1) / len(lights) * SINGLE_SHARE)
     slab, (sigma, tangent) = fine.height / layers, beam.medium()
     aside = None if fine.aside is None else slab_means(fine.aside, layers)
-    multiples = [
-        scatter(
-            sigma, slab, tangent, lights, caught, reaching, floor,
-            albedo=share * albedo, skin=0.0 if flat else share * skin, aside=aside, faint=not flat,
-        )
-        for share in shares
-    ]  # fmt: skip
+
+    def more(share: float, some: slice | NDArray[np.intp]) -> Single:
+        return doubled(
+            scatter(
+                sigma, slab, tangent, lights[some], caught[some], reaching[some], floor[some],
+                albedo=share * albedo, skin=0.0 if flat else share * skin, aside=aside, faint=not flat,
+            )
+        )  # fmt: skip
+
+    multiple = more(1.0, slice(None))
     progress(1.0)
-    return single, [doubled(multiple) for multiple in multiples]
+    return single, multiple, None if darker is None else more(*darker)
 
 
 class Beam:
