@@ -27,7 +27,7 @@ const floors = [
 		'trim',
 	],
 	['levels', 'TrimLight', 'curves', 'stains', 'bent', 'hue'],
-	['multiple'],
+	['multiple', 'eye'],
 	['texels', 'SlabLight'],
 	['PeltLight'],
 	['PeltMaterial', 'follicles'],

@@ -1,5 +1,6 @@
 import { Color, type ShaderMaterialParameters, Vector4 } from 'three';
-import { bentWeights, eyeUniforms, leanOf, wayOf } from './bent.ts';
+import { bentWeights, leanOf, wayOf } from './bent.ts';
+import { eyeUniforms } from './eye.ts';
 import type { FurAsset } from './format.ts';
 import { ALPHA_CUT } from './lod.ts';
 import { PeltMaterial } from './PeltMaterial.ts';

@@ -1,6 +1,6 @@
 /** The law of light on bent hairs, as bent.glsl has it: its numbers. */
 
-import { type IUniform, Vector2, Vector3, Vector4 } from 'three';
+import { Vector2, Vector4 } from 'three';
 import type { FurAsset } from './format.ts';
 
 /** Mean displacement of the tips inside the tile, share of the length. */
@@ -25,10 +25,6 @@ export function bentWeights(asset: Pick<FurAsset, 'drift' | 'height' | 'bent'>):
 	return vectors(rows);
 }
 
-/** Numbers of the law of light and eye, three vectors for each of 1, s and s²; none where it was not baked. */
-export function eyeUniforms({ eye, surge = [0, 0, 1] }: Pick<FurAsset, 'eye' | 'surge'>): Record<string, IUniform> {
-	return eye ? { eye: { value: vectors(eye) }, surge: { value: new Vector3(...surge) } } : {};
-}
-
-const vectors = (rows: readonly (readonly number[])[]): Vector4[] =>
+/** Rows of numbers, four to a vector. */
+export const vectors = (rows: readonly (readonly number[])[]): Vector4[] =>
 	rows.flatMap((row) => Array.from({ length: row.length / 4 }, (_, i) => new Vector4().fromArray(row, 4 * i)));
