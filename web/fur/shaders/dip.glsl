@@ -7,8 +7,8 @@ uniform vec3 horizonHigh[5];
 
 // A product around the horizon: light times what bent fur makes of it, in the harmonics of horizonLow.
 vec3[5] bentRing(vec3 light[5], Bending bending) {
-	mat3 q = bending.form;
-	float even = bending.even + 0.5 * (q[0][0] + q[LEVEL][LEVEL]), x = bending.gradient[0], y = bending.gradient[LEVEL];
+	mat3 q = bending.factor.form;
+	float even = bending.factor.even + 0.5 * (q[0][0] + q[LEVEL][LEVEL]), x = bending.factor.gradient[0], y = bending.factor.gradient[LEVEL];
 	float xx = 0.5 * (q[0][0] - q[LEVEL][LEVEL]), xy = 0.5 * (q[0][LEVEL] + q[LEVEL][0]);
 	return vec3[5](
 		even * light[0] + 0.5 * (x * light[1] + y * light[2] + xx * light[3] + xy * light[4]),
