@@ -25,7 +25,6 @@ import { adjust, availableOutfits, fineOutfits, type Wearer } from './outfits.ts
 import type { Picture } from './picture.ts';
 import { Play } from './play.ts';
 import type { Progress } from './progress.ts';
-import { refine } from './refine.ts';
 import { en } from './words/drop.en.ts';
 import { zh } from './words/drop.zh.ts';
 import { language, words } from './words/index.ts';
@@ -305,7 +304,10 @@ export class Exhibit {
 	async #refine(wearer: Wearer, late: () => boolean): Promise<void> {
 		const view = this.#view;
 		try {
-			const outfits = await fineOutfits(view, this.menu, wearer, true);
+			const [outfits, { refine }] = await Promise.all([
+				fineOutfits(view, this.menu, wearer, true),
+				import('./refine.ts'),
+			]);
 			if (!outfits || late() || !(await refine(this.#picture, this.looks, outfits, view, late))) return;
 			this.#weigh();
 			this.changed();

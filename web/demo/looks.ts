@@ -1,7 +1,15 @@
 /** How the body on show looks: which pelt it wears, by which method that is lit; one way, or two side by side. */
 
 import type { Camera, DirectionalLight, Scene, Texture, WebGLRenderer } from 'three';
-import { dress, type Fur, FurFade, type FurMethod, type FurWeather, furMethod, type MethodName } from '../fur/index.ts';
+import {
+	dress,
+	type Fur,
+	type FurFade,
+	type FurMethod,
+	type FurWeather,
+	furMethod,
+	type MethodName,
+} from '../fur/index.ts';
 import type { View } from './address.ts';
 import { paint } from './colours.ts';
 
@@ -77,10 +85,15 @@ export class Looks {
 	 * The same on the body that is on show, going over to it little by little: `step` leads on from frame to frame.
 	 *
 	 * @param outfits others than those that are worn
-	 * @param samples of the picture, per pixel
+	 * @param fade from the one to the other, share 0
 	 * @returns when nothing else is seen
 	 */
-	exchange(outfits: readonly Outfit[], view: View, scene: Scene, samples: number): Promise<void> {
+	exchange(
+		outfits: readonly Outfit[],
+		view: View,
+		scene: Scene,
+		fade: (from: readonly Fur[], to: readonly Fur[]) => FurFade,
+	): Promise<void> {
 		this.finish();
 		const body = this.#body as Fur;
 		this.#leaving = this.#looks;
@@ -91,7 +104,7 @@ export class Looks {
 		}
 		this.style(view);
 		const furs = (looks: readonly Look[]) => looks.map(({ fur }) => fur);
-		this.#fade = new FurFade(furs(this.#leaving), furs(this.#looks), samples);
+		this.#fade = fade(furs(this.#leaving), furs(this.#looks));
 		scene.add(this.#fade);
 		return new Promise((resolve) => {
 			this.#finished = resolve;

@@ -1,6 +1,6 @@
 /** Finer planes in the place of those on show: compiled and uploaded first, then gone over to. */
 
-import { prepareFur } from '../fur/index.ts';
+import { FurFade, prepareFur } from '../fur/index.ts';
 import type { View } from './address.ts';
 import type { Looks, Outfit } from './looks.ts';
 import type { Picture } from './picture.ts';
@@ -23,7 +23,9 @@ export async function refine(
 	await looks.prepare(outfits, view, (fur) => prepareFur(fur, renderer, scene, camera, sample));
 	const { body } = looks;
 	if (late() || !body || stage.gl.isContextLost()) return false;
-	const gone = still ? looks.wear(body, outfits, view) : looks.exchange(outfits, view, scene, sample.samples);
+	const gone = still
+		? looks.wear(body, outfits, view)
+		: looks.exchange(outfits, view, scene, (from, to) => new FurFade(from, to, sample.samples));
 	looks.cut(view.split?.share ?? 1);
 	picture.request();
 	await gone;
