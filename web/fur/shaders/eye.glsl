@@ -28,12 +28,21 @@ Quadratic seenByEye(FurPoint point) {
 
 #define LEAST_SEEN 0.1
 
+// lightTS: not below the horizon.
+float heldNap(Quadratic seen, vec3 lightTS) {
+#ifdef EYE
+	return max(quadratic(seen, lightTS), LEAST_SEEN);
+#else
+	return 1.0;
+#endif
+}
+
 // lightTS: held on the horizon. lightVS: where it is.
 float seenOf(Quadratic seen, FurPoint point, vec3 lightTS, vec3 lightVS) {
 #ifdef EYE
 	vec3 viewer = viewerVS(point.pointVS), apart = (lightVS - viewer) / surge.z;
 	float up = max(dot(viewer, point.frameVS[UPRIGHT]), 0.0);
-	return max(quadratic(seen, lightTS), LEAST_SEEN) * (1.0 + (surge.x + surge.y * (1.0 - up * up)) / (1.0 + dot(apart, apart)));
+	return heldNap(seen, lightTS) * (1.0 + (surge.x + surge.y * (1.0 - up * up)) / (1.0 + dot(apart, apart)));
 #else
 	return 1.0;
 #endif

@@ -7,8 +7,8 @@ struct Change {
 	mat3 steep;
 };
 
-// What comes from one direction, z up.
-void addFrom(inout Change change, Radiance radiance, Bending bending, vec3 at) {
+// What comes from one direction, z up. mean: what all of it counts on the mean.
+void addFrom(inout Change change, Radiance radiance, Bending bending, Quadratic seen, float mean, vec3 at) {
 #ifdef FIN
 	at = at.xzy;
 #endif
@@ -16,27 +16,29 @@ void addFrom(inout Change change, Radiance radiance, Bending bending, vec3 at) {
 	light += vec3(dot(at, radiance.form[0] * at), dot(at, radiance.form[1] * at), dot(at, radiance.form[2] * at));
 	light *= 0.25 * PI;
 	vec3 way = at;
-	float gain = bentLight(way, bending);
-	change.square += outerProduct(light, gain * way.xyx * way.xyy - at.xyx * at.xyy);
-	change.plain += outerProduct(light, gain * vec3(way.xy, 1.0) - vec3(at.xy, 1.0));
+	float gain = heldNap(seen, at);
+	if (bending.there) gain *= bentLight(way, bending);
+	change.square += outerProduct(light, gain * way.xyx * way.xyy - mean * at.xyx * at.xyy);
+	change.plain += outerProduct(light, gain * vec3(way.xy, 1.0) - mean * vec3(at.xy, 1.0));
 #ifdef POLYNOMIALS
-	change.steep += outerProduct(light, gain * way.z * vec3(1.0, way.xy) - at.z * vec3(1.0, at.xy));
+	change.steep += outerProduct(light, gain * way.z * vec3(1.0, way.xy) - mean * at.z * vec3(1.0, at.xy));
 #endif
 }
 
-// What bending changes of the light from above, ∫R·(factor·φ(sheared ω) − φ(ω))dω, by a sum over eight directions: exact
-// where fur stands as it was baked, 1 to 2 % of the light off where its tips are displaced by half of their length.
-void addBent(inout Moments moments, FurPoint point, Radiance radiance, Bending bending) {
+// What bending and the eye change of the light from above, ∫R·(factor·φ(sheared ω) − mean·φ(ω))dω, by a sum over eight
+// directions: exact where fur stands as it was baked and is seen from above, 1 to 2 % of the light off where its tips are
+// displaced by half of their length.
+void addChange(inout Moments moments, FurPoint point, Radiance radiance, Bending bending, Quadratic seen, float mean) {
 	Change change = Change(mat3(0.0), mat3(0.0), mat3(0.0));
 	// Two heights of Gauss and Legendre's, four spokes each. Written out: a loop costs a software rasteriser 6 % of the frame.
-	addFrom(change, radiance, bending, vec3(0.97741619, 0.0, 0.21132487));
-	addFrom(change, radiance, bending, vec3(-0.97741619, 0.0, 0.21132487));
-	addFrom(change, radiance, bending, vec3(0.0, 0.97741619, 0.21132487));
-	addFrom(change, radiance, bending, vec3(0.0, -0.97741619, 0.21132487));
-	addFrom(change, radiance, bending, vec3(0.43473824, 0.43473824, 0.78867513));
-	addFrom(change, radiance, bending, vec3(-0.43473824, 0.43473824, 0.78867513));
-	addFrom(change, radiance, bending, vec3(-0.43473824, -0.43473824, 0.78867513));
-	addFrom(change, radiance, bending, vec3(0.43473824, -0.43473824, 0.78867513));
+	addFrom(change, radiance, bending, seen, mean, vec3(0.97741619, 0.0, 0.21132487));
+	addFrom(change, radiance, bending, seen, mean, vec3(-0.97741619, 0.0, 0.21132487));
+	addFrom(change, radiance, bending, seen, mean, vec3(0.0, 0.97741619, 0.21132487));
+	addFrom(change, radiance, bending, seen, mean, vec3(0.0, -0.97741619, 0.21132487));
+	addFrom(change, radiance, bending, seen, mean, vec3(0.43473824, 0.43473824, 0.78867513));
+	addFrom(change, radiance, bending, seen, mean, vec3(-0.43473824, 0.43473824, 0.78867513));
+	addFrom(change, radiance, bending, seen, mean, vec3(-0.43473824, -0.43473824, 0.78867513));
+	addFrom(change, radiance, bending, seen, mean, vec3(0.43473824, -0.43473824, 0.78867513));
 #ifdef POLYNOMIALS
 	moments.low += change.square * POLYNOMIAL_LOW(0) + change.plain * POLYNOMIAL_LOW(1) + change.steep * POLYNOMIAL_LOW(2);
 #ifdef TWO_PLANES
@@ -56,6 +58,7 @@ float seenSky(Quadratic seen, Radiance around) {
 	float c = dot(LUMINANCE, around.constant);
 	vec3 g = LUMINANCE * around.gradient, upright = vec3(0.0);
 	upright.UP = 1.0;
+	g *= min(1.0, max(c, 0.0) / max(length(g), 1e-6)); // no light is below 0
 	float rise = g.UP, total = max(c + 2.0 / 3.0 * rise, 1e-6);
 	// ∫ω and ∫ωωᵀ over π.
 	vec3 first = 0.25 * g + (2.0 / 3.0 * c + 0.25 * rise) * upright;
@@ -119,11 +122,13 @@ Moments environmentMoments(FurPoint point, Bending bending, Quadratic seen) {
 #ifndef MEAN_CURVES
 	addDip(moments, point, around, bending);
 #endif
-	if (bending.there) addBent(moments, point, around, bending);
 #ifdef EYE
-	float eyeGain = seenSky(seen, around);
-	moments.low *= eyeGain;
-	moments.high *= eyeGain;
+	float mean = seenSky(seen, around);
+	moments.low *= mean;
+	moments.high *= mean;
+	addChange(moments, point, around, bending, seen, mean);
+#else
+	if (bending.there) addChange(moments, point, around, bending, seen, 1.0);
 #endif
 #ifdef MULTIPLE
 	vec3 tinge = skyTinge(point, multipleGain(point));
