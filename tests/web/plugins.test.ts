@@ -31,9 +31,14 @@ describe('siteAddress', () => {
 });
 
 describe('bareShader', () => {
-	it('leaves every statement and directive on its line', () => {
-		const source = '// what\n\n#define A 2.0 // why\n\tfloat a = A / 2.0; /* b\n c */\n\n\n\treturn a*a;\n}\n';
-		expect(bareShader(source)).toBe('#define A 2.0\nfloat a = A / 2.0;\nreturn a*a;\n}');
+	it('leaves directives on lines of their own, and no words', () => {
+		const source =
+			'// what\n\n#define A 2.0 // why\n\tfloat a = A / 2.0; /* b\n c */\n\n\n\treturn a * a;\n}\n#endif\nint b;\n';
+		expect(bareShader(source)).toBe('#define A 2.0\nfloat a=A/2.0;return a*a;}\n#endif\nint b;');
+	});
+
+	it('keeps signs apart, and what goes on on the next line', () => {
+		expect(bareShader('a = b - -c + d;\nvec2 e = vec2(1.0,\n\t-1.0);')).toBe('a=b - -c+d;vec2 e=vec2(1.0,\n-1.0);');
 	});
 });
 

@@ -37,13 +37,24 @@ export function headersPlugin() {
 	};
 }
 
-/** @param {string} source; @returns {string} the same shader without its comments, indents and empty lines */
+/**
+ * @param {string} source
+ * @returns {string} the same shader without its comments and needless spaces, directives on lines of their own
+ */
 export function bareShader(source) {
-	return source
+	const lines = source
 		.replace(/\/\*[\s\S]*?\*\/|\/\/.*$/gm, '')
-		.replace(/^[ \t]+|[ \t]+$/gm, '')
-		.replace(/\n{2,}/g, '\n')
-		.trim();
+		.split('\n')
+		.map((line) => line.trim())
+		.filter((line) => line !== '')
+		.map((line) =>
+			line.startsWith('#') ? line : line.replace(/ ?([=,;(){}?:<>*/&|]) ?/g, '$1').replace(/ ([+-]) (?![+-])/g, '$1'),
+		);
+	return lines.reduce((text, line, i) => {
+		const before = lines[i - 1] ?? '';
+		const joined = i === 0 || (/[;{}]$/.test(before) && !before.startsWith('#') && !line.startsWith('#'));
+		return `${text}${joined ? '' : '\n'}${line}`;
+	}, '');
 }
 
 /**
