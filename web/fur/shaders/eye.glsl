@@ -15,7 +15,7 @@ Quadratic seenByEye(FurPoint point) {
 	level.UP = 0.0;
 	upright.UP = 1.0;
 	if (below) level /= max(length(level), 1e-4);
-	float q = dot(level, level), p = dot(level, leaning), s = point.s;
+	float q = dot(level, level), p = dot(level, leaning), s = point.s / furTrim;
 	// In the order of the format, with a = level·l, b = leaning·l: q, a, q·b, p·b; q·z, q·z², p·z², a²; p·a·b, a·z, q·b·z, q·a·b.
 	vec4 first = eye[0] + s * (eye[3] + s * eye[6]), second = eye[1] + s * (eye[4] + s * eye[7]), third = eye[2] + s * (eye[5] + s * eye[8]);
 	seen.even += first.x * q;
