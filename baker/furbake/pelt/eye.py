@@ -26,6 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.pelt.basis import held
+from furbake.pelt.bent import MONOMIALS
 from furbake.pelt.curves import unit
 from furbake.pelt.depth import depth_of, passing
 from furbake.pelt.fibre import ABOVE, across, around, cylinder, scattered
@@ -72,9 +73,6 @@ EACH_SLAB = 0.3
 
 RIDGE = 1e-4
 """Of the diagonal: terms that do much the same stay small."""
-
-MONOMIALS = np.array([[1.0, 0, 0], [-1, 2, 0], [1, -6, 6]])
-"""Legendre polynomials in 2s − 1 as rows of weights of 1, s, s²."""
 
 
 def terms(lights: Array, eyes: Array, lean: Array) -> Array:
