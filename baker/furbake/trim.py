@@ -51,6 +51,8 @@ def cut(whole: Volume, share: float) -> Volume:
     left = max(1, round(share * len(whole.sigma)))
     return Volume(
         sigma=whole.sigma[:left],
+        breadth=whole.breadth[:left],
+        radius=whole.radius[:left],
         tangent=whole.tangent[:left],
         tint=whole.tint[:left],
         hue=whole.hue[:left],

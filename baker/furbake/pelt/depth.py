@@ -11,14 +11,14 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
-from furbake.pelt.paths import Rays, thinned
+from furbake.pelt.paths import FLAT, Rays, thinned
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
 Spectrum = NDArray[np.complexfloating]
 
-STEPS_PER_TEXEL = 8
-"""Points of a straight ray per texel that it moves aside, at least 8 a slab."""
+POINTS_OF_A_SLAB, POINTS_OF_A_TEXEL = 8, 8
+"""Points of a ray through a voxel's own slab, at least, and per texel that it moves aside there."""
 
 POINTS_PER_TEXEL, LEAST_POINTS, LONGEST = 2, 2, 8
 """Points of a bent ray per texel that it moves aside, in a piece of it at least, and texels of the longest piece."""
@@ -33,90 +33,28 @@ MOST_WORK = 2**15
 """Multiplications of one matrix product."""
 
 
-class Slabs:
-    """Spectra of slabs that may lie aside of the skin's texels."""
-
-    def __init__(self, sigma: NDArray[np.floating], aside: Array | None = None) -> None:
-        """sigma : (K, N, N) per tile width; aside : as of `Volume`."""
-        self.layers, self.size, _ = sigma.shape
-        self.spectrum = scipy.fft.rfft2(np.asarray(sigma, np.float32))
-        self.back = None if aside is None else _moved(-aside, self.size)
-        if self.back is not None:
-            self.spectrum *= self.back.conj()
-
-    def in_space(self, spectrum: Spectrum, path: float = 1.0) -> Single:
-        """(K, N, N) of a spectrum of all slabs, times `path`, none below 0."""
-        if self.back is not None:
-            spectrum = spectrum * self.back
-        depth: Single = np.maximum(scipy.fft.irfft2(spectrum, s=(self.size, self.size)) * np.float32(path), 0)
-        return depth
-
-    def crossed(self, shift: Array, start: float, end: float) -> Single:
-        """Weights, (N, N), of a straight ray between heights `start` and `end`, in slabs above the voxel.
-
-        shift : how far it moves aside per slab, voxels
-        """
-        count = max(8, int(np.ceil(np.hypot(*shift) * (end - start) * STEPS_PER_TEXEL)))
-        t = start + (end - start) * (np.arange(count) + 0.5) / count
-        # Reading σ at x + shift·t is a convolution with a point at −shift·t.
-        x, y = -shift[0] * t, -shift[1] * t
-        column, row = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
-        fx, fy = x - column, y - row
-        n = self.size
-        weights = np.zeros(n * n)
-        for down, wy in ((0, 1 - fy), (1, fy)):
-            for right, wx in ((0, 1 - fx), (1, fx)):
-                weights += np.bincount((row + down) % n * n + (column + right) % n, wx * wy, n * n)
-        return (weights * ((end - start) / count)).reshape(n, n).astype(np.float32)
-
-
-class FlatDepth(Slabs):
-    """τ in slabs that are flat and have no end: every pair of slabs that are equally far apart shares a kernel."""
-
-    def __init__(self, sigma: NDArray[np.floating], slab: float, aside: Array | None = None) -> None:
-        """slab : thickness of a slab, tile widths; the rest as of `Slabs`."""
-        super().__init__(sigma, aside)
-        self.slab = slab
-
-    def through(self, light: Array) -> tuple[Single, Single]:
-        """Transmittance between the light and the ceiling of the voxels' slabs, (K, N, N), and the skin, (N, N)."""
-        clear: Single = np.exp(-self.above(light))
-        return clear, clear[0] * np.exp(-self.own(light)[0])
-
-    def above(self, light: Array) -> Single:
-        """τ of all slabs above the voxel's own, (K, N, N). The ray passes through the middle of the voxel."""
-        shift, path = self._way(light)
-        segments = [self.crossed(shift, m - 0.5, m + 0.5) for m in range(1, self.layers)]
-        kernels = scipy.fft.rfft2(np.stack(segments)) if segments else self.spectrum[:0]
-        above = np.zeros_like(self.spectrum)
-        for k in range(self.layers - 1):
-            above[k] = np.einsum("jyx,jyx->yx", self.spectrum[k + 1 :], kernels[: self.layers - 1 - k])
-        return self.in_space(above, path)
-
-    def own(self, light: Array) -> Single:
-        """τ of the voxel's own slab from its floor to its ceiling, (K, N, N), on the same ray."""
-        shift, path = self._way(light)
-        return self.in_space(self.spectrum * scipy.fft.rfft2(self.crossed(shift, -0.5, 0.5)), path)
-
-    def _way(self, light: Array) -> tuple[Array, float]:
-        """How far the ray moves aside in a slab, voxels, and its length there, tile widths."""
-        lz = max(float(light[2]), 1e-3)
-        return light[:2] / lz * self.slab * self.size, self.slab / lz
-
-
-class BentDepth(Slabs):
+class Depth:
     """τ in slabs around a ball, along the paths of `paths`: every pair of slabs has a kernel of its own.
 
     The spectrum of bilinear look-up at a point is the product of one per axis, e^(2πi·f·⌊x⌋)·[(1 − g) + g·e^(2πi·f)]
     with g = x − ⌊x⌋. A kernel's spectrum is the sum of these over its points, a matrix product.
 
-    How a hair shades itself is in D: τ starts half a slab's thickness away from the voxel's middle in every direction.
+    τ starts half a slab's thickness away from the voxel's middle in every direction.
     """
 
-    def __init__(self, sigma: NDArray[np.floating], slab: float, beta: float, aside: Array | None = None) -> None:
-        """slab : thickness of a slab, tile widths; beta : of the body; the rest as of `Slabs`."""
-        super().__init__(sigma, aside)
-        self.height, self.beta = slab * self.layers, beta
+    def __init__(
+        self, sigma: NDArray[np.floating], slab: float, beta: float | None, aside: Array | None = None
+    ) -> None:
+        """sigma : (K, N, N) per tile width; slab : thickness of a slab, tile widths; aside : as of `Volume`.
+
+        beta : radius of the body, None: flat
+        """
+        self.layers, self.size, _ = sigma.shape
+        self.height, self.beta = slab * self.layers, FLAT if beta is None else beta
+        self.spectrum = scipy.fft.rfft2(np.asarray(sigma, np.float32))
+        self.back = None if aside is None else _moved(-aside, self.size)
+        if self.back is not None:
+            self.spectrum *= self.back.conj()
         texel = np.arange(self.size)
         self.turns = np.exp(2j * np.pi / self.size * (np.outer(texel, texel) % self.size)).astype(np.complex64)
 
@@ -142,9 +80,25 @@ class BentDepth(Slabs):
     def own(self, light: Array) -> Single:
         """τ along the ray up to half a slab's thickness on both sides of the voxel's middle, (K, N, N)."""
         slab = self.height / self.layers
-        kernel = scipy.fft.rfft2(self.crossed(light[:2] * slab * self.size, -0.5, 0.5))
+        kernel = scipy.fft.rfft2(self._crossed(light[:2] * slab * self.size))
         share = thinned((np.arange(self.layers) + 0.5) / self.layers, self.beta).astype(np.float32)
-        return self.in_space(self.spectrum * kernel * share[:, None, None], slab)
+        spectrum = self.spectrum * kernel * share[:, None, None]
+        return self._in_space(spectrum if self.back is None else spectrum * self.back) * np.float32(slab)
+
+    def _crossed(self, way: Array) -> Single:
+        """Weights, (N, N), of the piece of a ray around a voxel's middle that moves `way` voxels aside."""
+        count = max(POINTS_OF_A_SLAB, int(np.ceil(np.hypot(*way) * POINTS_OF_A_TEXEL)))
+        t = (np.arange(count) + 0.5) / count - 0.5
+        # Reading σ at x + way·t is a convolution with a point at −way·t.
+        x, y = -way[0] * t, -way[1] * t
+        column, row = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
+        fx, fy = x - column, y - row
+        n = self.size
+        weights = np.zeros(n * n)
+        for down, wy in ((0, 1 - fy), (1, fy)):
+            for right, wx in ((0, 1 - fx), (1, fx)):
+                weights += np.bincount((row + down) % n * n + (column + right) % n, wx * wy, n * n)
+        return (weights / count).reshape(n, n).astype(np.float32)
 
     def _depths(self, rays: Rays, start: float, light: Array) -> Spectrum:
         """Spectrum of τ on the way from t = `start` to the light, (n, N, N / 2 + 1) for n rays."""
@@ -193,13 +147,6 @@ def in_blocks(rows: Spectrum, columns: Spectrum) -> tuple[Spectrum, Spectrum]:
     while block % 2 == 0 and block * points * columns.shape[2] > MOST_WORK:
         block //= 2
     return rows.reshape(count, points, -1, block).transpose(0, 2, 3, 1), columns[:, None]
-
-
-def depth_of(
-    sigma: NDArray[np.floating], slab: float, beta: float | None, aside: Array | None = None
-) -> FlatDepth | BentDepth:
-    """τ above a body of radius `beta`, on a flat one where that is None."""
-    return FlatDepth(sigma, slab, aside) if beta is None else BentDepth(sigma, slab, beta, aside)
 
 
 def passing(depth: Single) -> Single:

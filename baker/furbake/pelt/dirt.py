@@ -116,4 +116,5 @@ def soiled(clean: Volume, mud: Crumbs, opacity: float) -> Volume:
     share = mixed / np.maximum(hair + mixed, 1e-12)
     tangent = (1 - share)[..., None] * clean.tangent + share[..., None] * lying
     tangent /= np.maximum(np.linalg.norm(tangent, axis=-1, keepdims=True), 1e-9)
-    return replace(clean, sigma=hair + mixed, tangent=tangent, tint=share)
+    breadth = clean.breadth * (1 - fill) + mixed
+    return replace(clean, sigma=hair + mixed, breadth=breadth, tangent=tangent, tint=share)

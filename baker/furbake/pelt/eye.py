@@ -28,12 +28,12 @@ from numpy.typing import NDArray
 from furbake.pelt.basis import held
 from furbake.pelt.bent import MONOMIALS
 from furbake.pelt.curves import unit
-from furbake.pelt.depth import depth_of, passing
-from furbake.pelt.fibre import ABOVE, across, around, cylinder, scattered
+from furbake.pelt.depth import Depth, passing
+from furbake.pelt.fibre import ABOVE, THINNEST, across, around, cylinder, scattered
 from furbake.pelt.paths import BODY_RADIUS, thinned
 from furbake.pelt.scatter import between_hairs, sent
 from furbake.pelt.strands import Coat, Strands
-from furbake.pelt.transport import Beam, joined, parted
+from furbake.pelt.transport import Beam
 from furbake.pelt.volume import SOLID_SLAB, Volume, average_down, coarsen, doubled, fine_shape, pool, voxelise
 
 Array = NDArray[np.float64]
@@ -76,7 +76,7 @@ RIDGE = 1e-4
 
 
 def terms(lights: Array, eyes: Array, lean: Array) -> Array:
-    """[q, a, q·b, p·b, q·z, q·z², p·z², a², p·a·b, a·z, q·b·z, q·a·b] of pairs of unit vectors (..., 3), (..., 12).
+    """[q, a, q·b, p·b, q·z, q·b², p, a², p·a·b, a·z, q·b·z, q·a·b] of pairs of unit vectors (..., 3), (..., 12).
 
     a = l_h·v_h of the level parts, b = l·m and p = v·m along the lean m, z = l_z, q = |v_h|². What is below the
     horizon is held on it.
@@ -85,7 +85,7 @@ def terms(lights: Array, eyes: Array, lean: Array) -> Array:
     light, eye = np.broadcast_arrays(*(held(way.reshape(-1, 3)).reshape(way.shape) for way in (lights, eyes)))
     a, z = (light[..., :2] * eye[..., :2]).sum(-1), light[..., 2]
     b, p, q = light[..., :2] @ m, eye[..., :2] @ m, 1 - eye[..., 2] ** 2
-    each = (q, a, q * b, p * b, q * z, q * z * z, p * z * z, a * a, p * a * b, a * z, q * b * z, q * a * b)
+    each = (q, a, q * b, p * b, q * z, q * b * b, p, a * a, p * a * b, a * z, q * b * z, q * a * b)
     return np.stack(each, -1)
 
 
@@ -130,8 +130,8 @@ def seen_from(
     tangent /= np.linalg.norm(tangent, axis=-1, keepdims=True)
     filled = np.float32(fine.height * SOLID_SLAB / coat.opacity) * fine.sigma.mean((1, 2)).astype(np.float32)
     with ThreadPoolExecutor(os.cpu_count()) as workers:
-        passed, hairs, floor = (np.stack(each) for each in zip(*workers.map(beam.reach, lights), strict=True))
-        caught, reaching = (even(np.stack(each)) for each in zip(*map(beam.caught, hairs, lights), strict=True))
+        passed, floor = (np.stack(each) for each in zip(*workers.map(beam.reach, lights), strict=True))
+        caught, reaching = (even(np.stack(each)) for each in zip(*map(beam.caught, passed, lights), strict=True))
         skin = 0.0 if beta is None else coat.skin
         floor = pool(floor, sigma.shape[-1])
         arriving = between_hairs(
@@ -149,10 +149,11 @@ def seen_from(
         texels = doubled(onwards(ABOVE)) + np.stack([average_down(each, beam.shares, size) for each in single])
 
         def of_eye(eye: Array) -> tuple[Array, Array]:
-            see, clear = visible(fine, eye, beta, beam.merged)
+            clear = beam.passed(eye, eye[None])[0]
             depth = -np.log(np.maximum(clear, DARK))
             up = beam.tangent @ eye.astype(np.float32)
             view = across(up)
+            see = clear * beam.breadth * np.maximum(view, THINNEST) * np.float32(beam.slab)
             once = []
             for i, light in enumerate(lights):
                 turn = around(along[i], up, float(light @ eye))
@@ -160,7 +161,7 @@ def seen_from(
                 once.append(_sums(see * np.exp(shared - depths[i]) * scattered(crossed[i], view, turn), layers))
             blocks = pool(see.reshape(layers, -1, *see.shape[1:]).sum(1), size // 2)
             more = (blocks * onwards(eye)).mean((-1, -2))
-            return np.stack(once) + more, (visible(page, eye, beta)[0] * texels).mean((-1, -2))
+            return np.stack(once) + more, (visible(page, eye, beta) * texels).mean((-1, -2))
 
         each = list(workers.map(of_eye, eyes))
     hairs_show, texels_show = (np.stack(part, 1).astype(np.float64) for part in zip(*each, strict=True))
@@ -187,16 +188,11 @@ def shared_depth(depth: Single, cos_phi: Single, filled: Single) -> Single:
     return np.asarray(np.where(depth < 2 * most, depth * (1 - depth / (4 * most)), most), np.float32)
 
 
-def visible(volume: Volume, eye: Array, beta: float | None, merged: int = 1) -> tuple[Single, Single]:
-    """Hairs of each voxel that an eye sees, as if they were spread out flat and no thicker, and T to it, (K, N, N).
-
-    merged : slabs that the way to the eye crosses as one
-    """
-    sigma = volume.sigma.astype(np.float32)
-    depth = depth_of(joined(sigma, merged), volume.slab * merged, beta)
-    clear = depth.through(eye)[0]
-    hairs = np.repeat(clear * passing(depth.own(eye)), merged, 0)
-    return np.asarray(sigma * volume.slab * hairs), parted(clear, merged)
+def visible(stored: Volume, eye: Array, beta: float | None) -> Single:
+    """What an eye sees of each texel of the stored slabs as a page shows them, (K, N, N)."""
+    sigma = stored.sigma.astype(np.float32)
+    depth = Depth(sigma, stored.slab, beta)
+    return np.asarray(sigma * stored.slab * depth.through(eye)[0] * passing(depth.own(eye)))
 
 
 def _sums(voxels: Single, layers: int) -> Array:

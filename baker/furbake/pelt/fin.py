@@ -21,8 +21,9 @@ from numpy.typing import NDArray
 
 from furbake.pelt.basis import PTM, harmonics
 from furbake.pelt.curves import at_heights
-from furbake.pelt.depth import depth_of, passing
+from furbake.pelt.depth import Depth
 from furbake.pelt.dirt import Crumbs, soiled
+from furbake.pelt.drawn import extinction, through_own
 from furbake.pelt.fibre import cylinder, sine
 from furbake.pelt.fill import fill
 from furbake.pelt.fit import fit
@@ -31,6 +32,7 @@ from furbake.pelt.pelt import FinPelt, Pelt
 from furbake.pelt.quantise import byte_range, gram, quantise, srgb_bytes, unit_bytes
 from furbake.pelt.scatter import scatter
 from furbake.pelt.strands import Coat, Strands
+from furbake.pelt.transport import mean_share
 from furbake.pelt.volume import Volume, pool, voxelise
 
 Array = NDArray[np.float64]
@@ -145,8 +147,9 @@ class _Medium:
         self.albedo, self.skin = coat.albedo, 0.0 if beta is None else coat.skin
         self.slabs = halved(len(fine.sigma))
         self.even = halved(halved(self.slabs) if self.slabs > layers else self.slabs), max(size // EVEN, 2)
-        self.sigma = self._coarse(fine.sigma)
-        self.tangent = unit([self._coarse(fine.sigma * fine.tangent[..., axis]) for axis in range(3)])
+        self.breadth, self.radius = self._coarse(fine.breadth), fine.radius.reshape(self.slabs, -1).mean(1)
+        self.sigma = extinction(self.breadth, self.radius)
+        self.tangent = unit([self._coarse(fine.breadth * fine.tangent[..., axis]) for axis in range(3)])
 
     def light(self, tufts: Volume, shares: Array, lights: Array, rows: int) -> Array:
         """L of the tufts' texels, (n, rows, N): means over what is seen of them, by `shares` of their voxels."""
@@ -156,23 +159,26 @@ class _Medium:
         seen, count = weight[voxel], len(weight)
         direction = unit([self._fine(shares * tufts.tangent[..., axis])[voxel] for axis in range(3)])
         behind = slab * self.slabs // count, *voxel[1:]
-        hair: Single = np.maximum(self._even(self.sigma), np.float32(1e-6))
+        hair: Single = np.maximum(self._even(self.breadth), np.float32(1e-6))
 
         def beam(light: Array) -> tuple[Array, Single, Single, Single]:
             """T·D summed over what is seen, (K·N,), and what `scatter` takes: caught, reaching and the skin's light."""
             width = sine(self.tangent, light)
-            depth = depth_of(self.sigma * width, self.height / self.slabs, self.beta)
-            clear, skin = depth.through(light)
+            caught = self.sigma * width
+            slab = self.height / self.slabs
+            clear, skin = Depth(caught, slab, self.beta).through(light)
+            own = through_own(self.radius, self.size, slab / 2 * mean_share(caught, self.sigma))
+            clear /= own.astype(np.float32)[:, None, None]
             lambert = seen * clear[behind] * cylinder(direction, light)
             single = np.asarray(np.bincount(slab * self.size + row, lambert, count * self.size), np.float64)
-            lit: Single = self.sigma * clear * passing(depth.own(light))
+            lit: Single = self.breadth * clear
             floor: Single = pool(skin * np.float32(max(light[2], 0)), self.even[1])
             return single, self._even(lit * width) / hair, self._even(lit) / hair, floor
 
         with ThreadPoolExecutor(os.cpu_count()) as workers:
             single, caught, reaching, floor = (np.stack(part) for part in zip(*workers.map(beam, lights), strict=True))
-        tangent = unit([self._even(self.sigma * self.tangent[..., axis]) for axis in range(3)])
-        sigma, thick = self._even(self.sigma), self.height / self.even[0]
+        tangent = unit([self._even(self.breadth * self.tangent[..., axis]) for axis in range(3)])
+        sigma, thick = self._even(self.breadth), self.height / self.even[0]
         multiple = scatter(
             sigma, thick, tangent, lights, caught, reaching, floor,
             albedo=self.albedo, skin=self.skin, faint=self.beta is not None,

@@ -29,6 +29,9 @@ Array = NDArray[np.float64]
 BODY_RADIUS = 4.0
 """β: radius of the furry body over the length of its fur, where nothing else is known."""
 
+FLAT = 1e5
+"""β of a flat patch."""
+
 STEP = 1e-9
 """Lengths of the fur: two heights that are passed closer together than this are one."""
 

@@ -165,8 +165,7 @@ class _Medium:
     def escape(self) -> Single:
         """Share of what a voxel's hairs scatter evenly that leaves its slab, (K, N, N).
 
-        The mean of sin θ·(1 − e^−τ)/τ over the sphere, 1 for thin slabs. What arrives is counted where it enters a slab
-        and leaves it thinned by this; what a slab's hairs catch of the lights must be counted alike.
+        The mean of sin θ·(1 − e^−τ)/τ over the sphere, 1 for thin slabs.
         """
         share = np.zeros_like(self.sigma)
         for way, solid_angle in zip(self.directions, self.solid_angles, strict=True):
@@ -176,8 +175,13 @@ class _Medium:
         return np.minimum(share, 1)
 
     def entering(self, direct: Arriving) -> Arriving:
-        """What the hairs catch of the lights, counted where it enters the slabs."""
-        escape = self.escape()[:, None]
+        """What the hairs catch of the lights, counted as what is scattered: where it enters the slabs.
+
+        It leaves a slab thinned by `escape`. T of the lights leaves out what a hair itself does of that, about half of
+        it: with the root M is 0.87 to 1.07 of a path tracer's (bunny, fox, paper and sheep under lights from 75° to
+        20°), with all of it 1.1 to 1.5, with nothing 0.72 to 0.75 (paper).
+        """
+        escape: Single = np.sqrt(self.escape())[:, None]
         return Arriving(direct.phi / escape, direct.flux / escape, direct.floor)
 
     def all_orders(self, arriving: Arriving, albedo: float) -> Single:

@@ -4,10 +4,9 @@ Directions are unit vectors (lu, lv, lz) towards the light in the tile's frame. 
 4π · radiance / (albedo · irradiance perpendicular to the light).
 
 L = T·D + M: T is the transmittance along the bent paths of `paths` (straight ones on a flat patch), D the hair's own
-scattering (`fibre`), M what is scattered more than once (`scatter`). T starts half a fine slab from a voxel's middle,
-and what the voxel's hairs take of the light is the mean over that much of the ray on both sides of it,
-T·(1 − e^−τ)/τ with the τ of a slab's thickness, so that no piece of a ray counts twice. M is worked out in flat slabs
-with the hairs as thin and as long as on the body.
+scattering (`fibre`), M what is scattered more than once (`scatter`). How a hair shades itself is in D: T starts half a
+fine slab from a voxel's middle and is divided by what its own hair leaves of it from there on. M is worked out in flat
+slabs with the hairs as thin and as long as on the body.
 """
 
 from __future__ import annotations
@@ -19,7 +18,8 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.pelt.depth import depth_of, passing
+from furbake.pelt.depth import Depth
+from furbake.pelt.drawn import through_own
 from furbake.pelt.fibre import cylinder, sine
 from furbake.pelt.paths import BODY_RADIUS, lowest, spread, thinned
 from furbake.pelt.scatter import scatter
@@ -154,6 +154,12 @@ def sample_apart(
     return single, multiple, None if darker is None else more(*darker)
 
 
+def mean_share(part: Single, whole: Single) -> Array:
+    """Mean of each slab's `part` over that of its `whole`, (K, N, N) both → (K,); 1 where both are 0."""
+    some, all_of_it = (field.sum((1, 2), dtype=np.float64) + 1e-9 for field in (part, whole))
+    return np.asarray(some / all_of_it)
+
+
 class Beam:
     """One light through the oversampled volume, before anything is scattered twice."""
 
@@ -167,15 +173,17 @@ class Beam:
         # Of a texel's hairs those count most that the eye sees through all that lies above.
         shares = (coverage * (above + HIDDEN)).astype(np.float32)
         self.shares = shares.reshape(layers, -1, *coverage.shape[1:])
-        self.sigma = fine.sigma.astype(np.float32)
+        self.breadth, self.sigma = fine.breadth.astype(np.float32), fine.extinction.astype(np.float32)
         self.tangent = fine.tangent.astype(np.float32)
         if beta is not None:
             middle = (np.arange(len(self.sigma)) + 0.5) / len(self.sigma)
             self.tangent, longer = spread(self.tangent, middle, beta)
+            self.breadth *= longer
             self.sigma *= longer
-        self.hair: Single = np.maximum(self.stored(self.sigma), np.float32(1e-6))
+        self.hair: Single = np.maximum(self.stored(self.breadth), np.float32(1e-6))
         per_slab = len(self.sigma) // layers
-        self.merged = MERGED if beta is not None and per_slab >= 2 * MERGED and per_slab % MERGED == 0 else 1
+        self.merged = MERGED if per_slab >= 2 * MERGED and per_slab % MERGED == 0 else 1
+        self.radius = fine.radius
 
     def __call__(self, light: Array, number: int) -> tuple[Single, Single, Single, Single]:
         """T·D averaged down, (K, N, N); T·sin θ and T on average over the hairs, (K, N/2, N/2); the skin's irradiance.
@@ -183,42 +191,38 @@ class Beam:
         A hair that the light runs along catches less of it and shades less: its σ counts times the sine between the
         two. D and that sine are those of the lamp's middle.
         """
-        passed, hairs, skin = self.reach(light, number)
+        passed, skin = self.reach(light, number)
         single = average_down(passed * cylinder(self.tangent, light), self.shares, self.size)
-        return single, *self.caught(hairs, light), pool(skin, self.half)
+        return single, *self.caught(passed, light), pool(skin, self.half)
 
-    def caught(self, hairs: Single, light: Array) -> tuple[Single, Single]:
-        """T·sin θ and T on average over the hairs, (K, N/2, N/2); hairs : T of the fine voxels' hairs."""
-        lit = hairs * self.sigma
+    def caught(self, passed: Single, light: Array) -> tuple[Single, Single]:
+        """T·sin θ and T on average over the hairs, (K, N/2, N/2); passed : T of the fine voxels."""
+        lit = passed * self.breadth
         return self.stored(lit * sine(self.tangent, light)) / self.hair, self.stored(lit) / self.hair
 
-    def reach(self, light: Array, number: int = 0) -> tuple[Single, Single, Single]:
-        """T of the fine voxels, T on average over their hairs, (K, N, N), and the skin's irradiance, (N, N).
-
-        How a hair shades itself is in D: T is that of all from half a slab away. The path through the voxel's own slab
-        is that of the lamp's middle; its rays are averaged in what they pass through on the way.
-        """
-        caught, merged = self.sigma * sine(self.tangent, light), self.merged
-        aside = None if self.aside is None else slab_means(self.aside, len(caught) // merged)
-        depth = depth_of(joined(caught, merged), self.slab * merged, self.beta, aside)
+    def reach(self, light: Array, number: int = 0) -> tuple[Single, Single]:
+        """T of the fine voxels, (K, N, N), and the skin's irradiance, (N, N)."""
         rays = light[None] if self.beta is None else lamp_cone(light, float(number))
-        share = np.float32(1 / len(rays))
-        clear, floor = depth.through(rays[0])
-        passed, skin = clear, floor * np.float32(max(rays[0, 2], 0))
-        for ray in rays[1:]:
-            clear, floor = depth.through(ray)
-            passed += clear
-            skin += floor * np.float32(max(ray[2], 0))
-        passed *= share
-        hairs = np.repeat(passed * passing(depth.own(light)), merged, 0)
-        return parted(passed, merged), hairs, skin * share
+        return self.passed(light, rays)
+
+    def passed(self, light: Array, rays: Array) -> tuple[Single, Single]:
+        """Means of T and of the skin's irradiance over rays (n, 3) around a light's direction, as of `reach`."""
+        caught, merged = self.sigma * sine(self.tangent, light), self.merged
+        slabs = len(caught) // merged
+        aside = None if self.aside is None else slab_means(self.aside, slabs)
+        depth = Depth(joined(caught, merged), self.slab * merged, self.beta, aside)
+        each = [depth.through(ray) for ray in rays]
+        clear: Single = np.mean([passed for passed, _ in each], axis=0)
+        floors = [floor * np.float32(max(ray[2], 0)) for ray, (_, floor) in zip(rays, each, strict=True)]
+        own = through_own(self.radius, caught.shape[-1], self.slab * merged / 2 * mean_share(caught, self.sigma))
+        return parted(clear, merged) / own.astype(np.float32)[:, None, None], np.mean(floors, axis=0)
 
     def medium(self) -> tuple[Single, Single]:
         """σ as thin as it is on the body, (K, N/2, N/2), and the hairs' mean direction, (..., 3), for `scatter`."""
-        tangent = np.stack([self.stored(self.sigma * self.tangent[..., axis]) for axis in range(3)], -1)
+        tangent = np.stack([self.stored(self.breadth * self.tangent[..., axis]) for axis in range(3)], -1)
         tangent[..., 2] += 1e-9  # upright where there is no hair
         tangent /= np.linalg.norm(tangent, axis=-1, keepdims=True)
-        sigma = self.stored(self.sigma)
+        sigma = self.stored(self.breadth)
         if self.beta is not None:
             sigma *= thinned((np.arange(self.layers) + 0.5) / self.layers, self.beta).astype(np.float32)[:, None, None]
         return sigma, tangent

@@ -8,6 +8,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from furbake.pelt.drawn import LEAST_RADIUS, extinction
 from furbake.pelt.strands import Strands
 
 Array = NDArray[np.float64]
@@ -30,7 +31,9 @@ SOLID_SLAB = 1 / 16
 class Volume:
     """A tile of fur as K slabs of N × N voxels, slab 0 at the skin, indexed [slab, row = v, column = u].
 
-    sigma : (K, N, N) extinction per tile width
+    sigma : (K, N, N) extinction per tile width that shells show
+    breadth : (K, N, N) width times length of the hairs in a volume, per tile width
+    radius : (K,) mean over the hairs by their width, tile widths
     tangent : (K, N, N, 3) unit mean direction of the hairs, towards the tips; +z where there are none
     tint, hue : (K, N, N) means over the hairs, 0..1
     drift : (K, 2) mean displacement of the hairs from their roots, tile widths
@@ -39,6 +42,8 @@ class Volume:
     """
 
     sigma: Array
+    breadth: Array
+    radius: Array
     tangent: Array
     tint: Array
     hue: Array
@@ -55,6 +60,11 @@ class Volume:
     def coverage(self) -> Array:
         """α = 1 − exp(−σ·h), (K, N, N): what a slab hides, seen from straight above."""
         return -np.expm1(-self.sigma * self.slab)
+
+    @property
+    def extinction(self) -> Array:
+        """Extinction of light across the hairs, per tile width, (K, N, N)."""
+        return extinction(self.breadth, self.radius)
 
 
 def fine_shape(layers: int, size: int, height: float) -> tuple[int, int]:
@@ -79,7 +89,8 @@ def voxelise(
     direction = step / np.maximum(np.linalg.norm(step, axis=-1, keepdims=True), 1e-12)
 
     solid = np.zeros((layers, size * size))
-    weight = np.zeros((layers, size * size))
+    weight, breadth = np.zeros((2, layers, size * size))
+    widths = np.zeros((layers, 2))
     sums = np.zeros((layers, 5, size * size))  # tangent x, y, z, tint, hue
     drift = np.zeros((layers, 3))
     beside = np.zeros((layers, 2)) if aside is None else aside
@@ -103,6 +114,9 @@ def voxelise(
         colour = [part[hair, segment] * (1 - t) + part[hair, segment + 1] * t for part in (strands.tint, strands.hue)]
         values = np.concatenate([along, np.stack(colour, 1)], 1)
         weight[slab] += np.bincount(voxel.ravel(), cover.ravel(), size * size)
+        wide = cover * (2 / (np.pi * PLANES * np.maximum(thick, LEAST_RADIUS)))[:, None]
+        breadth[slab] += np.bincount(voxel.ravel(), wide.ravel(), size * size)
+        widths[slab] += (thick * thick).sum(), thick.sum()
         for channel in range(5):
             sums[slab, channel] += np.bincount(voxel.ravel(), (cover * values[:, channel, None]).ravel(), size * size)
         moved = centre - points[hair, 0, :2]
@@ -116,6 +130,8 @@ def voxelise(
     tangent /= np.maximum(np.linalg.norm(tangent, axis=-1, keepdims=True), 1e-9)
     return Volume(
         sigma=solid.reshape(shape) * opacity / (height * SOLID_SLAB),
+        breadth=breadth.reshape(shape),
+        radius=widths[:, 0] / np.maximum(widths[:, 1], 1e-12),
         tangent=tangent,
         tint=np.where(empty, strands.tint.mean(), means[:, 3]),
         hue=np.where(empty, strands.hue.mean(), means[:, 4]),
@@ -190,10 +206,12 @@ def slab_means(fine: Array, layers: int) -> Array:
 def coarsen(fine: Volume, layers: int, size: int) -> Volume:
     """The stored slabs from the fine ones: coverage is kept exactly, all else is weighted by what the eye sees."""
     shares = seen_from_above(fine.coverage, layers)
-    coverage = pool(shares.sum(1), size)
+    coverage, hairs = pool(shares.sum(1), size), fine.breadth.mean((1, 2))
     tangent = np.stack([average_down(fine.tangent[..., axis], shares, size) for axis in range(3)], -1)
     return Volume(
         sigma=-np.log1p(-np.minimum(coverage, 1 - 1e-9)) / (fine.height / layers),
+        breadth=pool(fine.breadth.reshape(layers, -1, *fine.breadth.shape[1:]).mean(1), size),
+        radius=(fine.radius * hairs).reshape(layers, -1).sum(1) / np.maximum(hairs.reshape(layers, -1).sum(1), 1e-12),
         tangent=tangent / np.maximum(np.linalg.norm(tangent, axis=-1, keepdims=True), 1e-9),
         tint=average_down(fine.tint, shares, size),
         hue=average_down(fine.hue, shares, size),

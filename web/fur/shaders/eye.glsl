@@ -16,12 +16,12 @@ Quadratic seenByEye(FurPoint point) {
 	upright.UP = 1.0;
 	if (below) level /= max(length(level), 1e-4);
 	float q = dot(level, level), p = dot(level, leaning), s = point.s / furTrim;
-	// In the order of the format, with a = level·l, b = leaning·l: q, a, q·b, p·b; q·z, q·z², p·z², a²; p·a·b, a·z, q·b·z, q·a·b.
+	// In the order of the format, with a = level·l, b = leaning·l: q, a, q·b, p·b; q·z, q·b², p, a²; p·a·b, a·z, q·b·z, q·a·b.
 	vec4 first = eye[0] + s * (eye[3] + s * eye[6]), second = eye[1] + s * (eye[4] + s * eye[7]), third = eye[2] + s * (eye[5] + s * eye[8]);
-	seen.even += first.x * q;
+	seen.even += first.x * q + second.z * p;
 	seen.gradient = first.y * level + (first.z * q + first.w * p) * leaning + second.x * q * upright;
 	seen.form = outerProduct(second.w * level + (third.x * p + third.w * q) * leaning + third.y * upright, level);
-	seen.form += outerProduct((second.y * q + second.z * p) * upright + third.z * q * leaning, upright);
+	seen.form += outerProduct(q * (second.y * leaning + third.z * upright), leaning);
 #endif
 	return seen;
 }

@@ -1,0 +1,53 @@
+"""How voxels draw hairs, and what light makes of it.
+
+A hair of radius r is spread over a width of 2·√(r² + RIM²), in voxels, and takes r's share of it from the light that
+crosses it. Drawn so, light fades everywhere by as much as the hair would shut out of a part. `breadth` is the width
+times length of the hairs in a volume, per tile width: what they take of light across them while none hides another.
+"""
+
+from __future__ import annotations
+
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Real = TypeVar("Real", np.float32, np.float64)
+
+RIM = 1.0
+"""Voxels by which hairs are drawn wider than they are, what a ray reads between voxels included.
+
+With it light that has met no other hair is, in light from 75°, 50°, 35° and 20° at 64 texels a side, 1.01, 0.92, 0.96
+and 0.93 (bunny), 1.00, 1.00, 0.99 and 0.97 (sheep), 1.18, 1.09, 1.07 and 1.04 (paper) of what a path tracer finds.
+"""
+
+LEAST_RADIUS = 1e-6
+"""Of a hair, tile widths."""
+
+
+def extinction(breadth: NDArray[Real], radius: Array) -> NDArray[Real]:
+    """Extinction by which every hair takes what meets its width, per tile width, (K, N, N).
+
+    breadth : (K, N, N); radius : (K,) mean over the hairs, tile widths
+    """
+    across, depth = _across(radius, breadth.shape[-1])
+    more = depth * across / (2 * np.maximum(radius, LEAST_RADIUS))
+    return np.asarray(breadth * more.astype(breadth.dtype)[:, None, None])
+
+
+def through_own(radius: Array, size: int, aside: Array) -> Array:
+    """Mean T of what a hair has of itself before it, (K,), for rays from its voxels, `size` of them a side of the tile.
+
+    radius : (K,); aside : (K,) how far from a voxel a ray begins, as seen along the hair, tile widths
+    """
+    across, depth = _across(radius, size)
+    free = np.minimum(aside / across, 1)
+    return np.asarray(free - np.expm1(-depth * (1 - free)) / depth)
+
+
+def _across(radius: Array, size: int) -> tuple[Array, Array]:
+    """Width of a drawn hair, tile widths, and its optical depth."""
+    thick = np.maximum(radius, LEAST_RADIUS)
+    wide = np.hypot(thick, RIM / size)
+    return 2 * wide, -np.log1p(-thick / wide)
