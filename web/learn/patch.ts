@@ -29,7 +29,7 @@ export class FurPatch extends Object3D {
 	readonly height: number;
 
 	/** @param pelt any fur of it; @param surface instead of a square of so many tiles */
-	constructor(pelt: Fur, tiles: number, surface = tiled(tiles)) {
+	constructor(pelt: Pick<Fur, 'asset' | 'pelt' | 'ground'>, tiles: number, surface = tiled(tiles)) {
 		super();
 		this.height = pelt.asset.height;
 		const asset = { ...pelt.asset, tiles: 1, length: this.height };
