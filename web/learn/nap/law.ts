@@ -29,6 +29,16 @@ export function factorOf(numbers: readonly (readonly number[])[], light: Way, ey
 	);
 }
 
+/**
+ * Light of a lamp beside the eye, which sees no shadows, over one aside.
+ *
+ * @param numbers how much more it is from above, what more of it from aside, and its width, radians
+ */
+export function surgeOf([above, aside, width]: readonly [number, number, number], light: Way, eye: Way): number {
+	const apart = light.reduce((sum, part, i) => sum + (part - (eye[i] ?? 0)) ** 2, 0);
+	return 1 + (above + aside * (1 - eye[2] ** 2)) / (1 + apart / width ** 2);
+}
+
 /** Mean coverage of each slab, the lowest first. @param bytes of a plane; @param channel which of its four is α */
 export function coverages(
 	{ layers, size }: Pick<FurAsset, 'layers' | 'size'>,
@@ -60,13 +70,14 @@ export function sharesSeen(covers: readonly number[], up: number): number[] {
 	return shares.map((share) => share / Math.max(1 - open, 1e-9));
 }
 
-/** G over all that an eye sees of the fur. */
+/** G of a lamp over all that an eye sees of the fur, its surge included. @param covers of `coverages` */
 export function factorSeen(
-	numbers: readonly (readonly number[])[],
+	{ eye: numbers = [], surge = [0, 0, 1] }: Pick<FurAsset, 'eye' | 'surge'>,
 	covers: readonly number[],
 	light: Way,
 	eye: Way,
 ): number {
 	const shares = sharesSeen(covers, eye[2]);
-	return shares.reduce((sum, share, k) => sum + share * factorOf(numbers, light, eye, (k + 0.5) / covers.length), 0);
+	const factors = shares.map((share, k) => share * factorOf(numbers, light, eye, (k + 0.5) / covers.length));
+	return factors.reduce((sum, each) => sum + each, 0) * surgeOf(surge, light, eye);
 }

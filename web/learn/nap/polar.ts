@@ -5,10 +5,10 @@ import { decimal, draw, line, mark } from '../measured/plot.ts';
 
 /** Drawn from the middle to the rim. */
 const MOST = 2;
-/** Room for marks and their names around the rim, pixels. */
-const AROUND = 34;
+/** Room for marks around the rim, pixels. */
+const AROUND = 20;
 /** Of the curves, degrees. */
-const STEP = 3;
+const STEP = 1;
 /** Beyond the rim, share of its radius. */
 const OUTSIDE = 1.07;
 
@@ -22,13 +22,11 @@ export interface Polar {
 	light: number;
 	/** Where the hairs' tips point; how far, 0..1. */
 	lean: readonly [angle: number, share: number];
-	names: { eye: string; light: string };
 }
 
 interface Disc {
 	svg: SVGElement;
 	at: (angle: number, factor: number) => [number, number];
-	radius: number;
 }
 
 /** Once around, seen from above. */
@@ -55,8 +53,8 @@ export function drawAround(svg: SVGElement, width: number, height: number, shown
 	marks(disc, shown);
 }
 
-/** From the horizon under the eye over the top to the other one, the fur cut along that plane. */
-export function drawOver(svg: SVGElement, width: number, height: number, shown: Polar): void {
+/** From below the eye over the top and down again, the fur cut along that plane. @param lowest angle of an eye */
+export function drawOver(svg: SVGElement, width: number, height: number, shown: Polar, lowest: number): void {
 	const radius = Math.min(width / 2, height) - AROUND;
 	const [cx, cy] = [width / 2, (height + radius) / 2];
 	const disc = discAt(svg, cx, cy, radius);
@@ -66,13 +64,13 @@ export function drawOver(svg: SVGElement, width: number, height: number, shown: 
 	}
 	labels(disc, 0);
 	draw(svg, 'line', { class: 'axis', x1: cx - radius, x2: cx + radius, y1: cy, y2: cy });
-	const reach = 0.2 * radius;
+	const reach = 0.14 * radius;
 	const aside = shown.lean[1] * Math.cos(radians(shown.lean[0]));
 	for (let i = -3; i <= 3; i++) {
-		const x = cx + (i * reach) / 3;
+		const x = cx + (i * reach) / 2;
 		draw(svg, 'path', { class: 'lean', d: `M${x} ${cy}q0 ${-reach / 2} ${aside * reach} ${-reach}` });
 	}
-	curve(disc, shown, 2, 178);
+	curve(disc, shown, lowest, 180 - lowest);
 	marks(disc, shown);
 }
 
@@ -81,7 +79,7 @@ function discAt(svg: SVGElement, cx: number, cy: number, radius: number): Disc {
 		const out = (factor / MOST) * radius;
 		return [cx + out * Math.cos(radians(angle)), cy - out * Math.sin(radians(angle))];
 	};
-	return { svg, at, radius };
+	return { svg, at };
 }
 
 /** What the rings stand for. */
@@ -101,27 +99,20 @@ function curve({ svg, at }: Disc, { factor }: Polar, from: number, to: number): 
 }
 
 /** Lamp and eye on the rim, and the curve's point under the eye. */
-function marks({ svg, at, radius }: Disc, { factor, eye, light, names }: Polar): void {
-	const now = factor(eye);
-	const rim = (angle: number, share = OUTSIDE) => at(angle, share * MOST);
-	for (const [angle, kind, name, shape] of [
-		[light, 'bulb', names.light, 'dot'],
-		[eye, 'watcher', names.eye, 'ring'],
+function marks({ svg, at }: Disc, { factor, eye, light }: Polar): void {
+	for (const [angle, kind, shape, size] of [
+		[light, 'bulb', 'dot', 5],
+		[eye, 'watcher', 'ring', 9],
 	] as const) {
-		const [x, y] = rim(angle);
 		const [x0, y0] = at(angle, 0);
-		draw(svg, 'line', { class: `ray ${kind}`, x1: x0, y1: y0, x2: x, y2: y });
-		mark(svg, shape, kind, x, y, 6);
-		const [nameX, nameY] = rim(angle, OUTSIDE + 20 / radius);
-		draw(svg, 'text', { class: 'name', x: nameX, y: nameY + 4, 'text-anchor': 'middle' }, name);
+		const [x1, y1] = at(angle, OUTSIDE * MOST);
+		draw(svg, 'line', { class: `ray ${kind}`, x1: x0, y1: y0, x2: x1, y2: y1 });
+		mark(svg, shape, kind, x1, y1, size);
 	}
+	const now = factor(eye);
 	const [x, y] = at(eye, now);
 	mark(svg, 'dot', 'watcher', x, y, 5);
-	const beside = Math.cos(radians(eye)) > 0 ? 'end' : 'start';
-	draw(
-		svg,
-		'text',
-		{ class: 'value', x: x + (beside === 'end' ? -9 : 9), y: y - 9, 'text-anchor': beside },
-		decimal(now),
-	);
+	const right = Math.cos(radians(eye)) > 0;
+	const text = { class: 'value', x: x + (right ? -9 : 9), y: y - 9, 'text-anchor': right ? 'end' : 'start' };
+	draw(svg, 'text', text, decimal(now));
 }

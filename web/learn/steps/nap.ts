@@ -1,6 +1,14 @@
 /** Step 8: the eye turns around a patch of fur, and the factor of light and eye turns the nap. */
 
-import { type Camera, MathUtils, type Vector2, Vector3 } from 'three';
+import {
+	type Camera,
+	CircleGeometry,
+	Float32BufferAttribute,
+	MathUtils,
+	type PlaneGeometry,
+	type Vector2,
+	Vector3,
+} from 'three';
 import { alphaChannel, type FurAsset } from '../../fur/index.ts';
 import { directionUnder } from '../../page/aim.ts';
 import { lampDistance } from '../../page/lamp.ts';
@@ -12,15 +20,21 @@ import { decimal, legend, Plot } from '../measured/plot.ts';
 import { panels } from '../measured/slice.ts';
 import { coverages, factorSeen, type Way } from '../nap/law.ts';
 import { drawAround, drawOver, type Polar } from '../nap/polar.ts';
-import { FurPatch } from '../patch.ts';
+import { FurPatch, tiled } from '../patch.ts';
 import { View, type WindowOptions } from '../view.ts';
 
-const PELT = 'pelt-mole';
+const PELT = 'pelt-teddy';
 const TILES = 4;
+/** Squares of its mesh across: its rim is round. */
+const CELLS = 48;
 /** Of the patch. */
-const RADIUS = TILES * 0.62;
+const RADIUS = TILES / 2;
+/** Share of it over which the fur thins out and grows shorter. */
+const RIM = 0.12;
 /** How low and how high the eye may stand, degrees. */
 const [LOWEST, HIGHEST] = [8, 85];
+/** Of each picture, width over height. */
+const ASPECT = 3 / 2;
 /** The eye at first: against the lamp, where the hairs' tips point. */
 const FIRST = { around: 0, height: 26 };
 /** Degrees that a drag over the whole picture turns the eye. */
@@ -33,18 +47,22 @@ export const mount: Mount = async (place, lesson) => {
 	const { light } = lesson;
 	const { fur } = await loadFurry(PELT, lesson);
 	const { asset, textures } = fur;
-	const { eye: numbers } = asset;
-	if (!numbers) throw new Error(`models/${PELT}: got no numbers of light and eye, expected those of a bake`);
+	if (!asset.eye) throw new Error(`models/${PELT}: got no numbers of light and eye, expected those of a bake`);
 	const { plane, channel } = alphaChannel(asset.coefficients);
 	const covers = coverages(asset, bytesOf(plane ? textures.plane1 : textures.plane0), channel);
 
 	// The second one's texels are seen from anywhere as from straight above.
 	const { eye: _, surge: __, ...plain } = asset;
-	const patches = [new FurPatch(fur, TILES), new FurPatch({ asset: plain, pelt: fur.pelt, ground: fur.ground }, TILES)];
+	const { pelt, ground } = fur;
+	const patches = [asset, plain].map((each) => new FurPatch({ asset: each, pelt, ground }, TILES, rounded()));
 	const first = azimuthOf(light.direction);
 	/** Where the tips point: away from the lamp as it stands now. Degrees from the front to the right. */
 	const leaning = first + 180;
-	for (const patch of patches) patch.rotation.y = MathUtils.degToRad(leaning - 90) - leanOnTile(asset);
+	for (const patch of patches) {
+		patch.rotation.y = MathUtils.degToRad(leaning - 90) - leanOnTile(asset);
+		patch.skin.geometry.dispose();
+		patch.skin.geometry = new CircleGeometry(RADIUS * (1 - RIM / 2), 64).rotateX(-Math.PI / 2);
+	}
 
 	const eye = { azimuth: leaning + FIRST.around, elevation: FIRST.height };
 	const [main] = patches as [FurPatch];
@@ -57,7 +75,7 @@ export const mount: Mount = async (place, lesson) => {
 		captions.push(caption);
 		const options: WindowOptions = {
 			label,
-			aspect: 4 / 3,
+			aspect: ASPECT,
 			eye,
 			zoom: 1.25,
 			drag: turn,
@@ -104,29 +122,27 @@ export const mount: Mount = async (place, lesson) => {
 	plots.classList.add('plots');
 	const shown = () => {
 		const [l, v] = [wayOf(light.direction), wayAt(eye.azimuth - leaning, eye.elevation)];
-		return { l, v, now: factorSeen(numbers, covers, l, v) };
+		return { l, v, now: factorSeen(asset, covers, l, v) };
 	};
 	const plotted = (label: string, name: string, paint: (svg: SVGElement, width: number, height: number) => void) => {
 		const box = document.createElement('div');
 		plots.append(box);
-		const plot = new Plot(box, label, 300, paint);
+		const plot = new Plot(box, label, 270, paint);
 		box.append(Object.assign(document.createElement('p'), { textContent: name }));
 		return plot;
 	};
-	const { names } = words;
 	const share = Math.hypot(...(asset.drift.at(-1) ?? [0, 0])) / asset.height;
 	const both = [
 		plotted(words.aroundPlot, words.aroundName, (svg, width, tall) => {
 			const { l } = shown();
 			// Front is below, as on a map of what lies before the reader.
 			const onMap = (azimuth: number) => azimuth - 90;
-			const factor = (angle: number) => factorSeen(numbers, covers, l, wayAt(angle + 90 - leaning, eye.elevation));
+			const factor = (angle: number) => factorSeen(asset, covers, l, wayAt(angle + 90 - leaning, eye.elevation));
 			const turned: Polar = {
 				factor,
 				eye: onMap(eye.azimuth),
 				light: onMap(azimuthOf(light.direction)),
 				lean: [onMap(leaning), share],
-				names,
 			};
 			drawAround(svg, width, tall, turned);
 		}),
@@ -134,16 +150,15 @@ export const mount: Mount = async (place, lesson) => {
 			const { l } = shown();
 			const away = eye.azimuth - leaning;
 			const factor = (angle: number) =>
-				factorSeen(numbers, covers, l, angle < 90 ? wayAt(away, angle) : wayAt(away + 180, 180 - angle));
+				factorSeen(asset, covers, l, angle < 90 ? wayAt(away, angle) : wayAt(away + 180, 180 - angle));
 			const level = Math.cos(MathUtils.degToRad(azimuthOf(light.direction) - eye.azimuth)) * Math.hypot(l[0], l[1]);
 			const cut: Polar = {
 				factor,
 				eye: eye.elevation,
 				light: MathUtils.radToDeg(Math.atan2(l[2], level)),
 				lean: [away, share],
-				names,
 			};
-			drawOver(svg, width, tall, cut);
+			drawOver(svg, width, tall, cut, LOWEST);
 		}),
 	];
 	legend(place, [
@@ -176,7 +191,7 @@ export const mount: Mount = async (place, lesson) => {
 				.copy(scene.centre)
 				.addScaledVector(light.direction, scene.radius * lampDistance)
 				.project(camera);
-			const apart = Math.hypot((pointer.x - lamp.x) * (4 / 3), pointer.y - lamp.y);
+			const apart = Math.hypot((pointer.x - lamp.x) * ASPECT, pointer.y - lamp.y);
 			begun = { x: pointer.x, y: pointer.y, lamp: apart < NEAR, azimuth: around.value, elevation: height.value };
 		}
 		if (begun.lamp) {
@@ -195,6 +210,19 @@ export const mount: Mount = async (place, lesson) => {
 		return wayAt(azimuthOf(direction) - leaning, MathUtils.radToDeg(Math.asin(Math.min(direction.y, 1))));
 	}
 };
+
+/** A square of tiles on which fur grows in a disc. */
+function rounded(): PlaneGeometry {
+	const surface = tiled(TILES, CELLS);
+	const position = surface.getAttribute('position');
+	const mask: number[] = [];
+	for (let i = 0; i < position.count; i++) {
+		const away = Math.hypot(position.getX(i), position.getZ(i)) / RADIUS;
+		const dense = MathUtils.smoothstep(1 - away, 0, RIM);
+		mask.push(dense, 0.4 + 0.6 * dense, 1, 0);
+	}
+	return surface.setAttribute('_fur', new Float32BufferAttribute(mask, 4));
+}
 
 /** Degrees from the front to the right. */
 const azimuthOf = ({ x, z }: Readonly<Vector3>): number => MathUtils.radToDeg(Math.atan2(x, z));

@@ -48,7 +48,7 @@ export const en = {
 	},
 	nap: {
 		pictures: [
-			'A patch of mole’s fur with the factor of light and eye. Drag to turn the eye, or drag the lamp; arrow keys move the lamp.',
+			'A disc of plush with the factor of light and eye. Drag to turn the eye, or drag the lamp; arrow keys move the lamp.',
 			'The same without the factor. Drag to turn the eye, or drag the lamp; arrow keys move the lamp.',
 		],
 		captions: [
@@ -62,7 +62,6 @@ export const en = {
 		aroundName: 'Once around, seen from above; the arrow is the hairs’ lean',
 		overPlot: 'The factor for eyes from horizon to horizon in the plane of this eye; lamp and eye are marked.',
 		overName: 'Over the fur, in the plane of the eye',
-		names: { eye: 'eye', light: 'lamp' },
 		curve: 'factor, by where the eye is',
 		one: '1: as from straight above',
 		lamp: 'lamp',
