@@ -77,7 +77,7 @@ export const mount: Mount = async (place, lesson) => {
 			label,
 			aspect: ASPECT,
 			eye,
-			zoom: 1.25,
+			zoom: 1.12,
 			drag: turn,
 			before() {
 				for (const [n, patch] of patches.entries()) patch.visible = n === i;
