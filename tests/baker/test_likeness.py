@@ -180,6 +180,7 @@ def test_the_grey_copy_is_a_valid_asset_without_colours(tmp_path: Path, tiny: Ba
         (Options(methods=("ptm", "magic")), "methods: got 'magic'"),
         (Options(size=8), "size: got 8"),
         (Options(spp=1), "spp: got 1"),
+        (Options(look=(0.5, -1.0)), "look: got 0.5,-1, expected 0 to 100 each"),
         (Options(distance=0.1), "distance: got 0.1, expected 0.25 to 4"),
     ],
 )
@@ -320,8 +321,9 @@ class TestWithMitsuba:
             return kept
 
         def shown(
-            asset: Any, albedo: float, skin: float, seen: Frame, wanted: Any, methods: Any, step: Any, _ceiling: Any
+            asset: Any, albedo: float, skin: float, seen: Frame, wanted: Any, methods: Any, *_: Any, look: Any
         ) -> Shown:
+            assert look == (0.25, 40.0)
             normal = np.zeros((seen.height, seen.width, 3))
             normal[..., 2] = 1
             pairs = [(one.name, method) for one in wanted for method in methods]
@@ -334,7 +336,7 @@ class TestWithMitsuba:
 
         monkeypatch.setattr("furbake.likeness.verify.trace", traced)
         monkeypatch.setattr("furbake.likeness.verify.show", shown)
-        options = Options(methods=("ptm",), size=36, spp=8, truth=tmp_path / "t.npz")
+        options = Options(methods=("ptm",), size=36, spp=8, look=(0.25, 40.0), truth=tmp_path / "t.npz")
         found = verify_body(tmp_path / "a", options, picture=tmp_path / "p.png")
         assert found["plan"] == "round"
         for one in found["cells"]:
@@ -434,3 +436,5 @@ def test_the_page_draws_a_job(tmp_path: Path, tiny: BakeOptions) -> None:
     assert np.median(light[skin]) == pytest.approx(1, abs=0.03)
     assert shown.light["front-lamp", "ptm"][skin].mean() > 0.1
     assert not shown.feature["front"].any()
+    glossy = show(read_asset(tmp_path / "a"), 0.8, 0.0, seen, wanted, ["ptm"], look=(1.0, 0.0))
+    assert (glossy.light["front-lamp", "ptm"] - shown.light["front-lamp", "ptm"])[skin].mean() > 0.01

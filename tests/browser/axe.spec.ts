@@ -11,7 +11,7 @@ const PAGES: [file: string, query: string, width: number, height: number][] = [
 	// With its panel, and with a notice of what the address says wrong.
 	['index.html', '?model=sphere&shells=4&still=1&light=north', 900, 500],
 	// So high that all figures are in it, and built.
-	['learn.html', '?still=1', 700, 16_500],
+	['learn.html', '?still=1', 700, 18_000],
 	['bench.html', '?methods=magic', 900, 500],
 	['404.html', '?', 900, 500],
 	['example.html', '?', 160, 120],

@@ -143,6 +143,51 @@ test('the article’s figures have the brightness of their coefficients', async 
 	expect(swings[1]).toBeLessThan((swings[0] ?? 0) * 0.7);
 });
 
+test('the eye turns the nap: brighter than texels beside the lamp, darker against it', async ({ page }) => {
+	await open(page, 'learn.html?still=1&lang=en#nap');
+	await show(page, 'nap');
+	const live = figure(page, 'nap').locator('.live');
+	const slide = (label: string, to: string) => figure(page, 'nap').getByRole('slider', { name: label }).fill(to);
+	/** Light of the plush in the middle of either picture. */
+	const plush = async (nth: number) =>
+		(await pixels(page, 'nap', nth))
+			.filter((_, i) => Math.abs((i % 40) - 19.5) < 6 && Math.abs(i / 40 - 15) < 3)
+			.reduce((sum, value) => sum + value, 0);
+	const factor = async () => Number(await live.getAttribute('data-factor'));
+	const seen: { factor: number; gain: number }[] = [];
+	// The lamp stands at 180°, 38° high, until somebody takes it.
+	for (const around of ['0', '165']) {
+		await slide('Eye, around', around);
+		const drawn = [await plush(0), await plush(1)] as const;
+		seen.push({ factor: await factor(), gain: drawn[0] / drawn[1] });
+	}
+	const [against, beside] = seen as [(typeof seen)[0], (typeof seen)[0]];
+	expect(against.factor).toBeLessThan(0.85);
+	expect(beside.factor).toBeGreaterThan(1.1);
+	expect(against.gain).toBeLessThan(0.9);
+	expect(beside.gain).toBeGreaterThan(1.05);
+	await expect(figure(page, 'nap')).toContainText(`× ${beside.factor.toFixed(2)}`);
+	// The curves have the eye's point where their factor is.
+	await expect(figure(page, 'nap').locator('.plot .value')).toHaveText(Array(2).fill(beside.factor.toFixed(2)));
+
+	// A drag turns the eye, by arrow keys the lamp moves and the eye stays.
+	const canvas = figure(page, 'nap').locator('canvas').first();
+	await expect(page.locator('figure[data-state=loading]')).toHaveCount(0);
+	await canvas.evaluate((element) => element.scrollIntoView({ block: 'center', behavior: 'instant' }));
+	const { x = 0, y = 0, width = 0, height = 0 } = (await canvas.boundingBox()) ?? {};
+	const eye = figure(page, 'nap').getByRole('slider', { name: 'Eye, around' });
+	await page.mouse.move(x + 0.3 * width, y + 0.7 * height);
+	await page.mouse.down();
+	await page.mouse.move(x + 0.55 * width, y + 0.7 * height);
+	await page.mouse.up();
+	await expect(eye).toHaveValue('120');
+	const before = await factor();
+	await canvas.focus();
+	for (let i = 0; i < 12; i++) await page.keyboard.press('ArrowRight');
+	await expect.poll(async () => Math.abs((await factor()) - before)).toBeGreaterThan(0.1);
+	await expect(eye).toHaveValue('120');
+});
+
 test('hair on a spring: the exact step is on the curve however long it is, Euler’s is not', async ({ page }) => {
 	await open(page, 'learn.html?still=1&lang=en#swing');
 	await show(page, 'spring');

@@ -22,7 +22,7 @@ describe('the lesson', () => {
 		expect(equations(zh)).toEqual(equations(en));
 	});
 
-	it.each(['shells', 'slices', 'body', 'rivals', 'paper', 'swing', 'wet'])(
+	it.each(['shells', 'slices', 'body', 'nap', 'rivals', 'paper', 'swing', 'wet'])(
 		'says %s in at most 120 words and ends with something to try',
 		(id) => {
 			const [, section = ''] = new RegExp(`<section id="${id}">(.*?)</section>`, 's').exec(text('en')) ?? [];

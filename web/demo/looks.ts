@@ -32,9 +32,8 @@ interface Look {
 
 /** Of the first shells over what looks best. */
 const coarse = 4;
-/** Strength of most furs' highlights, and of light from behind. */
-const usualGloss = 0.5;
-const backlight = 6;
+/** Strength of most furs' highlights, and of light from behind: as bright as traced hairs are, see pelt/README.md. */
+export const usualLook = { gloss: 0.25, backlight: 40 };
 
 /** Seconds in which one look goes over into another, and the most of it that a frame takes: slow ones make no jump. */
 const fading = 0.6;
@@ -262,10 +261,10 @@ export class Looks {
 	}
 }
 
-function style(fur: Fur, gloss = usualGloss, { shells, length = 1, density = 1, colour }: View): void {
+function style(fur: Fur, gloss = usualLook.gloss, { shells, length = 1, density = 1, colour }: View): void {
 	const { material } = fur.shells;
 	material.gloss = gloss;
-	material.backlight = backlight;
+	material.backlight = usualLook.backlight;
 	material.density = density;
 	fur.length = length;
 	if (shells) fur.shells.shellCount = shells;

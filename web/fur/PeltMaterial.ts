@@ -153,7 +153,7 @@ export class PeltMaterial extends ShaderMaterial {
 		this.#set('gloss', strength, strength > 0);
 	}
 
-	/** Strength of the light that comes through the hairs from behind; 0 costs nothing. */
+	/** Strength of the light that comes through the hairs from behind, 40 as of real hair; 0 costs nothing. */
 	get backlight(): number {
 		return this.uniforms.backlight?.value;
 	}

@@ -25,7 +25,7 @@ export async function loadFurry(name: string, { painter }: Lesson): Promise<Furr
 	const gltf: GLTF = await loader.loadAsync(new URL(`models/${name}/model.gltf`, document.baseURI).href);
 	const fur: Fur | undefined = gltf.userData.fur;
 	if (!fur) throw new Error(`models/${name}: got a model without fur`);
-	Object.assign(fur.shells.material, { gloss: 0.5, backlight: 6 });
+	Object.assign(fur.shells.material, { gloss: 0.25, backlight: 40 });
 	return { object: gltf.scene, fur };
 }
 

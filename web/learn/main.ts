@@ -23,6 +23,7 @@ const steps: Record<string, () => Promise<{ mount: Mount }>> = {
 	bits: () => import('./steps/bits.ts'),
 	numbers: () => import('./steps/numbers.ts'),
 	body: () => import('./steps/body.ts'),
+	nap: () => import('./steps/nap.ts'),
 	rivals: () => import('./steps/rivals.ts'),
 	tuft: () => import('./steps/tuft.ts'),
 	turning: () => import('./steps/turning.ts'),

@@ -1,6 +1,6 @@
 /** A square of fur with nothing lapped: whole tiles side by side, all lengths in tile widths. u runs along x, v against z. */
 
-import { Color, Mesh, MeshStandardMaterial, Object3D, PlaneGeometry, Vector3 } from 'three';
+import { type BufferGeometry, Color, Mesh, MeshStandardMaterial, Object3D, PlaneGeometry, Vector3 } from 'three';
 import { Fur, type FurShells } from '../fur/index.ts';
 
 /** Squares per tile: the lights' moments are sums at their corners. */
@@ -24,12 +24,12 @@ export class FurPatch extends Object3D {
 	/** As on any body: it can swing and get wet. */
 	readonly fur: Fur;
 	readonly shells: FurShells;
-	readonly skin: Mesh<PlaneGeometry, MeshStandardMaterial>;
+	readonly skin: Mesh<BufferGeometry, MeshStandardMaterial>;
 	/** Longest hairs. */
 	readonly height: number;
 
 	/** @param pelt any fur of it; @param surface instead of a square of so many tiles */
-	constructor(pelt: Fur, tiles: number, surface = tiled(tiles)) {
+	constructor(pelt: Pick<Fur, 'asset' | 'pelt' | 'ground'>, tiles: number, surface = tiled(tiles)) {
 		super();
 		this.height = pelt.asset.height;
 		const asset = { ...pelt.asset, tiles: 1, length: this.height };
@@ -38,7 +38,7 @@ export class FurPatch extends Object3D {
 		this.shells = this.fur.shells;
 		this.shells.castShadow = this.shells.receiveShadow = false;
 		const shade = new Color(...asset.ramp.root).multiplyScalar(SHADE);
-		this.skin = new Mesh(
+		this.skin = new Mesh<BufferGeometry, MeshStandardMaterial>(
 			new PlaneGeometry(tiles, tiles).rotateX(-Math.PI / 2),
 			new MeshStandardMaterial({ color: shade }),
 		);

@@ -36,6 +36,8 @@ export interface WindowOptions {
 	/** Where the camera stands: degrees to the right of the front and above the ground. */
 	azimuth?: number;
 	elevation?: number;
+	/** The same where the camera moves: read before every picture. */
+	eye?: Readonly<{ azimuth: number; elevation: number }>;
 	/** How much nearer than where the whole sphere of the lamp is in the picture. */
 	zoom?: number;
 	/** What is in the middle of the picture; else what the lamp turns about. */
@@ -140,7 +142,7 @@ export class View {
 	#aim(
 		camera: PerspectiveCamera,
 		aspect: number,
-		{ azimuth = 0, elevation = 20, zoom = 1, target }: WindowOptions,
+		{ eye, azimuth = eye?.azimuth ?? 0, elevation = eye?.elevation ?? 20, zoom = 1, target }: WindowOptions,
 	): void {
 		camera.aspect = aspect;
 		const half = Math.tan(MathUtils.degToRad(FIELD_OF_VIEW / 2)) * Math.min(1, aspect);

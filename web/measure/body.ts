@@ -39,7 +39,7 @@ export class BodyScene {
 		readonly job: BodyJob,
 		readonly fur: Fur,
 	) {
-		const { width, height, fieldOfView, centre, radius, irradiance } = job;
+		const { width, height, fieldOfView, centre, radius, irradiance, gloss = 0, backlight = 0 } = job;
 		this.#renderer.shadowMap.enabled = true;
 		this.#centre = new Vector3(...centre);
 		this.#camera = new PerspectiveCamera(fieldOfView, width / height, 0.1 * radius, 100 * radius);
@@ -55,8 +55,8 @@ export class BodyScene {
 		});
 		for (const feature of this.#features) feature.visible = false;
 		this.#scene.add(body, this.#lamp, this.#lamp.target);
-		// Highlights, light from behind and the sky are not baked. The colour of bare skin is no colour of hairs.
-		Object.assign(fur.material, { environment: false, gloss: 0, backlight: 0 });
+		// The sky is not baked, nor are highlights and light from behind. The colour of bare skin is no colour of hairs.
+		Object.assign(fur.material, { environment: false, gloss, backlight });
 		fur.material.skinColour.set(1, 1, 1);
 	}
 

@@ -25,6 +25,9 @@ export interface BodyJob {
 	cells: readonly BodyCell[];
 	/** A method's name, with `-bare` after it where no shadow map is wanted. */
 	methods: readonly string[];
+	/** Of the fur's highlights, and of the light from behind: both 0 where only what was baked is to be seen. */
+	gloss?: number;
+	backlight?: number;
 	/** Whether pictures are red, green and blue, then coverage, in place of light and coverage. */
 	coloured: boolean;
 	/** Of the samples' own composite, in passes/NN beside the model; 0: it is not drawn. */

@@ -239,6 +239,7 @@ def _verify_body(args: argparse.Namespace, picture: Path | None) -> int:
         spp=args.spp or body.SPP,
         distance=args.distance,
         ceiling=args.ceiling,
+        look=(args.gloss, args.backlight),
         truth=Path(args.truth) if args.truth else None,
     )
     if args.colour:

@@ -281,6 +281,8 @@ def _verify_arguments(parser: _Parser) -> None:
     add("--plan", metavar="|".join(PLANS), help="with --body: eyes and lamps (default: round of sphere and torus)")
     add("--colour", action="store_true", help="with --body: hairs in their own colours; tells mean colours alone")
     add("--ceiling", action="store_true", help="with --body: the samples' own composite too, without any fit")
+    for name, what in (("gloss", "highlights"), ("backlight", "light from behind")):
+        add(f"--{name}", metavar="N", type=_number, default=0.0, help=f"with --body: {what} on the page (default: 0)")
     add("--truth", metavar="FILE.npz", type=_path, help="with --body: keeps what was traced for the next run")
     add("--json", action="store_true", help="figures as one JSON object")
     add("--quiet", action="store_true", help="no progress, no summary")

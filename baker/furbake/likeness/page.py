@@ -57,12 +57,14 @@ def show(
     step: Callable[[float], None] = lambda fraction: None,
     ceiling: Ceiling | None = None,
     coloured: bool = False,
+    look: tuple[float, float] = (0.0, 0.0),
 ) -> Shown:
     """The pictures of all cells by all methods. Raises VerifyError where there is no Node, no browser or a failure.
 
     albedo, skin : as of the tracer's hairs and skin
     ceiling : passes of a further method, `SAMPLES`
     coloured : hairs have their own colours; light then is (height, width, 3)
+    look : strength of highlights and of light from behind, which are not baked
     """
     with TemporaryDirectory(prefix="furbake-") as scratch:
         folder = Path(scratch)
@@ -84,6 +86,8 @@ def show(
             ],
             "methods": list(methods),
             "coloured": coloured,
+            "gloss": look[0],
+            "backlight": look[1],
             "passes": 0 if ceiling is None else ceiling.passes,
             "brightest": 0.0 if ceiling is None else ceiling.white,
         }

@@ -49,6 +49,7 @@ class Options:
     plan : of `PLANS`, None: by the model; methods : some of `METHODS`; size : pixels across; spp : paths per pixel
     distance : of the eyes, share of the one at which all of the fur is seen; close up texels are larger than pixels
     ceiling : whether the samples' own composite is drawn, too, as the last method: what shells show without any fit
+    look : strength of highlights and of light from behind on the page, which the truth has not
     truth : file that keeps what was traced, for the next time the same strands are seen
     """
 
@@ -58,6 +59,7 @@ class Options:
     spp: int = SPP
     distance: float = 1.0
     ceiling: bool = False
+    look: tuple[float, float] = (0.0, 0.0)
     truth: Path | None = None
 
     def check(self) -> None:
@@ -70,6 +72,8 @@ class Options:
             raise VerifyError(f"size: got {self.size}, expected 32 to 2048")
         if not NEAREST <= self.distance <= 4:
             raise VerifyError(f"distance: got {self.distance:g}, expected {NEAREST:g} to 4")
+        if not all(0 <= strength <= 100 for strength in self.look):
+            raise VerifyError(f"look: got {self.look[0]:g},{self.look[1]:g}, expected 0 to 100 each")
         if self.spp < 2:
             raise VerifyError(f"spp: got {self.spp}, expected at least 2")
 
@@ -108,6 +112,7 @@ def verify_body(
         options.methods,
         lambda fraction: progress("page", fraction),
         ceiling,
+        look=options.look,
     )
     methods = (*options.methods, SAMPLES) if options.ceiling else options.methods
     if picture is not None:

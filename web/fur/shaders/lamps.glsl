@@ -86,7 +86,8 @@ void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bendi
 	}
 	float nap = seenOf(seen, point, lightTS, lightVS), gain = nap;
 	if (bending.there) gain *= bentLight(lightTS, bending);
-	gain *= meanLight(point, height < 0.0 ? height : lightTS.UP, fade, radius, lightTS);
+	float reaching = meanLight(point, height < 0.0 ? height : lightTS.UP, fade, radius, lightTS);
+	gain *= reaching;
 	vec3 low, high;
 	basis(lightTS, low, high);
 	float luminance = dot(irradiance, vec3(0.2126, 0.7152, 0.0722));
@@ -114,7 +115,7 @@ void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bendi
 	power += share;
 	lamps.lobes += share * highlights(strand, point.frameVS[UPRIGHT], lightVS, viewer);
 	float through = max(-dot(viewer, lightVS), 0.0);
-	lamps.back += (fade * strength) * (through * through * through * length(cross(strand, lightVS)) * point.s);
+	lamps.back += (max(reaching, 0.0) * strength) * (through * through * through * length(cross(strand, lightVS)) * point.s);
 #endif
 }
 

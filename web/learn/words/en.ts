@@ -46,6 +46,27 @@ export const en = {
 			`${skin} triangles of skin · ${patches} patches of ${faces} triangles, ${overlap.toFixed(2)} per triangle of skin · ` +
 			`${fins} triangles of fins`,
 	},
+	nap: {
+		pictures: [
+			'A disc of plush with the factor of light and eye. Drag to turn the eye, or drag the lamp; arrow keys move the lamp.',
+			'The same without the factor. Drag to turn the eye, or drag the lamp; arrow keys move the lamp.',
+		],
+		captions: [
+			(factor: string) => `with the factor: light counts × ${factor} for this eye`,
+			() => 'without: as from straight above',
+		],
+		around: 'Eye, around',
+		height: 'Eye, height',
+		degrees: (degrees: number) => `${degrees}°`.replace('-', '−'),
+		aroundPlot: 'The factor for eyes all around the fur at this height, as a curve; lamp, eye and lean are marked.',
+		aroundName: 'Once around, seen from above; the arrow is the hairs’ lean',
+		overPlot: 'The factor for eyes from horizon to horizon in the plane of this eye; lamp and eye are marked.',
+		overName: 'Over the fur, in the plane of the eye',
+		curve: 'factor, by where the eye is',
+		one: '1: as from straight above',
+		lamp: 'lamp',
+		eye: 'eye',
+	},
 	rivals: {
 		picture: (method: string) => `A furry ring, lit by ${method}. Drag or use the arrow keys to move the light.`,
 		methods: {

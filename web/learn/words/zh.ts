@@ -39,6 +39,24 @@ export const zh: Words = {
 			`皮肤 ${skin} 个三角形 · ${patches} 个贴片共 ${faces} 个三角形，平均每个皮肤三角形 ${overlap.toFixed(2)} 个 · ` +
 			`鳍片 ${fins} 个三角形`,
 	},
+	nap: {
+		pictures: [
+			'一块圆形长毛绒，带光照与视线因子。拖动转动视线，或拖动灯；方向键移动灯。',
+			'同一块长毛绒，不带因子。拖动转动视线，或拖动灯；方向键移动灯。',
+		],
+		captions: [(factor) => `带因子：此视线下亮度 × ${factor}`, () => '不带因子：按从正上方看'],
+		around: '视线方位',
+		height: '视线仰角',
+		degrees: (degrees) => `${degrees}°`.replace('-', '−'),
+		aroundPlot: '视线以当前仰角绕毛一周时的因子曲线，标有灯、视线和毛的倾斜方向。',
+		aroundName: '绕一周，俯视；箭头为毛的倾斜方向',
+		overPlot: '在视线所在的竖直平面内，从地平线到另一侧地平线的因子曲线，标有灯和视线。',
+		overName: '越过毛面，视线所在的竖直平面',
+		curve: '因子，随视线方向',
+		one: '1：同从正上方看',
+		lamp: '灯',
+		eye: '眼',
+	},
 	rivals: {
 		picture: (method) => `用${method}照明的毛绒圆环。拖动或用方向键移动光源。`,
 		methods: {

@@ -1,0 +1,118 @@
+/** Polar plots of the factor of light and eye: once around the fur, seen from above, and over it from horizon to horizon. */
+
+import './style.css';
+import { decimal, draw, line, mark } from '../measured/plot.ts';
+
+/** Drawn from the middle to the rim. */
+const MOST = 2;
+/** Room for marks around the rim, pixels. */
+const AROUND = 20;
+/** Of the curves, degrees. */
+const STEP = 1;
+/** Beyond the rim, share of its radius. */
+const OUTSIDE = 1.07;
+
+const radians = (degrees: number) => (degrees * Math.PI) / 180;
+
+/** What a plot shows. Angles are degrees, counted from the right and anticlockwise. */
+export interface Polar {
+	/** G of an eye there. */
+	factor: (angle: number) => number;
+	eye: number;
+	light: number;
+	/** Where the hairs' tips point; how far, 0..1. */
+	lean: readonly [angle: number, share: number];
+}
+
+interface Disc {
+	svg: SVGElement;
+	at: (angle: number, factor: number) => [number, number];
+}
+
+/** Once around, seen from above. */
+export function drawAround(svg: SVGElement, width: number, height: number, shown: Polar): void {
+	const radius = Math.min(width, height) / 2 - AROUND;
+	const disc = discAt(svg, width / 2, height / 2, radius);
+	for (const ring of [1, MOST])
+		draw(svg, 'circle', {
+			class: ring === 1 ? 'one' : 'grid',
+			cx: width / 2,
+			cy: height / 2,
+			r: (ring / MOST) * radius,
+		});
+	labels(disc, 45);
+	const [x, y] = disc.at(shown.lean[0], 0.42);
+	const [fromX, fromY] = disc.at(shown.lean[0] + 180, 0.42);
+	draw(svg, 'path', { class: 'lean', d: `M${fromX} ${fromY}L${x} ${y}` });
+	draw(svg, 'path', {
+		class: 'tip',
+		d: 'M0 0L-11 -5L-11 5Z',
+		transform: `translate(${x} ${y}) rotate(${-shown.lean[0]})`,
+	});
+	curve(disc, shown, 0, 360);
+	marks(disc, shown);
+}
+
+/** From below the eye over the top and down again, the fur cut along that plane. @param lowest angle of an eye */
+export function drawOver(svg: SVGElement, width: number, height: number, shown: Polar, lowest: number): void {
+	const radius = Math.min(width / 2, height) - AROUND;
+	const [cx, cy] = [width / 2, (height + radius) / 2];
+	const disc = discAt(svg, cx, cy, radius);
+	for (const ring of [1, MOST]) {
+		const r = (ring / MOST) * radius;
+		draw(svg, 'path', { class: ring === 1 ? 'one' : 'grid', d: `M${cx - r} ${cy}A${r} ${r} 0 0 1 ${cx + r} ${cy}` });
+	}
+	labels(disc, 0);
+	draw(svg, 'line', { class: 'axis', x1: cx - radius, x2: cx + radius, y1: cy, y2: cy });
+	const reach = 0.14 * radius;
+	const aside = shown.lean[1] * Math.cos(radians(shown.lean[0]));
+	for (let i = -3; i <= 3; i++) {
+		const x = cx + (i * reach) / 2;
+		draw(svg, 'path', { class: 'lean', d: `M${x} ${cy}q0 ${-reach / 2} ${aside * reach} ${-reach}` });
+	}
+	curve(disc, shown, lowest, 180 - lowest);
+	marks(disc, shown);
+}
+
+function discAt(svg: SVGElement, cx: number, cy: number, radius: number): Disc {
+	const at = (angle: number, factor: number): [number, number] => {
+		const out = (factor / MOST) * radius;
+		return [cx + out * Math.cos(radians(angle)), cy - out * Math.sin(radians(angle))];
+	};
+	return { svg, at };
+}
+
+/** What the rings stand for. */
+function labels({ svg, at }: Disc, angle: number): void {
+	for (const ring of [1, MOST]) {
+		const [x, y] = at(angle, ring);
+		draw(svg, 'text', { x: x + 3, y: y + (angle ? -3 : 14) }, String(ring));
+	}
+}
+
+function curve({ svg, at }: Disc, { factor }: Polar, from: number, to: number): void {
+	const points = Array.from({ length: Math.ceil((to - from) / STEP) + 1 }, (_, i) => {
+		const angle = Math.min(from + i * STEP, to);
+		return at(angle, factor(angle));
+	});
+	line(svg, points, 'ptm');
+}
+
+/** Lamp and eye on the rim, and the curve's point under the eye. */
+function marks({ svg, at }: Disc, { factor, eye, light }: Polar): void {
+	for (const [angle, kind, shape, size] of [
+		[light, 'bulb', 'dot', 5],
+		[eye, 'watcher', 'ring', 9],
+	] as const) {
+		const [x0, y0] = at(angle, 0);
+		const [x1, y1] = at(angle, OUTSIDE * MOST);
+		draw(svg, 'line', { class: `ray ${kind}`, x1: x0, y1: y0, x2: x1, y2: y1 });
+		mark(svg, shape, kind, x1, y1, size);
+	}
+	const now = factor(eye);
+	const [x, y] = at(eye, now);
+	mark(svg, 'dot', 'watcher', x, y, 5);
+	const right = Math.cos(radians(eye)) > 0;
+	const text = { class: 'value', x: x + (right ? -9 : 9), y: y - 9, 'text-anchor': right ? 'end' : 'start' };
+	draw(svg, 'text', text, decimal(now));
+}
