@@ -15,8 +15,8 @@ describe('the law of light and eye', () => {
 			[0.6, 0, 0.8],
 			[0.36, 0.48, 0.8],
 		];
-		// q, a, q·b, p·b, q·z, q·z², p·z², a², p·a·b, a·z, q·b·z, q·a·b with a = .216, b = .6, p = .36, z = .8, q = .36.
-		const terms = [0.36, 0.216, 0.216, 0.216, 0.288, 0.2304, 0.2304, 0.046656, 0.046656, 0.1728, 0.1728, 0.046656];
+		// q, a, q·b, p·b, q·z, q·b², p, a², p·a·b, a·z, q·b·z, q·a·b with a = .216, b = .6, p = .36, z = .8, q = .36.
+		const terms = [0.36, 0.216, 0.216, 0.216, 0.288, 0.1296, 0.36, 0.046656, 0.046656, 0.1728, 0.1728, 0.046656];
 		for (const [f, term] of termsOf(light, eye).entries()) expect(term, `term ${f}`).toBeCloseTo(terms[f] ?? 0, 10);
 	});
 

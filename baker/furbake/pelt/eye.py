@@ -157,7 +157,7 @@ def seen_from(
             once = []
             for i, light in enumerate(lights):
                 turn = around(along[i], up, float(light @ eye))
-                shared = shared_depth(np.minimum(depth, depths[i]), turn, filled)
+                shared = shared_depth(np.maximum(np.minimum(depth, depths[i]), 0), turn, filled)
                 once.append(_sums(see * np.exp(shared - depths[i]) * scattered(crossed[i], view, turn), layers))
             blocks = pool(see.reshape(layers, -1, *see.shape[1:]).sum(1), size // 2)
             more = (blocks * onwards(eye)).mean((-1, -2))
