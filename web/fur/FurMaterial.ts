@@ -8,8 +8,8 @@ import hairIn from './shaders/hair.frag.glsl?raw';
 import hairOut from './shaders/hair.vert.glsl?raw';
 import opacity from './shaders/opacity.glsl?raw';
 import shell from './shaders/shell.glsl?raw';
-import ends from './shaders/shells.glsl?raw';
 import fragmentMain from './shaders/shells.frag.glsl?raw';
+import ends from './shaders/shells.glsl?raw';
 import vertexMain from './shaders/shells.vert.glsl?raw';
 import type { FurTextures } from './texels.ts';
 
