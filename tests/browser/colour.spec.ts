@@ -87,19 +87,29 @@ for (const [name, look] of [
 	});
 }
 
-test('the sky has one share for all directions', async ({ page }) => {
+test("the sky has one share for all directions, by the skin's curvature", async ({ page }) => {
 	await openStage(page);
-	await serve(page, 0.4, true);
-	const shares = await page.evaluate((url) => stage.skyShares(url), served(file));
-	const found = await ratios(page, 0.4, async () => {
-		const drawn = await page.evaluate(([url, look]) => stage.vertices(url, 2, {}, look), [
-			served(file),
-			{ ambient: 3, tip2: tip2(0.4) },
-		] as const);
-		return drawn.light;
-	});
-	const expected = 1 + (shares[2] ?? 0) * (gainOf(2, 0.4) - 1);
-	for (const ratio of found) expect(ratio).toBeCloseTo(expected, 2);
+	for (const [radius, ...between] of [
+		[1, 1],
+		[8, 4, 16], // half-way between the tabulated ones
+	] as const) {
+		await serve(page, 0.4, true);
+		let share = 0;
+		for (const tabulated of between) {
+			const shares = await page.evaluate(([url, r]) => stage.skyShares(url, r), [served(file), tabulated] as const);
+			share += (shares[2] ?? Number.NaN) / between.length;
+		}
+		const found = await ratios(page, 0.4, async () => {
+			const drawn = await page.evaluate(([url, attributes, look]) => stage.vertices(url, 2, attributes, look), [
+				served(file),
+				{ curvature: curvature(radius) } as Record<string, number[]>,
+				{ ambient: 3, tip2: tip2(0.4) },
+			] as const);
+			return drawn.light;
+		});
+		const expected = 1 + share * (gainOf(2, 0.4) - 1);
+		for (const ratio of found) expect(ratio).toBeCloseTo(expected, 2);
+	}
 });
 
 test('fins mix the slabs by height', async ({ page }) => {

@@ -38,10 +38,7 @@ export async function underDome(
 		return lamp;
 	});
 	const flat = new Flat(await loadFur(url));
-	if (radius) {
-		flat.attribute('curvature', [2 / radius, 2 / radius, 0]);
-		flat.fur.material.bodyRadius = radius;
-	}
+	if (radius) flat.attribute('curvature', [2 / radius, 2 / radius, 0]);
 	flat.add(probe, ...lamps);
 	const lit = (on: (light: Light, i: number) => boolean) => {
 		for (const [i, light] of [...lamps, probe].entries()) light.visible = on(light, i);

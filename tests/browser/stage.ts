@@ -166,12 +166,12 @@ const stage = {
 		return pictures;
 	},
 
-	/** Of every slab the share of the sky's light that has met several hairs. */
-	async skyShares(url: string): Promise<number[]> {
-		const { asset, material, dispose } = await loadFur(url);
+	/** Of every slab the share of the sky's light that has met several hairs. @param radius of the body, lengths of fur */
+	async skyShares(url: string, radius: number): Promise<number[]> {
+		const { asset, dispose } = await loadFur(url);
 		const { multiple, weights = [] } = asset.pelts[0] ?? {};
 		if (!multiple || !asset.curves) throw new Error('not told');
-		const shares = skyShares(multiple, { curves: asset.curves, way: [0, 1] }, weights, material.bodyRadius);
+		const shares = skyShares(multiple, { curves: asset.curves, way: [0, 1] }, weights, radius);
 		dispose();
 		return shares;
 	},

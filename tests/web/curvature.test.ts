@@ -69,11 +69,4 @@ describe('BodyCurvature', () => {
 		};
 		for (const error of errors(torus, wanted, 1 / tube)) expect(error).toBeLessThan(0.08);
 	});
-
-	it('knows a typical radius in lengths of the fur, within the tables', () => {
-		const ball = BodyCurvature.of(withTangents(new SphereGeometry(2, 64, 32), (p) => new Vector3(-p.z, 0.3, p.x)));
-		expect(ball.typicalRadius(0.25)).toBeCloseTo(8, 0);
-		expect(ball.typicalRadius(10)).toBe(1);
-		expect(ball.typicalRadius(0.001)).toBe(16);
-	});
 });

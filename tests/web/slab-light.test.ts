@@ -1,6 +1,8 @@
 import { DataUtils } from 'three';
 import { describe, expect, it } from 'vitest';
+import { curveSkies } from '../../web/fur/curves.ts';
 import { type Curves, KNOTS } from '../../web/fur/format.ts';
+import { skyShares } from '../../web/fur/multiple.ts';
 import { curveTable, SlabLight, standInState, standInWeights } from '../../web/fur/SlabLight.ts';
 import { coloured, multiple } from './multiple.ts';
 
@@ -25,7 +27,7 @@ describe('SlabLight', () => {
 	const means = { curves, way: [0, 1] as const };
 
 	it('has a row per slab and state, linear in its weights', () => {
-		const light = new SlabLight({ kind: 'ptm' }, means, [{ weights: [[1, 0]] }], 4, false);
+		const light = new SlabLight({ kind: 'ptm' }, means, [{ weights: [[1, 0]] }], false);
 		const read = () => Array.from(light.texture.image.data as Float32Array);
 		const [first] = [read()];
 		light.states = [{ weights: [[0, 1]] }];
@@ -62,11 +64,32 @@ describe('what is told of several hairs', () => {
 	it('is in the last three texels of its slab', () => {
 		const { curves: own } = coloured;
 		if (!own) throw new Error('no curves');
-		const light = new SlabLight({ kind: 'ptm' }, { curves: own, way: [0, 1] }, [state], 4, false);
+		const light = new SlabLight({ kind: 'ptm' }, { curves: own, way: [0, 1] }, [state], false);
 		const data = light.texture.image.data as Float32Array;
 		const second = data.slice(data.length - 12);
 		const close = (values: number[]) => values.map((value) => expect.closeTo(value, 5));
-		expect([...second]).toEqual(close([0.25, 0, 0.1, 0, 0.5, 0.6 / 0.8, 0.9, 0.35, 0, 0, 0, 0]));
+		expect([...second]).toEqual(close([0.25, 0, 0.1, 0, 0.5, 0.6 / 0.8, 0.9, 0, 0, 0, 0, 0]));
+	});
+
+	it('is of an even sky beside its harmonics, at every radius', () => {
+		const { curves: own } = coloured;
+		if (!own) throw new Error('no curves');
+		const means = { curves: own, way: [0, 1] as const };
+		const data = new SlabLight({ kind: 'ptm' }, means, [state], false).texture.image.data as Float32Array;
+		for (const [b, radius] of [1, 4, 16].entries()) {
+			const [sky] = curveSkies({ kind: 'ptm' }, means, radius);
+			const shares = skyShares(multiple, means, state.weights, radius);
+			for (const [k, [weight = 0]] of state.weights.entries()) {
+				const texel = (i: number) => [...data.slice(4 * (64 * k + 14 * b + i), 4 * (64 * k + 14 * b + i + 1))];
+				const close = (values: number[]) => values.map((value) => expect.closeTo(weight * value, 4));
+				sky?.environment.forEach((row, c) => {
+					expect(texel(1 + c)).toEqual(close(row.slice(0, 4)));
+					expect(texel(7 + c)).toEqual(close(row.slice(4, 8)));
+					expect(texel(13 + Math.floor(c / 3))[c % 3]).toBeCloseTo(weight * (row[8] ?? Number.NaN), 4);
+				});
+				expect(texel(13)[3]).toBeCloseTo(shares[k] ?? Number.NaN, 5);
+			}
+		}
 	});
 
 	it('changes with cut fur, but for what its own hairs are', () => {

@@ -2,8 +2,9 @@ import { DoubleSide, type IUniform, type ShaderMaterialParameters } from 'three'
 import type { FurMaterial } from './FurMaterial.ts';
 import type { Fin } from './format.ts';
 import { PeltMaterial } from './PeltMaterial.ts';
-import fragmentShader from './shaders/fins.frag.glsl?raw';
-import vertexShader from './shaders/fins.vert.glsl?raw';
+import fragmentMain from './shaders/fins.frag.glsl?raw';
+import ends from './shaders/fins.glsl?raw';
+import vertexMain from './shaders/fins.vert.glsl?raw';
 import type { FurTextures } from './texels.ts';
 
 /** Properties that a FinMaterial has beside those of every material. */
@@ -61,8 +62,8 @@ export class FinMaterial extends PeltMaterial {
 			textures,
 			{
 				name: 'FinMaterial',
-				vertexShader,
-				fragmentShader,
+				vertexShader: [vertexMain, ends].join('\n'),
+				fragmentShader: [fragmentMain, ends].join('\n'),
 				uniforms: {
 					...Object.fromEntries(shared),
 					finLength: { value: 1.05 },

@@ -9,6 +9,7 @@ import hairOut from './shaders/hair.vert.glsl?raw';
 import opacity from './shaders/opacity.glsl?raw';
 import shell from './shaders/shell.glsl?raw';
 import fragmentMain from './shaders/shells.frag.glsl?raw';
+import ends from './shaders/shells.glsl?raw';
 import vertexMain from './shaders/shells.vert.glsl?raw';
 import type { FurTextures } from './texels.ts';
 
@@ -101,8 +102,8 @@ export class FurMaterial extends PeltMaterial {
 			textures,
 			{
 				name: 'FurMaterial',
-				vertexShader: [shell, hairOut, vertexMain].join('\n'),
-				fragmentShader: [opacity, hairIn, fragmentMain].join('\n'),
+				vertexShader: [shell, hairOut, vertexMain, ends].join('\n'),
+				fragmentShader: [opacity, hairIn, fragmentMain, ends].join('\n'),
 				uniforms: {
 					tiles: { value: asset.tiles ?? 1 },
 					furLength: { value: asset.length },

@@ -1,5 +1,4 @@
 import type { IUniform, Texture } from 'three';
-import { BODY_RADIUS } from './moments.ts';
 import { curveTable, SlabLight, type SlabState, standInState } from './SlabLight.ts';
 import { TrimLight } from './TrimLight.ts';
 import { momentUniforms, type SlabMeanCurves, type Texels } from './texels.ts';
@@ -33,7 +32,7 @@ export class PeltLight {
 		this.#fin = fin;
 		this.#leader = leader;
 		this.#states = means ? [means] : [];
-		this.#slabLight = means && new SlabLight(basis, means, this.#states, BODY_RADIUS, fin);
+		this.#slabLight = means && new SlabLight(basis, means, this.#states, fin);
 		this.uniforms = {
 			...(means
 				? {
@@ -43,11 +42,6 @@ export class PeltLight {
 				: momentUniforms(texels, fin)),
 			trimLight: { value: null },
 		};
-	}
-
-	/** β of the body as a whole, for the sky. */
-	set radius(radius: number) {
-		if (this.#slabLight) this.#slabLight.radius = radius;
 	}
 
 	/** Where in whole fur slabs have the light that these have when a share is left of them. */

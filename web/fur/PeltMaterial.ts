@@ -190,8 +190,8 @@ export class PeltMaterial extends ShaderMaterial {
 	}
 
 	/**
-	 * β, radius of the body as a whole in lengths of its fur: how far below the horizon of its tips the sky is seen. Lamps of
-	 * format 2.x go by the surface's own curvature, those of 1.x by this.
+	 * β, radius of the body as a whole in lengths of its fur: how far below the horizon of its tips light is seen in format
+	 * 1.x; in 2.x the surface's own curvature tells.
 	 */
 	get bodyRadius(): number {
 		return this.uniforms.bodyRadius?.value;
@@ -200,7 +200,6 @@ export class PeltMaterial extends ShaderMaterial {
 	set bodyRadius(radius: number) {
 		const { bodyRadius } = this.uniforms;
 		if (bodyRadius) bodyRadius.value = radius;
-		for (const material of this.#all) material.#light.radius = radius;
 	}
 
 	/**

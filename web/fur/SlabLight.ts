@@ -1,13 +1,16 @@
 import { ClampToEdgeWrapping, DataTexture, DataUtils, FloatType, HalfFloatType, LinearFilter, RGBAFormat } from 'three';
-import { type CurveSky, curveSkies, type MeanCurves } from './curves.ts';
+import { type CurveSky, curveSkies, type MeanCurves, type RingParts } from './curves.ts';
 import { type Basis, type Curves, KNOTS, type Multiple, RADII } from './format.ts';
 import { orderFactor, skyShares } from './multiple.ts';
 
 /** Texels of a row: see shaders/curves.glsl. */
-const ROW = 36;
+const ROW = 64;
 
-/** Texels of light that has met several hairs: numbers of its share; ρ and the like; the hairs' mean colour. */
-const [SHARES, ORDERS, HAIRS] = [33, 34, 35] as const;
+/** The sky's light: where harmonics begin, from one β to the next, polynomials. */
+const [HARMONICS, RADIUS, POLYNOMIALS] = [1, 14, 43] as const;
+
+/** Light that has met several hairs: numbers of its share; ρ and the like; the hairs' mean colour. */
+const [SHARES, ORDERS, HAIRS] = [61, 62, 63] as const;
 
 /** A row per slab, one weight per curve. */
 export type Weights = readonly (readonly number[])[];
@@ -39,32 +42,18 @@ export function curveTable({ even, along }: Curves): DataTexture {
 export class SlabLight {
 	/** A row per slab, of one state after the other. */
 	texture: DataTexture;
-	readonly #basis: Basis;
 	readonly #means: MeanCurves;
-	readonly #fin: boolean;
-	#skies: CurveSky[] = [];
-	#radius = Number.NaN;
+	/** Of each of `RADII` an entry per curve. */
+	readonly #skies: readonly CurveSky[][];
 	#states: readonly SlabState[];
 
 	/** @param fin whether the frame is a fin's */
-	constructor(basis: Basis, means: MeanCurves, states: readonly SlabState[], radius: number, fin: boolean) {
-		this.#basis = basis;
+	constructor(basis: Basis, means: MeanCurves, states: readonly SlabState[], fin: boolean) {
 		this.#means = means;
-		this.#fin = fin;
+		const known = new Map<number, RingParts>();
+		this.#skies = RADII.map((radius) => curveSkies(basis, means, radius, fin, known));
 		this.#states = states;
 		this.texture = tableOf(states);
-		this.radius = radius;
-	}
-
-	/** β of the body as a whole, for the sky. */
-	get radius(): number {
-		return this.#radius;
-	}
-
-	set radius(radius: number) {
-		if (radius === this.#radius) return;
-		this.#radius = radius;
-		this.#skies = curveSkies(this.#basis, this.#means, radius, this.#fin);
 		this.#fill();
 	}
 
@@ -84,14 +73,15 @@ export class SlabLight {
 		data.fill(0);
 		let slab = 0;
 		for (const { weights, multiple } of this.#states) {
-			const skies = multiple && skyShares(multiple, this.#means, weights, this.#radius);
+			const shares = multiple && RADII.map((radius) => skyShares(multiple, this.#means, weights, radius));
 			for (const [k, own] of weights.entries()) {
 				const row = data.subarray(4 * ROW * slab, 4 * ROW * ++slab);
 				row.set(own);
-				for (const [q, weight] of own.entries()) this.#add(row, weight, this.#skies[q]);
+				for (const [q, weight] of own.entries()) this.#add(row, weight, q);
 				if (!multiple) continue;
+				for (const [b, share] of shares?.entries() ?? []) row[4 * (HARMONICS + 12 + RADIUS * b) + 3] = share[k] ?? 0;
 				row.set(multiple.shares[k] ?? [], 4 * SHARES);
-				const orders = [multiple.ratio[k], orderFactor(multiple, k), multiple.tint[k], skies?.[k]];
+				const orders = [multiple.ratio[k], orderFactor(multiple, k), multiple.tint[k]];
 				row.set(orders as number[], 4 * ORDERS);
 				row.set(multiple.colour?.[k] ?? [], 4 * HAIRS);
 			}
@@ -99,20 +89,27 @@ export class SlabLight {
 		this.texture.needsUpdate = true;
 	}
 
-	#add(row: Float32Array, weight: number, sky: CurveSky | undefined): void {
+	/** @param q which curve */
+	#add(row: Float32Array, weight: number, q: number): void {
 		const add = (texel: number, channel: number, value = 0) => {
 			const at = 4 * texel + channel;
 			row[at] = (row[at] as number) + weight * value;
 		};
-		for (const [c, own] of sky?.environment.entries() ?? []) {
-			for (let j = 0; j < 4; j++) {
-				add(1 + c, j, own[j]);
-				add(7 + c, j, own[4 + j]);
+		for (const [b, skies] of this.#skies.entries()) {
+			const first = HARMONICS + RADIUS * b;
+			for (const [c, own] of skies[q]?.environment.entries() ?? []) {
+				for (let j = 0; j < 4; j++) {
+					add(first + c, j, own[j]);
+					add(first + 6 + c, j, own[4 + j]);
+				}
+				add(first + 12 + Math.floor(c / 3), c % 3, own[8]);
 			}
-			add(13 + Math.floor(c / 3), c % 3, own[8]);
 		}
-		for (const [c, own] of sky?.polynomials.entries() ?? [])
-			for (let j = 0; j < 9; j++) add(15 + 9 * Math.floor(c / 3) + 3 * Math.floor(j / 3) + (c % 3), j % 3, own[j]);
+		// What they change differs little from body to body.
+		for (const [c, own] of this.#skies[1]?.[q]?.polynomials.entries() ?? []) {
+			const first = POLYNOMIALS + 9 * Math.floor(c / 3);
+			for (let j = 0; j < 9; j++) add(first + 3 * Math.floor(j / 3) + (c % 3), j % 3, own[j]);
+		}
 	}
 }
 

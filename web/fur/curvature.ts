@@ -1,7 +1,6 @@
 /** How a body is curved below its fur: where its fur has a horizon, and how far below it tips see. */
 
 import { BufferAttribute, BufferGeometry, type InterleavedBufferAttribute, Matrix3, Vector3 } from 'three';
-import { heldRadius } from './curves.ts';
 import { Follicles } from './follicles.ts';
 
 /** How often curvature is averaged with its neighbours': normals are stored in bytes. */
@@ -19,8 +18,6 @@ export class BodyCurvature {
 	readonly #follicles: Follicles;
 	/** Of each follicle: xx, yy, zz, xy, xz, yz of the tensor, per unit of the mesh. */
 	#tensors: Float64Array;
-	/** A third of the faces around each follicle. */
-	readonly #areas: Float64Array;
 
 	/** Those of a surface. Furs of one body have them in common. */
 	static of(surface: BufferGeometry): BodyCurvature {
@@ -32,8 +29,6 @@ export class BodyCurvature {
 
 	private constructor(surface: BufferGeometry) {
 		this.#follicles = Follicles.of(surface);
-		const { count } = this.#follicles;
-		this.#areas = new Float64Array(count);
 		this.#tensors = this.#gather(surface);
 		for (let round = 0; round < ROUNDS; round++) this.#smooth();
 	}
@@ -44,6 +39,7 @@ export class BodyCurvature {
 		const at = this.#marks(surface);
 		const corners = index?.count ?? at.count;
 		const sums = new Float64Array(6 * this.#follicles.count);
+		const areas = new Float64Array(this.#follicles.count);
 		const points = [0, 1, 2].map(() => ({ i: 0, position: new Vector3(), normal: new Vector3() }));
 		const [u, v, n] = [new Vector3(), new Vector3(), new Vector3()];
 		const [side, turn, solved, squares] = [new Vector3(), new Vector3(), new Vector3(), new Matrix3()];
@@ -86,10 +82,10 @@ export class BodyCurvature {
 				turnInto(turned.copy(u), n, normal);
 				turnInto(beside.copy(v), n, normal);
 				addTensor(sums, i, turned, beside, area * l, area * m, area * k);
-				this.#areas[i] = (this.#areas[i] as number) + area;
+				areas[i] = (areas[i] as number) + area;
 			}
 		}
-		return sums.map((sum, j) => sum / (this.#areas[Math.floor(j / 6)] || 1));
+		return sums.map((sum, j) => sum / (areas[Math.floor(j / 6)] || 1));
 	}
 
 	/** Takes the mean of each follicle's own tensor and that of its neighbours', turned into its tangent plane. */
@@ -162,29 +158,6 @@ export class BodyCurvature {
 			part(4) * (a.x * b.z + a.z * b.x) +
 			part(5) * (a.y * b.z + a.z * b.y)
 		);
-	}
-
-	/**
-	 * β of the body as a whole, in lengths of its fur, within what curves are tabulated for: half of its furry surface has a
-	 * larger one, by the mean of all azimuths.
-	 *
-	 * @param length of the longest fur, units of the mesh
-	 */
-	typicalRadius(length: number): number {
-		const { count, length: shares } = this.#follicles;
-		const radii = Array.from({ length: count }, (_, i) => {
-			const trace = [0, 1, 2].reduce((sum, j) => sum + (this.#tensors[6 * i + j] as number), 0);
-			const share = shares[i] as number;
-			const radius = heldRadius(1 / Math.max((trace / 2) * length * share, 1e-9));
-			return { radius, weight: (this.#areas[i] as number) * share };
-		}).sort((a, b) => a.radius - b.radius);
-		const half = radii.reduce((sum, { weight }) => sum + weight, 0) / 2;
-		let below = 0;
-		const middle = radii.find(({ weight }) => {
-			below += weight;
-			return below >= half;
-		});
-		return middle?.radius ?? heldRadius(Number.POSITIVE_INFINITY);
 	}
 }
 

@@ -113,41 +113,56 @@ export interface CurveSky {
 	polynomials: number[][];
 }
 
+/** Of a ring's directions ∫φ·Y_j, a row of 9 per coefficient, and polynomials of φ: without the curve, and times l·m. */
+export type RingParts = { harmonics: Float64Array; fit: PolynomialFit }[];
+
+function ringParts(basis: Basis, way: MeanCurves['way'], { height, share }: Ring, fin: boolean): RingParts {
+	const count = coefficientsOf(basis);
+	const parts = [0, 1].map(() => ({ harmonics: new Float64Array(9 * count), fit: new PolynomialFit(count) }));
+	for (let spoke = 0; spoke < SPOKES; spoke++) {
+		const [level, azimuth] = [Math.sqrt(1 - height * height), (2 * Math.PI * spoke) / SPOKES];
+		const light: Direction = [level * Math.cos(azimuth), level * Math.sin(azimuth), height];
+		const [u, v, z] = light;
+		const [hu, hv, hz] = heldLight(light);
+		const phi = evaluateBasis(basis, fin ? [hu, hz, hv] : [hu, hv, hz]);
+		const y = fin ? harmonics(u, z, v) : harmonics(u, v, z);
+		const lean = fin ? hu * way[1] : hu * way[0] + hv * way[1];
+		for (const [p, part] of parts.entries()) {
+			const strength = share * (p === 0 ? 1 : lean);
+			for (let c = 0; c < count; c++)
+				for (let j = 0; j < 9; j++)
+					part.harmonics[9 * c + j] =
+						(part.harmonics[9 * c + j] as number) + strength * (phi[c] as number) * (y[j] as number);
+			if (z >= 0) part.fit.add(light, phi, strength / (2 * Math.PI));
+		}
+	}
+	return parts;
+}
+
+const coefficientsOf = (basis: Basis) => (basis.kind === 'ptm' ? 6 : basis.matrix.length);
+
 /**
  * ∫b_q(ω)·φ(ω)·Y_j(ω)dω over all directions that tips see, and polynomials for light on bent hairs; one entry per curve. A
  * slab's own are its weighted sum.
  *
- * @param radius β of the body as a whole
+ * @param radius β of the body
  * @param fin as of `curvedMoments`; harmonics then are of (along the edge, N, across it)
+ * @param known rings by their heights: those above the horizon are the same for all radii
  */
-export function curveSkies(basis: Basis, { curves, way }: MeanCurves, radius: number, fin = false): CurveSky[] {
-	const count = basis.kind === 'ptm' ? 6 : basis.matrix.length;
+export function curveSkies(
+	basis: Basis,
+	{ curves, way }: MeanCurves,
+	radius: number,
+	fin = false,
+	known = new Map<number, RingParts>(),
+): CurveSky[] {
+	const count = coefficientsOf(basis);
 	const sums = curves.even.map(() => new Float64Array(9 * count));
 	const fits = curves.even.map(() => new PolynomialFit(count));
-	// Of a ring, without the curve and times l·m.
-	const parts = [0, 1].map(() => ({ harmonics: new Float64Array(9 * count), fit: new PolynomialFit(count) }));
-	for (const { height, share } of rings(radius)) {
-		for (const part of parts) {
-			part.harmonics.fill(0);
-			part.fit.clear();
-		}
-		for (let spoke = 0; spoke < SPOKES; spoke++) {
-			const [level, azimuth] = [Math.sqrt(1 - height * height), (2 * Math.PI * spoke) / SPOKES];
-			const light: Direction = [level * Math.cos(azimuth), level * Math.sin(azimuth), height];
-			const [u, v, z] = light;
-			const [hu, hv, hz] = heldLight(light);
-			const phi = evaluateBasis(basis, fin ? [hu, hz, hv] : [hu, hv, hz]);
-			const y = fin ? harmonics(u, z, v) : harmonics(u, v, z);
-			const lean = fin ? hu * way[1] : hu * way[0] + hv * way[1];
-			for (const [p, part] of parts.entries()) {
-				const strength = share * (p === 0 ? 1 : lean);
-				for (let c = 0; c < count; c++)
-					for (let j = 0; j < 9; j++)
-						part.harmonics[9 * c + j] =
-							(part.harmonics[9 * c + j] as number) + strength * (phi[c] as number) * (y[j] as number);
-				if (z >= 0) part.fit.add(light, phi, strength / (2 * Math.PI));
-			}
-		}
+	for (const ring of rings(radius)) {
+		const { height } = ring;
+		const parts = known.get(height) ?? ringParts(basis, way, ring, fin);
+		if (height >= 0) known.set(height, parts);
 		const even = curveValues(curves, height, 0, radius);
 		const lean = curveValues(curves, height, 1, radius);
 		for (const [q, sum] of sums.entries()) {

@@ -1,10 +1,18 @@
 /** The law of light and eye, as eye.glsl has it: its numbers. */
 
-import { type IUniform, Vector3 } from 'three';
+import { type IUniform, Vector4 } from 'three';
 import { vectors } from './bent.ts';
 import type { FurAsset } from './format.ts';
 
+/**
+ * What the surge takes up of the half sphere above, ∫1/(1 + |l − v|²/w²)dl over 2π: the sphere within 90° of the eye.
+ *
+ * @param width w, radians
+ */
+export const surgeShare = (width: number): number => (width ** 2 / 2) * Math.log(1 + 2 / width ** 2);
+
 /** Three vectors for each of 1, s and s², and the surge; nothing where no numbers were baked. */
 export function eyeUniforms({ eye, surge = [0, 0, 1] }: Pick<FurAsset, 'eye' | 'surge'>): Record<string, IUniform> {
-	return eye ? { eye: { value: vectors(eye) }, surge: { value: new Vector3(...surge) } } : {};
+	if (!eye) return {};
+	return { eye: { value: vectors(eye) }, surge: { value: new Vector4(...surge, surgeShare(surge[2])) } };
 }

@@ -112,11 +112,6 @@ export class PolynomialFit {
 		this.#sums = Array.from({ length: count }, () => new Float64Array(ORTHOGONAL.length));
 	}
 
-	/** Forgets what was added. */
-	clear(): void {
-		for (const sums of this.#sums) sums.fill(0);
-	}
-
 	/** Adds what another one has, times a factor. */
 	addAll(other: PolynomialFit, factor: number): void {
 		for (const [c, sums] of this.#sums.entries())

@@ -39,7 +39,6 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 	readonly #texel: number;
 	readonly #layers: number;
 	/** Where lamps and sky go below the surface's own horizon. */
-	readonly #curvature: BodyCurvature | undefined;
 	/** Of the surface below, the mesh's own units. */
 	readonly #radius: number;
 
@@ -73,10 +72,7 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 		const { size, layers, length, height } = asset;
 		this.#layers = layers;
 		this.#texel = length / (height * size);
-		if (material.means) {
-			this.#curvature = BodyCurvature.of(surface);
-			this.#curvature.mark(geometry);
-		}
+		if (material.means) BodyCurvature.of(surface).mark(geometry);
 		this.furLength = length;
 	}
 
@@ -88,7 +84,6 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 	set furLength(length: number) {
 		this.material.furLength = length / this.scale.x;
 		(this.geometry.boundingSphere as Sphere).radius = this.#radius + this.material.furLength;
-		if (this.#curvature) this.material.bodyRadius = this.#curvature.typicalRadius(this.material.furLength);
 	}
 
 	/** How many shells are drawn, 1 to 256: any number, whatever the number of stored slabs, and between whole ones, too. */

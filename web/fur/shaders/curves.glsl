@@ -10,13 +10,14 @@ uniform highp sampler2D slabLight; // a row per slab, of one state after the oth
 #define HARMONICS0_HIGH 4
 #define HARMONICS1_LOW 7 // harmonics 4..7
 #define HARMONICS1_HIGH 10
-#define HARMONIC2_LOW 13 // harmonic 8, three coefficients
+#define HARMONIC2_LOW 13 // harmonic 8, three coefficients; W = share of an even sky's light that has met several hairs
 #define HARMONIC2_HIGH 14
-#define POLYNOMIALS 15 // curve times φ above the horizon as polynomials: three texels each for (u², v², uv), (u, v, 1), (w, uw, vw), low, then high
+#define RADIUS 14 // texels from the sky's of β = 1 to those of 4, and on to those of 16
+#define POLYNOMIALS 43 // curve times φ above the horizon as polynomials: three texels each for (u², v², uv), (u, v, 1), (w, uw, vw), low, then high
 
-#define SHARES 33 // XYZ = what 1, √lz and log₄ β count in the share of light that has met several hairs
-#define ORDERS 34 // X = ρ, by which its orders shrink between white hairs; Y = (1 − ρϖ)/ϖ, ϖ of the baked ones; Z = mean tint; W = share in an even sky
-#define HAIRS 35 // RGB = mean colour, of a pelt with a colour plane
+#define SHARES 61 // XYZ = what 1, √lz and log₄ β count in the share of light that has met several hairs
+#define ORDERS 62 // X = ρ, by which its orders shrink between white hairs; Y = (1 − ρϖ)/ϖ, ϖ of the baked ones; Z = mean tint
+#define HAIRS 63 // RGB = mean colour, of a pelt with a colour plane
 
 vec4 ofRow(int row, int texel) {
 #ifdef WET
@@ -42,13 +43,27 @@ mat3 threeOfSlab(FurPoint point, int texel) {
 	return mat3(ofSlab(point, texel).xyz, ofSlab(point, texel + 1).xyz, ofSlab(point, texel + 2).xyz);
 }
 
-#define ENVIRONMENT(texel) mat3x4(ofSlab(point, texel), ofSlab(point, texel + 1), ofSlab(point, texel + 2))
+// log₄ β of the body for light from all around, by its principal curvatures: the mean of what single lamps go by.
+float skyRadius(FurPoint point) {
+	vec3 bend = point.curvature;
+	float mean = 0.5 * (bend.x + bend.y), apart = length(vec2(0.5 * (bend.x - bend.y), bend.z));
+	vec2 roots = sqrt(clamp(vec2(mean + apart, mean - apart), 1.0 / 16.0, 1.0));
+	return -log2(0.5 * (roots.x + roots.y));
+}
+
+vec4 ofSky(FurPoint point, int texel, float radius) {
+	int smaller = int(min(radius, 1.0));
+	texel += RADIUS * smaller;
+	return mix(ofSlab(point, texel), ofSlab(point, texel + RADIUS), radius - float(smaller));
+}
+
+#define ENVIRONMENT(texel) mat3x4(ofSky(point, texel, radius), ofSky(point, texel + 1, radius), ofSky(point, texel + 2, radius))
 #define ENVIRONMENT_LOW0 ENVIRONMENT(HARMONICS0_LOW)
 #define ENVIRONMENT_HIGH0 ENVIRONMENT(HARMONICS0_HIGH)
 #define ENVIRONMENT_LOW1 ENVIRONMENT(HARMONICS1_LOW)
 #define ENVIRONMENT_HIGH1 ENVIRONMENT(HARMONICS1_HIGH)
-#define ENVIRONMENT_LOW2 ofSlab(point, HARMONIC2_LOW).xyz
-#define ENVIRONMENT_HIGH2 ofSlab(point, HARMONIC2_HIGH).xyz
+#define ENVIRONMENT_LOW2 ofSky(point, HARMONIC2_LOW, radius).xyz
+#define ENVIRONMENT_HIGH2 ofSky(point, HARMONIC2_HIGH, radius).xyz
 #define POLYNOMIAL_LOW(part) threeOfSlab(point, POLYNOMIALS + 3 * part)
 #define POLYNOMIAL_HIGH(part) threeOfSlab(point, POLYNOMIALS + 9 + 3 * part)
 
@@ -98,8 +113,8 @@ vec3 lampTinge(FurPoint point, vec3 gain, float radius, float height, float nap)
 	return mix(vec3(1.0), gain, clamp(dot(ofSlab(point, SHARES).xyz, terms) / nap, 0.0, 1.0));
 }
 
-// The same of the sky's light.
-vec3 skyTinge(FurPoint point, vec3 gain) {
-	return mix(vec3(1.0), gain, ofSlab(point, ORDERS).w);
+// The same of the sky's light. radius: as of skyRadius
+vec3 skyTinge(FurPoint point, vec3 gain, float radius, float nap) {
+	return mix(vec3(1.0), gain, min(ofSky(point, HARMONIC2_LOW, radius).w / nap, 1.0));
 }
 #endif

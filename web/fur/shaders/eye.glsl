@@ -3,7 +3,7 @@
 
 #ifdef EYE
 uniform vec4 eye[9]; // weights of twelve terms, three vectors for each of 1, s, s²
-uniform vec3 surge; // Light of a lamp beside the eye, which sees no shadows: how much more it is, X from above, X + Y from aside; Z = width of that, radians
+uniform vec4 surge; // Light of a lamp beside the eye, which sees no shadows: how much more it is, X from above, X + Y from aside; Z = width of that, radians; W = share of a half sphere that it takes up
 #endif
 
 // What light from a direction counts for the eye, before it is held at LEAST_SEEN.
@@ -37,12 +37,19 @@ float heldNap(Quadratic seen, vec3 lightTS) {
 #endif
 }
 
+#ifdef EYE
+// How much more light beside the eye counts. up: height of the eye over the horizon
+float surgeFrom(float up) {
+	return surge.x + surge.y * (1.0 - up * up);
+}
+#endif
+
 // lightTS: held on the horizon. lightVS: where it is.
 float seenOf(Quadratic seen, FurPoint point, vec3 lightTS, vec3 lightVS) {
 #ifdef EYE
 	vec3 viewer = viewerVS(point.pointVS), apart = (lightVS - viewer) / surge.z;
 	float up = max(dot(viewer, point.frameVS[UPRIGHT]), 0.0);
-	return heldNap(seen, lightTS) * (1.0 + (surge.x + surge.y * (1.0 - up * up)) / (1.0 + dot(apart, apart)));
+	return heldNap(seen, lightTS) * (1.0 + surgeFrom(up) / (1.0 + dot(apart, apart)));
 #else
 	return 1.0;
 #endif

@@ -8,16 +8,6 @@ in vec4 vSkin;
 in float vFade;
 out vec4 fragColour;
 
-#ifdef MULTIPLE
-vec3 slabColour(FurPoint point, float tint) {
-	vec3 colour = furRamp(vSkin.a, point.s) * tint;
-#ifdef COLOUR_PLANE
-	colour = mix(ofSlab(point, HAIRS).rgb, colour, vSkin.a);
-#endif
-	return vSkin.rgb * colour;
-}
-#endif
-
 void main() {
 	vec3 at = vec3(vAt, 0.0);
 	FurTexel texel = furTexel(at);

@@ -19,16 +19,6 @@ float finFade(vec2 facing, float broadside) {
 	return (1.0 - smoothstep(FADE_FROM, FADE_TO, off)) * smoothstep(0.15, 0.5, abs(broadside));
 }
 
-#ifdef MULTIPLE
-vec3 slabColour(FurPoint point, float tint) {
-	vec3 colour = furRamp(vSkin.a, point.s) * tint;
-#ifdef COLOUR_PLANE
-	colour = mix(ofSlab(point, HAIRS).rgb, colour, vSkin.a);
-#endif
-	return vSkin.rgb * colour;
-}
-#endif
-
 void main() {
 	feelWeather();
 	vec3 n = normalize(normal);
@@ -54,10 +44,6 @@ void main() {
 #ifdef WET
 	vSkin.rgb *= furTraits.y;
 #endif
-	if (vFade > 0.0) {
-		float slab = clamp(s * float(LAYERS) - 0.5, 0.0, float(LAYERS) - 1.0);
-		passLight(FurPoint(turn * frame, comb * frame, pointVS, furReach(_fur.y), s, slab, furCurvature(_fur.y)), _fur.z);
-	} else {
-		passDarkness();
-	}
+	float slab = clamp(s * float(LAYERS) - 0.5, 0.0, float(LAYERS) - 1.0);
+	passLight(vFade > 0.0, FurPoint(turn * frame, comb * frame, pointVS, furReach(_fur.y), s, slab, furCurvature(_fur.y)), _fur.z);
 }

@@ -32,6 +32,10 @@ float radiusTowards(FurPoint point, vec3 lightTS) {
 	return bodyRadius;
 }
 
+float skyRadius(FurPoint point) {
+	return bodyRadius;
+}
+
 // How far below its horizon a point sees: −sin of that angle's lowest.
 float horizonDip(FurPoint point, float radius) {
 	float cosine = radius / (radius + point.s);

@@ -75,12 +75,28 @@ float furReach(float lengthShare) {
 	return furLength * lengthShare * length(bodyModel()[0].xyz);
 }
 
-// openness: to the sky, 0..1.
-void passLight(FurPoint point, float openness) {
-	Bending bending = bendingOf(point.comb, point.s);
-	Quadratic seen = seenByEye(point);
+// seen: whether anything is to be seen here; else it is dark. openness: to the sky, 0..1.
+void passLight(bool seen, FurPoint point, float openness) {
 #ifdef SKY
-	Moments sky = environmentMoments(point, bending, seen);
+	Moments sky = Moments(mat3(0.0), mat3(0.0));
+#endif
+#ifndef LAMPS_PER_FRAGMENT
+	Lamps lamps = DARKNESS;
+#ifdef TINGED
+	lamps.tinge = vec4(1.0);
+#endif
+#endif
+	if (seen) {
+		Bending bending = bendingOf(point.comb, point.s);
+		Quadratic nap = seenByEye(point);
+#ifdef SKY
+		sky = environmentMoments(point, bending, nap);
+#endif
+#ifndef LAMPS_PER_FRAGMENT
+		lamps = lampsAt(point, bending, nap);
+#endif
+	}
+#ifdef SKY
 	vSkyLow = sky.low * openness;
 #ifdef TWO_PLANES
 	vSkyHigh = sky.high * openness;
@@ -100,7 +116,6 @@ void passLight(FurPoint point, float openness) {
 	vCurvatureXY = point.curvature.z;
 #endif
 #else
-	Lamps lamps = lampsAt(point, bending, seen);
 	vLampLow = lamps.moments.low;
 #ifdef TWO_PLANES
 	vLampHigh = lamps.moments.high;
@@ -124,47 +139,6 @@ void passLight(FurPoint point, float openness) {
 	vTintedLobe = lamps.lobes.y;
 #ifdef WET
 	vPower = lamps.power;
-#endif
-#endif
-#endif
-}
-
-// For what nobody sees.
-void passDarkness() {
-#ifdef SKY
-	vSkyLow = mat3(0.0);
-#ifdef TWO_PLANES
-	vSkyHigh = mat3(0.0);
-#endif
-#endif
-#ifdef LAMPS_PER_FRAGMENT
-	vFrame = mat3(1.0);
-	vPoint = vec3(0.0);
-	vS = vReach = vCombX = vCombY = 0.0;
-#ifdef MEAN_CURVES
-	vSlab = vCurvatureX = vCurvatureY = vCurvatureXY = 0.0;
-#endif
-#else
-	vLampLow = NO_MOMENTS.low;
-#ifdef TWO_PLANES
-	vLampHigh = NO_MOMENTS.high;
-#endif
-#ifdef SHADOW_PER_FRAGMENT
-	vShadowX = vShadowY = vShadowZ = 2.0;
-#ifdef SHADOW_SHARE
-	vShadowShare = 0.0;
-#endif
-#endif
-#ifdef TINGED
-	vTinge = vec3(1.0);
-#endif
-#ifdef BACKLIGHT
-	vBack = Strength(0.0);
-#endif
-#ifdef GLOSS
-	vLobe = vTintedLobe = 0.0;
-#ifdef WET
-	vPower = 0.0;
 #endif
 #endif
 #endif

@@ -64,7 +64,7 @@ struct FurPoint {
 	vec3 curvature; // of the skin, per length of the hair here: along the frame's first axis, along the other level one, mixed
 };
 
-uniform float bodyRadius; // β, in lengths of the fur, of the body as a whole
+uniform float bodyRadius; // β, in lengths of the fur, of the body as a whole; format 1.x
 
 // φ(l) of a light above the horizon. Paper, eq. (2), or smooth light curves: sums of functions of u, v, w, √w and ∜w.
 void basis(vec3 lightTS, out vec3 low, out vec3 high) {

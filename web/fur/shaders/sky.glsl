@@ -51,9 +51,9 @@ void addChange(inout Moments moments, FurPoint point, Radiance radiance, Bending
 }
 
 #ifdef EYE
-// What the sky's light counts for the eye: the mean over the half sphere above, by n·ω and by the constant and the gradient of
-// the radiance's luminance.
-float seenSky(Quadratic seen, Radiance around) {
+// What the sky's light counts for the eye: X = mean over the half sphere above, by n·ω and by the constant and the gradient of
+// the radiance's luminance; Y = with the surge beside the eye.
+vec2 seenSky(FurPoint point, Quadratic seen, Radiance around) {
 	const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 	float c = dot(LUMINANCE, around.constant);
 	vec3 g = LUMINANCE * around.gradient, upright = vec3(0.0);
@@ -65,7 +65,13 @@ float seenSky(Quadratic seen, Radiance around) {
 	mat3 second = mat3(0.25 * c + 2.0 / 15.0 * rise) + outerProduct(upright, 0.25 * c * upright + 2.0 / 15.0 * g) + outerProduct(2.0 / 15.0 * g, upright);
 	mat3 weighted = matrixCompMult(seen.form, second);
 	float sum = dot(seen.gradient, first) + dot(weighted[0] + weighted[1] + weighted[2], vec3(1.0));
-	return max(seen.even + sum / total, LEAST_SEEN);
+	float mean = max(seen.even + sum / total, LEAST_SEEN);
+	// The surge is so narrow that all of it is what comes from beside the eye, over the half sphere's mean.
+	vec3 viewer = viewerVS(point.pointVS) * point.frameVS;
+	viewer.UP = max(viewer.UP, 0.0);
+	viewer /= max(length(viewer), 1e-4);
+	float beside = max(c + dot(g, viewer), 0.0) / max(c + 0.5 * rise, 1e-6);
+	return vec2(mean, mean + surgeFrom(viewer.UP) * surge.w * beside * heldNap(seen, viewer));
 }
 #endif
 
@@ -73,6 +79,7 @@ float seenSky(Quadratic seen, Radiance around) {
 // hemisphere and probe lights.
 Moments environmentMoments(FurPoint point, Bending bending, Quadratic seen) {
 	Moments moments;
+	float radius = skyRadius(point), nap = 1.0;
 	mat3 frameVS = point.frameVS;
 	const float Y0 = 0.28209479, Y1 = 0.48860251;
 	vec3 constant = ambientLightColor;
@@ -123,15 +130,20 @@ Moments environmentMoments(FurPoint point, Bending bending, Quadratic seen) {
 	addDip(moments, point, around, bending);
 #endif
 #ifdef EYE
-	float mean = seenSky(seen, around);
-	moments.low *= mean;
-	moments.high *= mean;
-	addChange(moments, point, around, bending, seen, mean);
+	vec2 mean = seenSky(point, seen, around);
+	nap = mean.y;
+	moments.low *= mean.x;
+	moments.high *= mean.x;
+	addChange(moments, point, around, bending, seen, mean.x);
+	vec3 tinge = vec3(mean.y / mean.x);
 #else
+	vec3 tinge = vec3(1.0);
 	if (bending.there) addChange(moments, point, around, bending, seen, 1.0);
 #endif
 #ifdef MULTIPLE
-	vec3 tinge = skyTinge(point, multipleGain(point));
+	tinge *= skyTinge(point, multipleGain(point), radius, nap);
+#endif
+#if defined(EYE) || defined(MULTIPLE)
 	mat3 rows = mat3(tinge, tinge, tinge);
 	moments.low = matrixCompMult(moments.low, rows);
 	moments.high = matrixCompMult(moments.high, rows);
