@@ -214,7 +214,7 @@ class Beam:
         each = [depth.through(ray) for ray in rays]
         clear: Single = np.mean([passed for passed, _ in each], axis=0)
         floors = [floor * np.float32(max(ray[2], 0)) for ray, (_, floor) in zip(rays, each, strict=True)]
-        own = through_own(self.radius, caught.shape[-1], self.slab * merged / 2 * mean_share(caught, self.sigma))
+        own = through_own(self.radius, caught.shape[-1], self.slab * merged / 2, mean_share(caught, self.sigma))
         return parted(clear, merged) / own.astype(np.float32)[:, None, None], np.mean(floors, axis=0)
 
     def medium(self) -> tuple[Single, Single]:
