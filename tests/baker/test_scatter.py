@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from furbake.pelt import scatter as module
+from furbake.pelt.depth import passing
 from furbake.pelt.fibre import cylinder, sine
 from furbake.pelt.scatter import Arriving, _Medium, hemisphere_rule, scatter
-from furbake.pelt.transport import passing
 
 UPRIGHT = np.array([0.0, 0.0, 1.0], np.float32)
 RNG = np.random.default_rng(0)
@@ -83,8 +83,9 @@ def test_white_hairs_lose_no_light() -> None:
     assert caught(again.phi) + leaves == pytest.approx(caught(arriving.phi), rel=0.05)
 
 
-def test_thick_slabs_scatter_as_much_as_thin_ones() -> None:
+def test_thick_slabs_scatter_as_much_as_thin_ones(monkeypatch: pytest.MonkeyPatch) -> None:
     """The same fur cut coarser: what a slab takes of its own light must not get lost."""
+    monkeypatch.setattr(module, "THINNED", 1.0)  # hairs so thin that none shades itself
 
     def glow(layers: int) -> float:
         shape = (layers, 2, 2)

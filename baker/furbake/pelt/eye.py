@@ -68,10 +68,10 @@ DARK = 1e-6
 FAINT = 0.03
 """Errors are told as shares of what is seen, and this share of the brightest besides."""
 
-EACH_SLAB = 1.0
+EACH_SLAB = 0.3
 """Weight of a slab's own error beside that of the sum of them."""
 
-RIDGE = 1e-3
+RIDGE = 1e-4
 """Of the diagonal: terms that do much the same stay small."""
 
 

@@ -165,9 +165,8 @@ class _Medium:
             """T·D summed over what is seen, (K·N,), and what `scatter` takes: caught, reaching and the skin's light."""
             width = sine(self.tangent, light)
             caught = self.sigma * width
-            slab_height = self.height / self.slabs
-            clear, skin = Depth(caught, slab_height, self.beta).through(light)
-            own = through_own(self.radius, self.size, slab_height / 2, mean_share(caught, self.sigma))
+            clear, skin = Depth(caught, self.height / self.slabs, self.beta).through(light)
+            own = through_own(self.radius, self.size, self.height / self.slabs / 2, mean_share(caught, self.sigma))
             clear /= own.astype(np.float32)[:, None, None]
             lambert = seen * clear[behind] * cylinder(direction, light)
             single = np.asarray(np.bincount(slab * self.size + row, lambert, count * self.size), np.float64)
