@@ -109,6 +109,6 @@ test('lamps summed per vertex look as if summed per fragment, even on 512 triang
 	});
 	const rmse = Math.sqrt(sum / count);
 	test.info().annotations.push({ type: 'rmse', description: `${rmse.toFixed(2)} of 255` });
-	expect(rmse).toBeLessThanOrEqual(2.5);
+	expect(rmse).toBeLessThanOrEqual(3);
 	expect(rmse, 'that it is another program').toBeGreaterThan(0);
 });
