@@ -94,7 +94,7 @@ async function learn(browser, site) {
 	const viewport = { width: 1280, height: 1060 };
 	const page = await browser.newPage({ viewport, colorScheme: 'light', locale: 'en', reducedMotion: 'reduce' });
 	await page.goto(`${site}learn.html#slices`);
-	const ready = "document.querySelector('[data-figure=slices]').dataset.state === 'ready'";
+	const ready = "document.querySelector('[data-figure=slices]')?.dataset.state === 'ready'";
 	await page.waitForFunction(ready, null, { timeout: PATIENCE });
 	// Figures above grow when they come on screen.
 	await page.waitForTimeout(3000);
