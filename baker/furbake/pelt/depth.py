@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 Single = NDArray[np.float32]
 Spectrum = NDArray[np.complexfloating]
 
-POINTS_OF_A_SLAB, POINTS_OF_A_TEXEL = 8, 8
+OWN_POINTS, OWN_POINTS_PER_TEXEL = 8, 8
 """Points of a ray through a voxel's own slab, at least, and per texel that it moves aside there."""
 
 POINTS_PER_TEXEL, LEAST_POINTS, LONGEST = 2, 2, 8
@@ -87,7 +87,7 @@ class Depth:
 
     def _crossed(self, way: Array) -> Single:
         """Weights, (N, N), of the piece of a ray around a voxel's middle that moves `way` voxels aside."""
-        count = max(POINTS_OF_A_SLAB, int(np.ceil(np.hypot(*way) * POINTS_OF_A_TEXEL)))
+        count = max(OWN_POINTS, int(np.ceil(np.hypot(*way) * OWN_POINTS_PER_TEXEL)))
         t = (np.arange(count) + 0.5) / count - 0.5
         # Reading σ at x + way·t is a convolution with a point at −way·t.
         x, y = -way[0] * t, -way[1] * t
