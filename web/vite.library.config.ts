@@ -1,6 +1,7 @@
-/** The library for other apps: one ES module, three.js beside it. Its two small readers are in it, so that it runs from an import map, too. */
+/** Library for other apps: an ES module per entry point, their two small readers bundled, three.js external; runs from an import map, too. */
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
+import { licencesPlugin } from './tools/site/licences.mjs';
 
 const at = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 
@@ -8,14 +9,14 @@ export default defineConfig({
 	root: at('.'),
 	publicDir: false,
 	cacheDir: at('../node_modules/.vite'),
+	plugins: [licencesPlugin()],
 	build: {
 		outDir: at('../lib'),
 		emptyOutDir: true,
 		target: 'es2023',
 		// Apps minify.
 		minify: false,
-		license: { fileName: 'licenses.md' },
-		lib: { entry: at('fur/index.ts'), formats: ['es'], fileName: 'index' },
-		rolldownOptions: { external: /^three(\/|$)/ },
+		lib: { entry: { index: at('fur/index.ts'), reference: at('fur/reference.ts') }, formats: ['es'] },
+		rolldownOptions: { external: /^three(\/|$)/, output: { chunkFileNames: 'shared.js' } },
 	},
 });

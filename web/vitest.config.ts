@@ -9,5 +9,7 @@ export default defineConfig({
 	test: {
 		include: ['tests/web/**/*.test.ts'],
 		environment: 'node',
+		// For a loaded machine; the slowest test takes a second or two.
+		testTimeout: 20_000,
 	},
 });

@@ -1,4 +1,4 @@
-"""What the fur stands on: a model read, its fur laid, and what the fur is like from place to place."""
+"""A model read, the direction of its fur, and the fur's attributes from place to place."""
 
 from __future__ import annotations
 
@@ -11,28 +11,30 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.asset.planes import PlaneError, read_png
-from furbake.options import OF_VERTICES, BakeOptions
+from furbake.options import BakeOptions
+from furbake.options.bake_options import OF_VERTICES
 from furbake.surface.charts import Charts, laid
-from furbake.surface.coat import VertexFur
-from furbake.surface.features import Feature, clearing, read_features
-from furbake.surface.field import Stroke, comb_field
-from furbake.surface.lapped import lap
-from furbake.surface.lapped_figures import lapped_figures
+from furbake.surface.files import read_text
+from furbake.surface.lay.field import Stroke, comb_field
+from furbake.surface.lay.lapped import lap
+from furbake.surface.lay.lapped_figures import lapped_figures
+from furbake.surface.lay.own import own_charts
 from furbake.surface.mesh import MeshError, Surface, load_mesh, simplify
-from furbake.surface.occlusion import openness
-from furbake.surface.own import own_charts
-from furbake.surface.paint import brought, uncover, vertex_map, vertex_numbers
+from furbake.surface.place.features import Feature, clearing, read_features
+from furbake.surface.place.occlusion import openness
+from furbake.surface.place.paint import brought, uncover, vertex_map, vertex_numbers
+from furbake.surface.place.thickness import length_by_thickness
+from furbake.surface.place.variation import noise, underside
+from furbake.surface.place.vertex_fur import VertexFur
+from furbake.surface.repair.simplify import shell_faces
 from furbake.surface.shapes import builtin, is_builtin
-from furbake.surface.simplify import shell_faces
-from furbake.surface.thickness import length_by_thickness
-from furbake.surface.variation import noise, underside
 
 Floats = NDArray[np.float64]
 
 ROOM = 8e6
-"""Bytes that shells and fins may take; larger models carry them on a simplified copy."""
+"""Bytes for shells and fins; larger models carry them on a simplified copy."""
 
-MOST_STROKES = 1000
+MAX_STROKES = 1000
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,7 @@ class Body:
     """A model with its fur laid.
 
     skin : the surface as it is shown
-    ground : what shells and fins stand on: the skin, or a simpler copy of it without its bare parts
+    ground : the surface under shells and fins: the skin, or a simpler copy of it without its bare parts
     charts, fur : of the ground
     direction : (V, 3) unit tangents of the ground along which the fur is laid
     tile, length : width of a tile and longest fur, model units
@@ -118,7 +120,7 @@ def prepare(model: str, options: BakeOptions) -> Body:
 
 
 def patch_figures(model: str, faces: int | None = None, tile_share: float = BakeOptions.tile_share) -> dict[str, float]:
-    """How well lapped patches cover a model, simplified to `faces` if given: see `lapped_figures`, and seconds."""
+    """Figures of lapped patches on a model, simplified to `faces` if given: `lapped_figures` and seconds."""
     surface = load_surface(model)
     surface = surface if faces is None else simplify(surface, faces)
     start = time.perf_counter()
@@ -130,7 +132,7 @@ def patch_figures(model: str, faces: int | None = None, tile_share: float = Bake
 
 
 def painted(surface: Surface, where: str) -> Floats:
-    """(V,) 0..1 of a picture that is laid on a surface, or of its own vertices: `vertex:red`, `vertex:` + attribute.
+    """(V,) 0..1 of a picture over the surface, or of its own vertices: `vertex:red`, `vertex:` + attribute.
 
     Raises MeshError where there is none.
     """
@@ -149,12 +151,12 @@ def read_strokes(path: Path) -> tuple[Stroke, ...]:
     """
     expected = 'expected {"strokes": [{"points": [[x, y, z], ...], "strength": 0..1}, ...]}'
     try:
-        strokes = json.loads(path.read_text("utf-8"))["strokes"]
+        strokes = json.loads(read_text(path, expected))["strokes"]
         found = tuple(
             Stroke(np.array(stroke["points"], np.float64), float(stroke.get("strength", 1.0))) for stroke in strokes
         )
-    except OSError as error:
-        raise MeshError(f"{path}: {(error.strerror or str(error)).lower()}, {expected}") from error
+    except MeshError:
+        raise
     except (ValueError, TypeError, LookupError, AttributeError, RecursionError) as error:
         raise MeshError(f"{path}: {type(error).__name__}: {' '.join(str(error).split())[:120]}, {expected}") from error
     for number, stroke in enumerate(found, 1):
@@ -163,6 +165,6 @@ def read_strokes(path: Path) -> tuple[Stroke, ...]:
             raise MeshError(f"{path}: stroke {number} is not a line of points, {expected}")
         if not 0 <= stroke.strength <= 1:
             raise MeshError(f"{path}: stroke {number} has the strength {stroke.strength:g}, {expected}")
-    if len(found) > MOST_STROKES:
-        raise MeshError(f"{path}: {len(found)} strokes, expected {MOST_STROKES} at most")
+    if len(found) > MAX_STROKES:
+        raise MeshError(f"{path}: {len(found)} strokes, expected {MAX_STROKES} at most")
     return found

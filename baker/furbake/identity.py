@@ -1,4 +1,4 @@
-"""What decides a bake: input, options, versions. It is recorded, and tells a stale asset from a fresh one."""
+"""Input, options and versions of a bake, as recorded; a key of them tells stale assets from fresh ones."""
 
 from __future__ import annotations
 
@@ -9,9 +9,12 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from furbake.options import FILES, OF_VERTICES, BakeOptions
-from furbake.surface.companions import companions
+from furbake.options import BakeOptions
+from furbake.options.bake_options import FILES, OF_VERTICES
+from furbake.surface.files import read_regular
+from furbake.surface.limits import Budget
 from furbake.surface.mesh import Surface
+from furbake.surface.read.companions import companions
 from furbake.surface.shapes import is_builtin
 
 LIBRARIES = ("numpy", "scipy", "OpenImageIO", "trimesh", "embreex", "DracoPy", "fast-simplification", "Pillow")
@@ -40,9 +43,10 @@ def input_hash(model: str) -> str:
     """SHA-256 of the file and those that it is read with, or of the built-in shape's name."""
     if is_builtin(model):
         return hashlib.sha256(model.encode()).hexdigest()
-    found = hashlib.sha256(Path(model).read_bytes())
+    budget = Budget(model, "bytes")
+    found = hashlib.sha256(read_regular(Path(model), budget))
     for beside in companions(Path(model)):
-        found.update(beside.read_bytes())
+        found.update(read_regular(beside, budget))
     return found.hexdigest()
 
 
@@ -54,6 +58,6 @@ def bake_key(model: str, options: BakeOptions) -> str:
         "furbake": version("furbake"),
         "options": options.as_record(),
         "input": input_hash(model),
-        "files": [hashlib.sha256(Path(file).read_bytes()).hexdigest() for file in files],
+        "files": [hashlib.sha256(read_regular(Path(file), Budget(file, "bytes"))).hexdigest() for file in files],
     }
     return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()

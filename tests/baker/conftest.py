@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import hypothesis
-import numpy as np
-import pytest
+# One thread for algebra, before NumPy reads it: matrices here are small, and threads that wait for each other on cores
+# that other tests use take ten times as long.
+for library in ("OPENBLAS", "OMP", "MKL"):
+    os.environ.setdefault(f"{library}_NUM_THREADS", "1")
 
-from furbake import BakeOptions, cli
-from furbake.pelt.pelt import Pelt, Ramp
-from furbake.pelt.strands import Coat, Hairs
+import hypothesis  # noqa: E402
+import numpy as np  # noqa: E402
+import pytest  # noqa: E402
+
+from furbake import BakeOptions, cli  # noqa: E402
+from furbake.pelt.hairs.ramp import Ramp  # noqa: E402
+from furbake.pelt.hairs.strands import Coat, Hairs  # noqa: E402
+from furbake.pelt.pelt import Pelt  # noqa: E402
+from furbake.pelt.texels.basis import PTM, Basis  # noqa: E402
 
 hypothesis.settings.register_profile("repeatable", deadline=None, derandomize=True, database=None, max_examples=40)
 hypothesis.settings.load_profile("repeatable")
@@ -23,7 +31,7 @@ TINY = ("--layers", "4", "--size", "8", "--lights", "8", "--quiet")
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a run of the command left: exit status and both streams."""
+    """Result of a run of the command: exit status and both streams."""
 
     status: int
     out: str
@@ -76,9 +84,7 @@ def make_pelt() -> Callable[..., Pelt]:
             colour=noise(*texels, 3) if colour else None,
             scale=chance.uniform(0.001, 0.02, coefficients),
             bias=chance.uniform(-20, 200, coefficients),
-            kind=kind,
-            degree=4 if kind == "eigen" else None,
-            matrix=chance.normal(size=(coefficients, 27)) if kind == "eigen" else None,
+            basis=Basis("eigen", 4, chance.normal(size=(coefficients, 27))) if kind == "eigen" else PTM,
             drift=chance.normal(size=(layers, 2)),
             height=0.6,
             ramp=Ramp(),

@@ -12,61 +12,57 @@ import furbake
 ROOT = Path(furbake.__file__).parent
 MODULES = sorted(ROOT.rglob("*.py"))
 
-FLOORS = {
-    "pelt": {"pelt"},
-    "surface": {"surface"},
-    "asset": {"asset", "pelt", "surface"},
-    "knobs": set(),
-    "options": {"pelt", "knobs"},
+FLOORS: dict[str, set[str]] = {
+    "pelt/hairs": set(),
+    "pelt/light": {"pelt/hairs"},
+    "pelt/texels": {"pelt/hairs"},
+    "pelt": {"pelt/hairs", "pelt/light", "pelt/texels"},
+    "surface/soup": set(),
+    "surface/charts": set(),
+    "surface/repair": {"surface/soup"},
+    "surface/material": {"surface/soup", "surface/repair"},
+    "surface/limits": {"surface/soup"},
+    "surface/files": {"surface/limits", "surface/soup"},
+    "surface/colours": {"surface/soup", "surface/material", "surface/limits"},
+    "surface/read": {f"surface/{name}" for name in ("soup", "material", "colours", "repair", "limits", "files")},
+    "surface/mesh": {f"surface/{name}" for name in ("soup", "charts", "repair", "material", "colours", "read")},
+    "surface/shapes": {"surface/mesh", "surface/charts", "surface/repair"},
+    "surface/lay": {"surface/mesh", "surface/charts", "surface/soup", "surface/repair"},
+    "surface/place": {f"surface/{name}" for name in ("mesh", "charts", "colours", "repair", "lay", "files")},
+    "asset": {"pelt", "surface"},
+    "options": {"pelt", "lazy", "surface/files", "surface/limits", "surface/soup"},
     "identity": {"options", "surface"},
     "body": {"asset", "surface", "options"},
     "tile": {"pelt", "options"},
-    "sides": {"pelt", "options"},
-    "bake": {"asset", "pelt", "surface", "options", "identity", "body", "sides", "tile"},
-    "swatch": {"asset", "pelt", "options"},
-    "report": {"asset", "pelt", "options", "tile", "swatch", "report"},
-    "pathtrace": {"pelt"},
-    "verify": {"asset", "pelt", "options", "tile", "pathtrace"},
-    "groom": {"asset", "pelt", "options", "groom"},
-    "likeness": {"asset", "pelt", "surface", "tile", "pathtrace", "groom", "likeness"},
-    "compare": {"pelt", "options", "tile"},
-    "halfway": {"pelt", "options", "tile", "verify"},
-    "trim": {"pelt", "options", "tile", "verify"},
-    "bend": {"pelt", "knobs", "options", "tile"},
-    "lesson": {"asset", "pelt", "options", "identity", "tile"},
-    "cli": {
-        "asset",
-        "pelt",
-        "surface",
-        "options",
-        "identity",
-        "bake",
-        "body",
-        "swatch",
-        "report",
-        "verify",
-        "pathtrace",
-        "compare",
-        "halfway",
-        "trim",
-        "bend",
-        "lesson",
-        "groom",
-        "likeness",
-        "cli",
-    },
-    "__init__": {"asset", "surface", "options", "bake"},
+    "lazy": set(),
+    "pipeline": {"asset", "pelt", "surface", "options", "identity", "body", "tile"},
+    "groom": {"asset", "pelt", "options"},
+    "show": {"asset", "pelt", "options", "identity", "tile"},
+    "study": {"asset", "pelt", "surface", "options", "tile", "groom"},
+    "cli": {"asset", "pelt", "surface", "options", "identity", "body", "tile", "pipeline", "groom", "show", "study"},
+    "": {"asset", "surface", "options", "pipeline", "lazy"},
 }
-"""What each room may import. `pelt` and `surface` never know each other."""
+"""Rooms and the rooms below each that it may import; a floor stands for all rooms in it. "" is the package's face.
+
+`pelt` and `surface` never know each other.
+"""
+
+MAX_LINES = 60
+"""Lines of a function; a longer one has a comment above it, `# Long: ` and the reason."""
+
+MAX_FILES = 15
+"""Files of code in a folder."""
 
 ONLY_IN = {
     "OpenImageIO": "asset/planes.py",
-    "embreex": "surface/thickness.py",
-    "DracoPy": "surface/gltf_data.py",
+    "embreex": "surface/place/thickness.py",
+    "DracoPy": "surface/read/gltf_data.py",
     "PIL": "surface/colours.py",
-    "fast_simplification": "surface/simplify.py",
+    "fast_simplification": "surface/repair/simplify.py",
+    "filelock": "asset/store.py",
+    "ctypes": "asset/exchange.py",
     "rich": "cli/progress.py",
-    "argparse": "cli",
+    "click": "cli",
 }
 
 
@@ -81,11 +77,62 @@ def imports(tree: ast.AST) -> set[str]:
     return found
 
 
+def dotted(path: Path) -> str:
+    """Name of a module below the package; "" of the package itself."""
+    return ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix("__init__").rstrip(".")
+
+
+DOTTED = {dotted(path): path for path in MODULES}
+
+
+def arrows(path: Path) -> set[str]:
+    """Modules of the package that a module imports."""
+    names = {
+        name.partition(".")[2] for name in imports(ast.parse(path.read_text("utf-8"))) if name.startswith("furbake")
+    }
+    return {name if name in DOTTED else name.rpartition(".")[0] for name in names}
+
+
+def room(module: str) -> str:
+    """The innermost room of `FLOORS` that holds a module."""
+    parts = module.split(".") if module else []
+    return next(name for i in range(len(parts), -1, -1) if (name := "/".join(parts[:i])) in FLOORS)
+
+
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))
 def test_imports_go_down(path: Path) -> None:
-    room = path.relative_to(ROOT).parts[0].removesuffix(".py")
-    used = {name.split(".")[1] for name in imports(ast.parse(path.read_text("utf-8"))) if name.startswith("furbake.")}
-    assert used <= FLOORS[room]
+    own = room(dotted(path))
+    used = {room(name) for name in arrows(path)} - {own}
+    allowed = FLOORS[own]
+    assert {name for name in used if name not in allowed and name.partition("/")[0] not in allowed} == set()
+
+
+def circles(graph: dict[str, set[str]]) -> set[str]:
+    """Nodes on a circle of arrows, or above one."""
+    left = dict(graph)
+    while free := [name for name, below in left.items() if not below & left.keys()]:
+        for name in free:
+            del left[name]
+    return set(left)
+
+
+def test_no_module_imports_itself_by_others() -> None:
+    assert circles({name: arrows(path) - {name} for name, path in DOTTED.items()}) == set()
+
+
+def test_floors_have_no_circle() -> None:
+    def rooms(floor: str) -> set[str]:
+        return {name for name in FLOORS if name == floor or name.startswith(f"{floor}/")}
+
+    graph = {own: {name for floor in below for name in rooms(floor)} - {own} for own, below in FLOORS.items()}
+    assert circles(graph) == set()
+
+
+@pytest.mark.parametrize(
+    "folder", sorted({path.parent for path in MODULES}), ids=lambda path: str(path.relative_to(ROOT))
+)
+def test_a_folder_is_seen_at_a_glance(folder: Path) -> None:
+    assert len(list(folder.glob("*.py"))) <= MAX_FILES
 
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))
@@ -110,3 +157,14 @@ def test_a_module_has_one_job(path: Path) -> None:
     text = path.read_text("utf-8")
     assert len(text.splitlines()) <= 300
     assert not text or ast.get_docstring(ast.parse(text)), "a module says what it is for"
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_a_long_function_says_why(path: Path) -> None:
+    lines = path.read_text("utf-8").splitlines()
+    functions = [node for node in ast.walk(ast.parse("\n".join(lines))) if isinstance(node, ast.FunctionDef)]
+    starts = {node: min([node.lineno, *(mark.lineno for mark in node.decorator_list)]) for node in functions}
+    for node, start in starts.items():
+        reason = lines[start - 2].strip() if start > 1 else ""
+        long = (node.end_lineno or start) - node.lineno + 1 > MAX_LINES
+        assert long == reason.startswith("# Long: "), node.name

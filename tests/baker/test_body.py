@@ -11,9 +11,9 @@ import trimesh
 from furbake.body import prepare, read_strokes
 from furbake.options import BakeOptions
 from furbake.surface.mesh import MeshError
-from furbake.surface.occlusion import openness
+from furbake.surface.place.occlusion import openness
+from furbake.surface.place.variation import noise, underside
 from furbake.surface.shapes import builtin
-from furbake.surface.variation import noise, underside
 
 
 def body(**options: Any) -> Any:

@@ -12,12 +12,12 @@ from furbake.asset.planes import Planes, read_png, unpack
 from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt
 from furbake.asset.validate import validate
-from furbake.bend import law, relit
-from furbake.pelt.basis import PTM, Basis
 from furbake.pelt.fin import polynomial, row_means
-from furbake.pelt.fit import relight
 from furbake.pelt.pelt import Pelt
-from furbake.pelt.quantise import dequantise
+from furbake.pelt.texels.basis import PTM, Basis
+from furbake.pelt.texels.fit import relight
+from furbake.pelt.texels.quantise import dequantise
+from furbake.study.bend import law, relit
 
 GOLDEN = Path(__file__).parents[1] / "golden"
 CURVED = GOLDEN / "ptm-6-curves"
@@ -56,7 +56,7 @@ def test_stored_bytes_of_the_fin_give_the_expected_light() -> None:
     t, w, n = np.array(json.loads((folder / "lights.json").read_text("utf-8"))).T
     expected = np.fromfile(folder / "fin.f32", "<f4").reshape(len(t), *fin.alpha.shape)
     lights = np.stack([t, n, w], axis=1)[n >= 0]
-    light = relight(dequantise(fin.codes, fin.scale, fin.bias), PTM, lights)
+    light = relight(fin.values, PTM, lights)
     np.testing.assert_allclose(light, expected[n >= 0], atol=1e-4)
     assert expected.max() > 1
     assert (fin.alpha[:, 0] == np.arange(255, 0, -32)).all()
@@ -83,7 +83,7 @@ def test_stored_bytes_give_the_expected_light_on_bodies(curved: Pelt) -> None:
     given = json.loads((CURVED / "lights.json").read_text("utf-8"))
     lights = np.array(given["lights"])
     expected = np.fromfile(CURVED / "light.f32", "<f4").reshape(-1, len(lights), *curved.codes.shape[:3])
-    coefficients = dequantise(curved.codes, curved.scale, curved.bias)
+    coefficients = curved.values
     for beta, light in zip(given["bodies"], expected, strict=True):
         found = relight(coefficients, curved.basis, lights, curved.mean(lights, beta))
         np.testing.assert_allclose(found, light, atol=1e-4)
@@ -97,7 +97,7 @@ def test_stored_bytes_of_the_fin_give_the_expected_light_on_bodies(curved: Pelt)
     t, w, n = np.array(given["lights"]).T
     lights = np.stack([w, t, n], axis=1)  # in the tile's frame
     expected = np.fromfile(CURVED / "fin.f32", "<f4").reshape(-1, len(lights), *curved.fin.alpha.shape)
-    coefficients = dequantise(curved.fin.codes, curved.fin.scale, curved.fin.bias)
+    coefficients = curved.fin.values
     for beta, light in zip(given["bodies"], expected, strict=True):
         mean = row_means(curved, len(curved.fin.alpha), lights, beta)
         np.testing.assert_allclose(relight(coefficients, polynomial, lights, mean), light, atol=1e-4)

@@ -15,9 +15,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from furbake.pelt.basis import PTM
-from furbake.pelt.fit import fit
-from furbake.pelt.transport import hemisphere
+from furbake.pelt.light.transport import hemisphere
+from furbake.pelt.texels.basis import PTM
+from furbake.pelt.texels.fit import fit
 
 
 def seconds(work: Callable[[], object]) -> float:

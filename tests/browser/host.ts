@@ -5,7 +5,7 @@ import { createServer } from 'node:http';
 import type { AddressInfo } from 'node:net';
 import { extname, join, normalize } from 'node:path';
 import { gzipSync } from 'node:zlib';
-import { headersFor, parseHeaders } from '../../web/tools/headers.mjs';
+import { headersFor, parseHeaders } from '../../web/tools/site/headers.mjs';
 
 const types: Record<string, string> = {
 	'.html': 'text/html; charset=utf-8',

@@ -13,7 +13,7 @@ export const served = (path: string) =>
 
 /** A page with nothing on it but the library. */
 export async function openStage(page: Page): Promise<void> {
-	await openModule(page, site, served('tests/browser/stage.ts'));
+	await openModule(page, site, served('tests/browser/inPage/stage.ts'));
 }
 
 export async function readAsset(folder: string): Promise<{ fur: FurAsset; images: { uri: string }[] }> {

@@ -3,7 +3,7 @@ import { tmpdir } from 'node:os';
 import { extname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { build, type Plugin } from 'vite';
-import { serve as serveSite } from '../../web/tools/vite.mjs';
+import { serve as serveSite } from '../../web/tools/site/vite.mjs';
 
 const TYPES: Record<string, string> = {
 	'.html': 'text/html; charset=utf-8',

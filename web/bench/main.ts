@@ -1,8 +1,8 @@
-/** The bench's page: measures when asked to, shows what it finds, and hands it on. */
+/** Page of the bench: measures on request, shows the figures and posts them. */
 
-import { type Listener, measure } from '../measure/measure.ts';
-import { DEFAULTS, QUICK } from '../measure/plan.ts';
-import type { BenchFigures } from '../measure/results.ts';
+import { type Listener, measure } from '../measure/bench/measure.ts';
+import { DEFAULTS, QUICK } from '../measure/bench/plan.ts';
+import type { BenchFigures } from '../measure/bench/results.ts';
 import { element, setState } from '../page/element.ts';
 import { fillHeader } from '../page/header.ts';
 import { fillIn, languageOf } from '../page/language.ts';
@@ -12,7 +12,7 @@ import { gallery, sectionElement } from './page.ts';
 import { sections } from './report.ts';
 import { WORDS } from './words/index.ts';
 
-/** Milliseconds between two words on the progress: the page must not draw much while it measures. */
+/** Milliseconds between two updates of the progress: drawing the page disturbs the measurement. */
 const PAUSE = 1000;
 
 const language = languageOf(location.search, navigator.languages);
@@ -34,7 +34,7 @@ function complain(text: string): void {
 	problem.hidden = text === '';
 }
 
-/** Tells the command that opened this page. Where it has gone there is nobody to tell. */
+/** Posts a message to the command that opened this page; ignored if it has ended. */
 async function tell(message: object): Promise<void> {
 	if (post) await fetch(post, { method: 'POST', body: JSON.stringify(message) }).catch(() => {});
 }
@@ -48,12 +48,12 @@ function listener(): Listener {
 			if (now < said + PAUSE) return;
 			said = now;
 			bar.value = share;
-			// An estimate from the first few frames, which compile, would frighten.
+			// No estimate from the first few frames, which compile.
 			const left = share > 0.04 ? ((now - started) / 1000) * (1 / share - 1) : undefined;
 			doing.textContent = words.doing(Math.floor(100 * share), left, part ?? 'loading');
 			void tell({ doing: doing.textContent });
 		},
-		portraits: (portraits) => pictures.replaceChildren(gallery(portraits, words)),
+		methodPictures: (methodPictures) => pictures.replaceChildren(gallery(methodPictures, words)),
 		figures: show,
 	};
 }
@@ -115,12 +115,12 @@ function json(): string {
 	return `${JSON.stringify(latest, null, '\t')}\n`;
 }
 
-function told({ given, expected }: Problem): string {
+function describe({ given, expected }: Problem): string {
 	const { some } = words.expected;
 	return words.problem(given, typeof expected === 'string' ? words.expected[expected] : some(expected));
 }
 
 quick.checked = asked;
-if (problems.length) complain(words.problems(problems.map(told)));
+if (problems.length) complain(words.problems(problems.map(describe)));
 setState('ready');
 if (run) void start();

@@ -1,9 +1,9 @@
-/** What is measured, as the page's address says it: `?run=1&rounds=3&size=640x360&parts=results`. */
+/** Options of the bench in the page's address: `?run=1&rounds=3&size=640x360&parts=results`. */
 
-import { type BenchOptions, DEFAULTS, PARTS, QUICK } from '../measure/plan.ts';
-import { METHODS } from '../measure/results.ts';
+import { type BenchOptions, DEFAULTS, PARTS, QUICK } from '../measure/bench/plan.ts';
+import { METHODS } from '../measure/bench/results.ts';
 
-/** A parameter that was not understood, as it stands in the address, and what was expected there. */
+/** Parameter that was not understood, as written in the address, and the expected form. */
 export interface Problem {
 	given: string;
 	expected: 'rounds' | 'size' | 'post' | readonly string[];
@@ -11,13 +11,13 @@ export interface Problem {
 
 export interface BenchAddress {
 	options: BenchOptions;
-	/** Whether they are those of a first look, but for what else the address says. */
+	/** Whether defaults are those of a first look. */
 	quick: boolean;
-	/** Whether to begin by itself. */
+	/** Whether to start at once. */
 	run: boolean;
-	/** Path on this very site that the figures are sent to. */
+	/** Path on this host to post the figures to. */
 	post: string | undefined;
-	/** What was not understood; the default stands there. */
+	/** Parameters that were not understood, replaced by defaults. */
 	problems: Problem[];
 }
 
@@ -53,7 +53,7 @@ export function parseOptions(search: string): BenchAddress {
 		problems,
 	};
 
-	/** Those of a list that the address names, in the list's own order. */
+	/** Entries of a list named in the address, in the list's order. */
 	function some<T extends string>(name: string, all: readonly T[], otherwise: readonly T[]): readonly T[] {
 		const named = query.get(name)?.split(',');
 		if (!named) return otherwise;
@@ -67,7 +67,7 @@ export function parseOptions(search: string): BenchAddress {
 	}
 }
 
-/** Whether a path is one of this very host, however browsers read it: of some they leave out tabs, and turn backslashes. */
+/** Whether a path stays on this host in any browser; some drop tabs and turn backslashes. */
 function isHere(path: string): boolean {
 	const host = 'http://here.invalid';
 	return path.startsWith('/') && URL.canParse(path, host) && new URL(path, host).origin === host;

@@ -1,6 +1,6 @@
-/** The report as elements of the page. */
+/** Elements of the report. */
 
-import type { Portrait } from '../measure/measure.ts';
+import type { MethodPicture } from '../measure/bench/measure.ts';
 import type { Section } from './report.ts';
 import { type Table, titleOf } from './tables.ts';
 import type { Words } from './words/en.ts';
@@ -36,7 +36,7 @@ function tableElement({ caption, head, rows }: Table): HTMLElement {
 		element('tbody', '', ...rows.map((cells) => row(cells, false))),
 	);
 	table.prepend(element('caption', caption));
-	// Wide tables scroll by themselves, also from the keyboard.
+	// Wide tables scroll on their own, also by keyboard.
 	const frame = element('div', '', table);
 	frame.className = 'scroll';
 	frame.tabIndex = 0;
@@ -60,23 +60,23 @@ export function sectionElement({ title, text, tables, plots }: Section): HTMLEle
 }
 
 /** Pictures side by side, each with its method's name. */
-export function gallery(portraits: readonly Portrait[], words: Words): HTMLElement {
-	const made = element('div', '', ...portraits.map((portrait) => figureElement(portrait, words)));
+export function gallery(methodPictures: readonly MethodPicture[], words: Words): HTMLElement {
+	const made = element('div', '', ...methodPictures.map((picture) => figureElement(picture, words)));
 	made.className = 'gallery';
 	return made;
 }
 
-function figureElement({ row, width, height, rgba }: Portrait, words: Words): HTMLElement {
+function figureElement({ row, width, height, rgba }: MethodPicture, words: Words): HTMLElement {
 	const name = titleOf(row, words);
 	const canvas = element('canvas');
 	Object.assign(canvas, { width, height });
 	canvas.getContext('2d')?.putImageData(new ImageData(toBytes(rgba, width, height), width, height), 0, 0);
 	canvas.setAttribute('role', 'img');
-	canvas.setAttribute('aria-label', words.portrait(name));
+	canvas.setAttribute('aria-label', words.picture(name));
 	return element('figure', '', canvas, element('figcaption', name));
 }
 
-/** sRGB over the backdrop, row by row from the top. */
+/** sRGB bytes over the backdrop, row by row from the top. */
 function toBytes(rgba: Float32Array, width: number, height: number): Uint8ClampedArray<ArrayBuffer> {
 	const bytes = new Uint8ClampedArray(width * height * 4).fill(255);
 	for (let i = 0; i < width * height; i++) {

@@ -1,10 +1,10 @@
-/** Small line charts as SVG text: coloured and set by the page's style sheet. */
+/** Small line charts as SVG text, styled by the page's style sheet. */
 
 import { count } from './tables.ts';
 
 export interface Series {
 	name: string;
-	/** Class of its line and its name. */
+	/** CSS class of its line and label. */
 	kind: string;
 	points: readonly (readonly [x: number, y: number])[];
 }
@@ -13,21 +13,21 @@ export interface Axes {
 	title: string;
 	x: string;
 	y: string;
-	/** Where the horizontal axis is marked; it reaches from the first to the last. */
+	/** Marks of the horizontal axis, which reaches from the first to the last. */
 	ticks: readonly number[];
-	/** Whether equal steps of it are equal ratios. */
+	/** Whether the horizontal axis is logarithmic. */
 	log?: boolean;
 }
 
-/** Of the drawing, in its own units. */
+/** Size of the drawing, its own units. */
 const WIDTH = 400;
 const HEIGHT = 250;
 const BOX = { left: 46, right: 300, top: 34, bottom: 204 };
-/** From one series' name to the next, and from one tick's to the next at the least. */
+/** Smallest distance between two labels. */
 const LINE = 15;
 const TICK = 34;
 
-/** Round numbers from 0 to the first that is not below `most`, three to six steps of 1, 2 or 5 times a power of ten. */
+/** Round numbers from 0 to the first at or above `most`, three to six steps of 1, 2 or 5 times a power of ten. */
 export function steps(most: number): number[] {
 	if (!(most > 0)) return [0, 1];
 	const power = 10 ** Math.floor(Math.log10(most / 3));
@@ -36,7 +36,7 @@ export function steps(most: number): number[] {
 	return Array.from({ length: count + 1 }, (_, i) => Number((i * step).toPrecision(12)));
 }
 
-/** Places for names beside wanted ones, in the same order, no two nearer than `gap` and none below `lowest`. */
+/** Positions near the wanted ones, in the same order, no two closer than `gap` and none below `lowest`. */
 export function apart(wanted: readonly number[], gap: number, lowest: number): number[] {
 	const order = [...wanted.keys()].sort((a, b) => (wanted[a] ?? 0) - (wanted[b] ?? 0));
 	const places = [...wanted];
@@ -53,7 +53,7 @@ export function apart(wanted: readonly number[], gap: number, lowest: number): n
 	return places;
 }
 
-/** Ticks whose names don't run into each other: the last, and from there to the left. */
+/** Ticks whose labels don't overlap: the last, and from there to the left. */
 function legible(ticks: readonly number[], across: (tick: number) => number): number[] {
 	let limit = Number.POSITIVE_INFINITY;
 	return ticks.toReversed().filter((tick) => {

@@ -1,20 +1,20 @@
-/** What the page says of the figures: sections of tables and plots, of what there is so far. */
+/** Report: sections of tables and plots for the figures so far. */
 
-import { ARTICLE, type BenchFigures, type Point, type Result } from '../measure/results.ts';
+import { ARTICLE, type BenchFigures, type Point, type Result } from '../measure/bench/results.ts';
 import { plot, type Series } from './plot.ts';
 import { articleTable, costTable, count, methodTable, overdrawTable, type Table, times } from './tables.ts';
 import type { Words } from './words/en.ts';
 
 export interface Section {
 	title: string;
-	/** One paragraph below the title. */
+	/** Paragraph below the title. */
 	text: string;
 	tables: Table[];
 	/** SVG text. */
 	plots: string[];
 }
 
-/** Lines of the plots, as they are coloured. */
+/** Methods in the plots. */
 const LINES: Result['method'][] = ['shadow-layers', 'ptm', 'unlit'];
 
 export function sections(figures: BenchFigures, words: Words): Section[] {
@@ -24,7 +24,7 @@ export function sections(figures: BenchFigures, words: Words): Section[] {
 		found.push({ title, text, tables: tables.filter(({ rows }) => rows.length), plots });
 	if (results.length) add(words.methodsTitle, methodsText(figures, words), [methodTable(results, words)]);
 	const article = articleTable(figures, words);
-	// Beside the article's own rows there has to be one from here.
+	// Only with a row measured here beside the article's own.
 	if (article.rows.length > ARTICLE.length) {
 		const layers = methodTable(results_of_layers, words, words.tables.layers);
 		add(words.articleTitle, words.articleText, [article, layers]);
@@ -57,7 +57,7 @@ function methodsText({ results, growth, rounds, clock }: BenchFigures, words: Wo
 	return steps.length ? `${text} ${words.growth(steps)}` : text;
 }
 
-/** Undefined where there is not yet a line to draw. */
+/** Line chart of a curve; undefined until there is a line to draw. */
 function curve(
 	points: readonly Point[],
 	[title, x]: readonly [title: string, x: string],

@@ -1,9 +1,9 @@
-/** Figures as rows of text: what the page's tables say. */
+/** Tables of figures as rows of text. */
 
-import { ARTICLE, type BenchFigures, type Cost, type Result } from '../measure/results.ts';
+import { ARTICLE, type BenchFigures, type Cost, type Result } from '../measure/bench/results.ts';
 import type { Words } from './words/en.ts';
 
-/** A table's text; a cell is a heading where its column or row begins. */
+/** Text of a table; the first cell of a column or row is a heading. */
 export interface Table {
 	caption: string;
 	head: string[];
@@ -15,12 +15,12 @@ export const time = (milliseconds: number) =>
 	milliseconds >= 100 ? milliseconds.toFixed(0) : milliseconds.toPrecision(3);
 export const times = (factor: number) => (Number.isFinite(factor) ? `×\u00a0${factor.toFixed(2)}` : '–');
 
-/** What a row of the table is called, `PTM, still light` or the like. */
+/** Title of a row, such as `PTM, still light`. */
 export function titleOf({ method, light, fins }: Pick<Result, 'method' | 'light' | 'fins'>, words: Words): string {
-	return words.rival(method, light === 'still', fins);
+	return words.subject(method, light === 'still', fins);
 }
 
-/** A row for every rival; for every number of triangles its time and what it is of unlit fur's. */
+/** A row per method; per number of triangles its time, and the ratio to unlit fur's. */
 export function methodTable(results: readonly Result[], words: Words, caption = words.tables.methods): Table {
 	const { milliseconds, ofUnlit } = words.tables;
 	const sizes = [...new Set(results.map(({ triangles }) => triangles))];
@@ -38,7 +38,7 @@ export function methodTable(results: readonly Result[], words: Words, caption = 
 	};
 }
 
-/** The article's frames per second beside those measured here, its triangles taken for the body's and for all layers'. */
+/** Frames per second of the article beside those measured here, its triangles taken for the body's and for all layers'. */
 export function articleTable(
 	{ results, results_of_layers }: Pick<BenchFigures, 'results' | 'results_of_layers'>,
 	{ tables }: Words,
@@ -69,16 +69,16 @@ export function articleTable(
 
 const fps = (value: number) => value.toPrecision(3);
 
-/** @param of what the ratio is a ratio of */
-export function costTable(caption: string, costs: readonly Cost[], of: string, words: Words): Table {
+/** @param ratioHead heading of the ratio's column */
+export function costTable(caption: string, costs: readonly Cost[], ratioHead: string, words: Words): Table {
 	return {
 		caption,
-		head: ['', 'ms', of],
+		head: ['', 'ms', ratioHead],
 		rows: costs.map(({ name, median_ms, ratio }) => [words.costs[name], time(median_ms), times(ratio)]),
 	};
 }
 
-/** Fragments per covered pixel, of every number of triangles. */
+/** Fragments per covered pixel, by number of triangles. */
 export function overdrawTable(results: readonly Result[], { tables }: Words): Table {
 	return {
 		caption: tables.overdraw,

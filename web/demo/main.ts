@@ -1,20 +1,23 @@
-/** The demo page: composes picture, exhibit and controls. */
+/** The demo page: composes state, picture, exhibit and controls. */
 
 import { element, setState } from '../page/element.ts';
 import { fillHeader } from '../page/header.ts';
 import { fillIn } from '../page/language.ts';
-import { parseAddress } from './address.ts';
-import { Controls } from './controls.ts';
-import { listenToDrops } from './drop.ts';
-import { Exhibit } from './exhibit.ts';
-import { hasWebGL2, showFallback } from './fallback.ts';
-import { listenToHands } from './hands.ts';
-import { notice } from './notice.ts';
-import { Overlay } from './overlay.ts';
-import { Picture } from './picture.ts';
-import { explain } from './problems.ts';
-import { Progress } from './progress.ts';
-import type { Act } from './tools.ts';
+import { Gestures } from './hands/gestures.ts';
+import { listenToHands } from './hands/hands.ts';
+import { type DragAction, Tools } from './hands/tools.ts';
+import { Exhibit } from './model/exhibit.ts';
+import { listenToDrops } from './open/drop.ts';
+import { Controls } from './panel/controls.ts';
+import { explain } from './say/explain.ts';
+import { hasWebGL2, showFallback } from './say/fallback.ts';
+import { notice } from './say/notice.ts';
+import { Progress } from './say/progress.ts';
+import { Overlay } from './stage/overlay.ts';
+import { Picture } from './stage/picture.ts';
+import { followInAddressBar, parseAddress } from './state/address.ts';
+import { Store } from './state/store.ts';
+import type { Triple } from './state/view.ts';
 import { en } from './words/drop.en.ts';
 import { zh } from './words/drop.zh.ts';
 import { language, words } from './words/index.ts';
@@ -23,64 +26,72 @@ function start(): void {
 	const { view, problems } = parseAddress(location.search);
 	if (problems.length) notice(words.inAddress(problems.map(explain).join('\n')));
 	document.body.classList.toggle('bare', !view.ui);
-
+	const store = new Store(view);
+	const tools = new Tools();
 	const hint = element('hint');
-	const canvas = element<HTMLCanvasElement>('picture');
-	const calm = view.still || matchMedia('(prefers-reduced-motion: reduce)').matches;
-	const picture = new Picture(canvas, {
-		...{ still: view.still, calm },
-		turned: () => {
-			view.camera = picture.camera.orbit;
-			if (controls.tools.act === 'camera') hint.hidden = true;
-			controls.write();
-		},
-	});
-	if (view.ui) picture.overlay = new Overlay(element('overlay'), picture.stage, picture.timer, words, language);
-	const exhibit = new Exhibit(picture, view, new Progress(element<HTMLProgressElement>('progress')));
-	const controls = new Controls(element('panel'), picture, exhibit, view);
-	const tell = (act: Act) => {
-		const more = matchMedia('(pointer: coarse)').matches ? words.hintTouch : words.hintMouse;
-		hint.textContent = `${words.hints[act]} · ${more}`;
-		hint.hidden = false;
+	showHint(hint, 'light');
+
+	const { still, ui } = view;
+	const calm = still || matchMedia('(prefers-reduced-motion: reduce)').matches;
+	const turned = (camera: Triple) => {
+		store.change({ camera });
+		if (tools.act === 'camera') hint.hidden = true;
 	};
-	tell('light');
-	listenToHands(picture, controls.tools, exhibit.play, {
-		lightTaken: () => {
-			view.light = picture.light.wanted;
-			controls.write();
-		},
+	const picture = new Picture(element<HTMLCanvasElement>('picture'), { still, calm, turned });
+	if (ui) picture.overlay = new Overlay(element('overlay'), picture.stage, picture.timer, words, language);
+	const exhibit = new Exhibit(picture, store, new Progress(element<HTMLProgressElement>('progress')));
+	const controls = new Controls(element('panel'), tools, picture, exhibit, store);
+	const gestures = new Gestures(picture, exhibit.looks, exhibit.dynamics);
+	picture.animate = (elapsed) => Math.min(gestures.step(elapsed), exhibit.step(elapsed));
+	listenToHands(picture, tools, gestures, {
+		lightTaken: () => store.change({ light: picture.light.wanted }),
 		chosen: (act) => {
-			tell(act);
+			showHint(hint, act);
 			void exhibit.style();
 		},
 		used: () => {
 			hint.hidden = true;
 		},
 	});
+	addOpener(exhibit, controls);
+	followContext(picture, exhibit);
+	picture.fit();
+	// The address stays as it was asked for until something changes after that.
+	void exhibit.open().then(() => followInAddressBar(store));
+}
+
+/** Says what a drag does. */
+function showHint(hint: HTMLElement, act: DragAction): void {
+	const more = matchMedia('(pointer: coarse)').matches ? words.hintTouch : words.hintMouse;
+	hint.textContent = `${words.hints[act]} · ${more}`;
+	hint.hidden = false;
+}
+
+/** Opens models that are dropped on the page or chosen by a button. */
+function addOpener(exhibit: Exhibit, { panel }: Controls): void {
 	const dropped = { en, zh }[language];
 	const opener = listenToDrops(window, language, {
 		opening: (task) => void exhibit.change(() => task),
-		opened: async (own) => {
-			await exhibit.receive(own);
-			controls.write();
-		},
+		opened: (own) => exhibit.receive(own),
 		failed: (name, reason) => notice(words.notShown(name, reason), 'error', 'model'),
 	});
-	controls.panel.button(dropped.open, opener.files, dropped.openTip);
-	if (opener.folder) controls.panel.button(dropped.openFolder, opener.folder, dropped.openFolderTip);
-	canvas.addEventListener('webglcontextlost', () => {
-		exhibit.living.forget();
-		exhibit.looks.forget();
-		picture.stage.forget();
+	panel.button(dropped.open, opener.files, dropped.openTip);
+	if (opener.folder) panel.button(dropped.openFolder, opener.folder, dropped.openFolderTip);
+}
+
+/** Frees what a lost context takes along, and draws anew in the next one. */
+function followContext(picture: Picture, exhibit: Exhibit): void {
+	picture.canvas.addEventListener('webglcontextlost', () => {
+		exhibit.dynamics.loseContext();
+		exhibit.looks.loseContext();
+		picture.stage.loseContext();
 		if (picture.stage.model) setState('loading');
 	});
-	canvas.addEventListener('webglcontextrestored', () => {
+	picture.canvas.addEventListener('webglcontextrestored', () => {
 		picture.timer.restore();
 		void exhibit.style();
 		void exhibit.settle();
 	});
-	picture.fit();
-	void exhibit.open();
 }
 
 fillIn(words, language);

@@ -1,66 +1,73 @@
-import { BufferGeometry, type Color, Object3D, Scene, type Texture } from 'three';
-import type { Columns } from './clip.ts';
-import { FinMaterial } from './FinMaterial.ts';
-import { FurMaterial } from './FurMaterial.ts';
-import type { FurWeather } from './FurWeather.ts';
-import { FurFins } from './fins.ts';
-import { Follicles } from './follicles.ts';
+import { type BufferGeometry, type Color, Object3D, Scene, type Texture } from 'three';
+import type { FurMethod } from './baselines/furMethod.ts';
+import { FurFollicles } from './body/FurFollicles.ts';
+import type { Skin, Wetness } from './body/Skin.ts';
 import type { FurAsset, Pelt } from './format.ts';
-import type { PeltStates } from './PeltStates.ts';
-import { FurShells } from './shells.ts';
-import type { Skin, Wetness } from './skin.ts';
-import type { FurTextures } from './texels.ts';
+import type { FurTextures } from './light/texels.ts';
+import type { FurMotion } from './motion/FurMotion.ts';
+import type { PeltStates } from './planes/PeltStates.ts';
+import type { FurColumns } from './shells/clip.ts';
+import { FurFinMaterial } from './shells/FurFinMaterial.ts';
+import { FurFins } from './shells/FurFins.ts';
+import { FurMaterial } from './shells/FurMaterial.ts';
+import { FurShells } from './shells/FurShells.ts';
+import { updateFurs } from './updateFurs.ts';
+import type { FurWeather } from './weather/FurWeather.ts';
 
-/** What a body brings to a fur: what it stands on, and what is seen between its hairs. */
+/** Surfaces of a body that fur is drawn on. */
 export interface Ground {
 	skin: Skin;
 	/** Base colour of the model, which multiplies the fur's. */
 	colour: Color;
-	/** What the shells stand on, the node that it belongs to, and what the fins stand on. */
+	/** Geometry below the shells, the shells' node, and the quads of the fins. */
 	surface: BufferGeometry;
 	placement: Object3D;
 	quads: BufferGeometry | undefined;
-	/** Node of the quads, where its axes may be others than the shells'. */
+	/** Node of the quads; its axes may differ from the shells'. */
 	quadPlacement: Object3D | undefined;
-	/** What the fins' second texture coordinate is multiplied by to be 1 at their tips. */
+	/** Factor of the fins' second texture coordinate that makes it 1 at the tips. */
 	finHeights: number;
 }
 
-/** Which weather a fur can show. */
-export interface HasStates {
+/** Weather that a fur can show. */
+export interface FurStates {
 	/** Whether it can be wet. */
 	wet: boolean;
 	/** Whether it can be dirty. */
 	dirt: boolean;
 }
 
-/** Shells, fins and the shade of the skin below them: `gltf.userData.fur` of a loaded asset, or made by `dress`. */
+/** Shells, fins and the shade of the skin below them: `gltf.userData.fur` of a loaded asset, or made by `dressFur`. */
 export class Fur {
-	/** What its file says of it. */
+	/** The extension's object in its file. */
 	readonly asset: FurAsset;
-	/** What the shells are drawn with, and what else the asset holds of them. */
+	/** Textures of the shells. */
 	readonly textures: FurTextures;
-	/** What the fins are drawn with, where it has some. */
+	/** Textures of the fins, if any. */
 	readonly finTextures: FurTextures | undefined;
-	/** The shells' own, whatever method they wear. */
+	/** The shells' own material, whatever method lights them. */
 	readonly material: FurMaterial;
 	/** Drawn in the scene beside the skin. */
 	readonly shells: FurShells;
-	/** What makes the outline, drawn before the shells; the shells show without it, too: `fins.visible = false`. */
+	/** The outline, drawn before the shells. Optional: `fins.visible = false` leaves the shells. */
 	readonly fins: FurFins | undefined;
 	/** The body: a mesh, or a group of one for each material. */
 	readonly skin: Object3D;
-	/** What it stands on, for `dress`. */
+	/** Surfaces below the fur, for `dressFur`. */
 	readonly ground: Ground;
-	/** Its textures and what they hold, for `dress`. */
+	/** Textures and their states, for `dressFur`. */
 	readonly pelt: PeltStates;
+	/** Method applied to the shells by `FurMethod.apply`, if any. */
+	method: FurMethod | undefined;
 	readonly #parts = new Object3D();
 	readonly #release: () => void;
-	#length = 1;
-	#clip: Columns | undefined;
+	#clip: FurColumns | undefined;
+	#motion: FurMotion | undefined;
 	#weather: FurWeather | undefined;
+	/** Argument of `updateFurs`, made once. */
+	readonly #itself = [this];
 
-	/** @param release frees what this fur alone has beside its materials, its geometry included */
+	/** @param release frees what belongs to this fur alone beside its materials, geometry included */
 	constructor(asset: FurAsset, pelt: PeltStates, ground: Ground, release: () => void) {
 		const [{ textures }, fins] = pelt.cuts;
 		const finTextures = fins?.textures;
@@ -76,7 +83,7 @@ export class Fur {
 		this.material = new FurMaterial(asset, textures, { skinColour: colour.clone() });
 		this.fins =
 			fin && quads && finTextures
-				? new FurFins(quads, new FinMaterial(fin, finTextures, this.material, { finHeights }))
+				? new FurFins(quads, new FurFinMaterial(fin, finTextures, this.material, { finHeights }))
 				: undefined;
 		this.shells = new FurShells(surface, placement, asset, this.material);
 		this.fins?.join(this.shells, quadPlacement ?? this.shells);
@@ -84,10 +91,10 @@ export class Fur {
 		for (const part of [this.fins, this.shells]) if (part) this.#parts.add(part);
 		this.skin.parent?.add(this.#parts);
 		skin.cover(asset);
-		pelt.join(this.#stain);
+		pelt.subscribe(this.#stain);
 	}
 
-	/** Whether it is seen, and the skin as dark as below it: of several furs of a body below the one that was shown last. */
+	/** Whether shells and fins are drawn and the skin is shaded. Of several furs of a body, the one shown last shades the skin. */
 	get visible(): boolean {
 		return this.#parts.visible;
 	}
@@ -98,31 +105,66 @@ export class Fur {
 		else this.ground.skin.bare(this.asset);
 	}
 
-	/** How long it is, share of what was baked, 0.1 to 2: below 1 it is cut, above it is drawn out. */
-	get length(): number {
-		return this.#length;
+	/**
+	 * Advances motion, weather and a method's maps by a frame. Call it once per frame, before drawing, for one fur of a body;
+	 * for several bodies see `updateFurs`.
+	 *
+	 * @param seconds since the last frame; 0 shows changed settings without advancing
+	 * @returns whether the picture changes
+	 */
+	update(seconds: number): boolean {
+		return updateFurs(this.#itself, seconds);
 	}
 
-	set length(share: number) {
-		this.#length = share;
-		this.material.trim = Math.min(share, 1);
-		this.shells.furLength = share * this.asset.length;
+	/**
+	 * Length of the longest hairs, model units; 0.1 to 2 times `asset.length`, the baked one. Shorter hairs are cut, longer
+	 * ones are stretched.
+	 */
+	get length(): number {
+		return this.shells.furLength;
+	}
+
+	set length(length: number) {
+		this.material.trim = Math.min(length / this.asset.length, 1);
+		this.shells.furLength = length;
 		this.fins?.fit(this.shells);
 	}
 
 	/**
-	 * What its hairs stand in, and are moved, wetted and soiled by: the same ones for all furs of a body. Shells and fins
-	 * are told theirs when they are first asked for.
+	 * Points of the skin by which hairs move, get wet and get dirty; shared by all furs of a body. The first access gives
+	 * shells and fins the attribute `follicle`.
 	 */
-	get follicles(): Follicles {
+	get follicles(): FurFollicles {
 		return this.#mark();
 	}
 
+	/** Springs of the hairs; undefined: as baked. Furs of one body may share it. */
+	get motion(): FurMotion | undefined {
+		return this.#motion;
+	}
+
+	set motion(motion: FurMotion | undefined) {
+		if (motion === this.#motion) return;
+		this.#motion?.leave(this.#bending);
+		this.#motion = motion;
+		motion?.join(this.#bending);
+		this.swing = motion?.swing;
+	}
+
+	readonly #bending = {
+		follow: () => {
+			this.swing = this.#motion?.swing;
+		},
+		detach: () => {
+			this.motion = undefined;
+		},
+	};
+
 	/**
-	 * How far hairs are from where they were combed: RGBA floats, a texel for each of `follicles`, XYZ = displacement of the
-	 * tip beyond the comb, in the tangent plane, share of the length, axes of the shells' mesh; with the comb no longer than
-	 * 0.8. What writes into the texture on the GPU adds 1 to its `version`. Undefined, as the fur was baked, costs nothing; it
-	 * is that again when the texture is disposed of.
+	 * Displacement of hairs beyond their comb: RGBA floats, a texel per follicle, XYZ = displacement of the tip in the
+	 * tangent plane, share of the length, axes of the shells' mesh; with the comb no longer than 0.8. A writer on the GPU adds
+	 * 1 to the texture's `version`. Undefined means as baked, and costs nothing; disposing of the texture sets it back to that.
+	 * Attached motion sets it.
 	 */
 	get swing(): Texture | undefined {
 		return this.material.swing;
@@ -142,55 +184,62 @@ export class Fur {
 	};
 
 	/**
-	 * Columns of the picture within which shells and fins are drawn, undefined: all. So two furs of a body, in other light
-	 * each, share one render of the scene.
+	 * Columns of the picture in which shells and fins are drawn; undefined: all. Lets two furs of a body, lit differently,
+	 * share one render of the scene.
 	 */
-	get clip(): Columns | undefined {
+	get clip(): FurColumns | undefined {
 		return this.#clip;
 	}
 
-	set clip(columns: Columns | undefined) {
+	set clip(columns: FurColumns | undefined) {
 		this.#clip = columns;
 		for (const part of [this.fins, this.shells]) if (part) part.clip = columns;
 	}
 
-	#mark(): Follicles {
-		const follicles = Follicles.of(this.shells.geometry);
+	#mark(): FurFollicles {
+		const follicles = FurFollicles.of(this.shells.geometry);
 		for (const part of [this.fins, this.shells]) if (part) follicles.mark(part.geometry);
 		return follicles;
 	}
 
-	/** What of its file there is beside dry, clean fur; shown once `loadStates` has it. */
-	get hasStates(): HasStates {
+	/** States in the file beside dry, clean fur; shown once `loadStates` has loaded them. */
+	get states(): FurStates {
 		const { wet, dirty } = this.pelt.all;
 		return { wet: wet.length > 1, dirt: dirty !== undefined };
 	}
 
 	/**
-	 * Fetches and decodes the pelt's wet and dirty states, bit by bit, once: for all furs that wear it.
+	 * Fetches and decodes the pelt's wet and dirty states in small steps; once, for all furs with this pelt.
 	 *
-	 * @param most states in the textures at a time, by default as the loader was told
-	 * @returns rejects with an Error of one sentence where that fails; the fur is then as before, and it can be tried again
+	 * @param most states in the textures at a time; the loader's option by default
+	 * @returns rejects with an Error of one sentence on failure; the fur stays as it was, and a later call tries again
 	 */
 	loadStates(most?: number): Promise<void> {
 		return this.pelt.load(most);
 	}
 
-	/** Where it is wet and dirty, undefined: nowhere. Furs of one body may have theirs in common. */
+	/** Wetness and dirt over the body; undefined: dry and clean. Furs of one body may share it. */
 	get weather(): FurWeather | undefined {
 		return this.#weather;
 	}
 
 	set weather(weather: FurWeather | undefined) {
 		if (weather === this.#weather) return;
-		this.#weather?.leave(this.#stain);
+		this.#weather?.leave(this.#staining);
 		this.#weather = weather;
-		weather?.join(this.#stain);
+		weather?.join(this.#staining);
 		if (weather) this.#mark();
 		this.#stain();
 	}
 
-	/** Shows the weather, as far as there are states for it. */
+	readonly #staining = {
+		follow: () => this.#stain(),
+		detach: () => {
+			this.weather = undefined;
+		},
+	};
+
+	/** Show the weather as far as there are states for it. */
 	readonly #stain = (): void => {
 		const weather = this.#weather;
 		const { stains, driest = 0, wettest = 0, dirtiest = 0 } = weather ?? {};
@@ -202,18 +251,18 @@ export class Fur {
 		const states = wettest > 0 ? wet : wet.slice(0, 1);
 		this.material.setStains(shown ? { stains, wet: states, mud, clumps: dirty ? wet.length : undefined } : undefined);
 		this.ground.skin.soak(this.asset, this.#wetness());
-		if (weather || this.#isInScene()) this.pelt.want(this.#stain, driest, wettest);
-		else this.pelt.want(this.#stain, 1, 0);
+		if (weather || this.#isInScene()) this.pelt.request(this.#stain, driest, wettest);
+		else this.pelt.request(this.#stain, 1, 0);
 	};
 
-	/** A pelt that others are dressed in need not be: without weather of its own nobody asks how wet it is then. */
+	/** Whether the fur stands in a scene. A pelt that only dresses other bodies need not, and then asks for no states. */
 	#isInScene(): boolean {
 		let top: Object3D = this.#parts;
 		while (top.parent) top = top.parent;
 		return top instanceof Scene;
 	}
 
-	/** Undefined where it is not seen. */
+	/** Wetness of the skin; undefined unless wet states are shown. */
 	#wetness(): Wetness | undefined {
 		const weather = this.#weather;
 		return 'WET' in this.material.defines && weather
@@ -221,11 +270,12 @@ export class Fur {
 			: undefined;
 	}
 
-	/** Frees geometry, materials and textures; of a dressed body the materials alone, the rest is the body's and the pelt's. */
+	/** Frees geometry, materials and textures; for a fur made by `dressFur` the materials alone, the rest is the body's and the pelt's. */
 	readonly dispose = (): void => {
+		this.motion = undefined;
 		this.weather = undefined;
 		this.swing = undefined;
-		this.pelt.leave(this.#stain);
+		this.pelt.unsubscribe(this.#stain);
 		this.#parts.removeFromParent();
 		this.ground.skin.bare(this.asset);
 		this.#release();
@@ -235,63 +285,4 @@ export class Fur {
 		}
 		this.material.dispose();
 	};
-}
-
-/** Another geometry of the same vertices. */
-function shareGeometry(source: BufferGeometry): BufferGeometry {
-	const into = new BufferGeometry();
-	into.setIndex(source.index);
-	for (const [name, attribute] of Object.entries(source.attributes)) into.setAttribute(name, attribute);
-	into.userData = source.userData;
-	return into;
-}
-
-/** To be called before such a geometry is disposed of: it would take the vertices off the GPU with it. */
-function unshareGeometry(geometry: BufferGeometry): void {
-	geometry.setIndex(null);
-	for (const name of Object.keys(geometry.attributes)) geometry.deleteAttribute(name);
-}
-
-/** What `dress` may be told. */
-export interface DressOptions {
-	/** How far the body's second tip colour shows (on its belly, in patches), 0..1: 0 for a pelt that is the same all over. */
-	tips?: number;
-}
-
-/**
- * A body in the fur of another asset: its meshes in the other's planes, basis, colours, light curves, as long on this body
- * and in tiles of such a size as the other has them on its own, each measured by its largest side.
- *
- *     const fox = dress(bunny, pelt); // both loaded: `gltf.userData.fur`
- *     bunny.visible = false;
- *
- * It stands beside the body's own fur, looks as that does at the moment (gloss and the like), and is seen. It has the body's
- * geometry and the pelt's textures, and leaves them alone when it is disposed of: body and pelt have to outlive it, the
- * pelt's model needs no scene. How fur is combed and how its length changes from place to place is the body's. Texture
- * coordinates that the body was baked with (`--uv own`) may show a seam where they close; lapped ones don't.
- */
-export function dress(body: Fur, pelt: Fur, { tips = 1 }: DressOptions = {}): Fur {
-	const { ground } = body;
-	const length = (pelt.asset.length * ground.skin.extent) / pelt.ground.skin.extent;
-	const tile = length / pelt.asset.height;
-	const { skin, shells, fins } = body.asset;
-	const { fins: _, ...own } = pelt.asset;
-	const tiles = ((body.asset.tiles ?? 1) * (body.asset.length / body.asset.height)) / tile;
-	const asset: FurAsset = { ...own, skin, shells, tiles, length, ...(fins !== undefined && { fins }) };
-	const quads = body.fins && shareGeometry(body.fins.geometry);
-	const dressed = new Fur(
-		asset,
-		pelt.pelt,
-		{ ...ground, surface: body.shells.geometry, quads, quadPlacement: undefined },
-		() => {
-			unshareGeometry(dressed.shells.geometry);
-			if (quads) unshareGeometry(quads);
-		},
-	);
-	dressed.swing = body.swing;
-	dressed.weather = body.weather;
-	const { gloss, sharpness, backlight, environment, lampsPerFragment, multisampled } = body.material;
-	const look = { gloss, sharpness, backlight, environment, lampsPerFragment, multisampled };
-	Object.assign(dressed.material, look, { tipShare: tips });
-	return dressed;
 }

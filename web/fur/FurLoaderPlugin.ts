@@ -1,7 +1,6 @@
 import {
 	ClampToEdgeWrapping,
 	Color,
-	FileLoader,
 	LoaderUtils,
 	LoadingManager,
 	Material,
@@ -11,51 +10,54 @@ import {
 	type Texture,
 } from 'three';
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
+import { checkGeometry } from './body/checkGeometry.ts';
+import { Skin } from './body/Skin.ts';
 import { Fur } from './Fur.ts';
-import { EXTENSION, type Fin, type FurAsset, type Pelt, parseFur, VERSION } from './format.ts';
-import { decodePlanes, type Layout, type PlaneFile, type Role } from './levels.ts';
-import { checkLimits, type TextureLimits } from './limits.ts';
-import { ALPHA_CUT } from './lod.ts';
-import { type Cut, PeltStates } from './PeltStates.ts';
-import { textureArray } from './planes.ts';
-import { Skin } from './skin.ts';
-import { statesOf } from './states.ts';
-import type { FurTextures } from './texels.ts';
+import { checkGltf } from './format/gltf.ts';
+import { type Fin, FUR_EXTENSION, FUR_VERSION, type FurAsset, type Pelt, parseFur } from './format.ts';
+import type { FurTextures } from './light/texels.ts';
+import { download } from './planes/download.ts';
+import { checkLimits, type FurLimits } from './planes/furLimits.ts';
+import { decodePlanes, type Layout, type PlaneFile, type Role } from './planes/mipLevels.ts';
+import { type Cut, PeltStates } from './planes/PeltStates.ts';
+import { textureArray } from './planes/planes.ts';
+import { isWholePng } from './planes/png.ts';
+import { statesOf } from './planes/states.ts';
+import { ALPHA_CUT } from './shells/lod.ts';
 
 /**
- * Of the shells' planes. In close-ups of the bunny 2 is worth 1.4 dB against a supersampled picture, 4 and more 0.2 dB on
- * top. Fins gain nothing by it. Graphics cards hardly notice; of software rasterisers SwiftShader pays a quarter of the
- * frame for it, llvmpipe more than another frame.
+ * Anisotropy of the shells' planes. In close-ups of the bunny 2 gains 1.4 dB against a supersampled picture, 4 and more
+ * another 0.2 dB. Fins gain nothing. Graphics cards hardly notice; SwiftShader pays a quarter of the frame, llvmpipe more
+ * than another frame.
  */
 const ANISOTROPY = 2;
 
-/** What a texture may have of layers on any GPU with WebGL2. */
-const LEAST_LAYERS = 256;
+/** Layers per texture that every GPU with WebGL2 allows. */
+const MIN_LAYERS = 256;
 
-/** Where a pelt, or its side view, says which images are its. */
+/** Image indices of a pelt or fin. */
 type Stored = Pick<Pelt, 'planes' | 'colour' | 'direction'>;
 
-/** An image's file as it is. */
+/** File of an image, undecoded. */
 interface StoredImage {
 	name: string;
 	bytes: Uint8Array;
 }
 
-/** What a FurLoaderPlugin may be told. */
+/** Options of FurLoaderPlugin. */
 export interface FurLoaderOptions {
-	/** What the GPU takes, by `limitsOf`: an asset that asks for more is refused before its planes are decoded. */
-	limits?: TextureLimits;
-	/** Most texels that are averaged along the slant in which a shell is seen, 1 to 16, where the GPU can; 2 by default. */
+	/** Limits of the GPU, by `furLimits`: a larger asset is refused before its planes are decoded. */
+	limits?: FurLimits;
+	/** Anisotropy of the shells' planes, texels, 1 to 16 as far as the GPU allows; 2 by default. */
 	anisotropy?: number;
 	/**
-	 * Most states of a pelt, dry, wet and dirty, on the GPU at a time once they are wanted: all by default. Where a pelt has
-	 * more (or more layers than a texture takes) it is two, those around the wetness of its wearers, and which they are changes
-	 * with it; mud is then colour alone, without clumps of its own.
+	 * Most states of a pelt (dry, wet, dirty) on the GPU at a time; all by default. A pelt with more states, or more layers
+	 * than a texture takes, keeps two: those around its furs' present wetness. Mud is then colour alone, without clumps.
 	 */
 	states?: number;
-	/** Called where the fur is of a newer version than `VERSION`, so that the skin stays alone; without it, a warning on the console. */
+	/** Called for fur of a newer version than `FUR_VERSION`, of which only the skin is shown; a console warning by default. */
 	newer?: (version: string) => void;
-	/** Called with the loaded scene once its skin can be shown, in its own colours, before any plane has come. */
+	/** Called with the loaded scene once its skin can be shown, in its own colours, before any plane has been fetched. */
 	skin?: (scene: Object3D) => void;
 }
 
@@ -66,28 +68,57 @@ export interface FurLoaderOptions {
  *     const gltf = await loader.loadAsync('bunny/model.gltf');
  *     scene.add(gltf.scene);
  *
- * Of a newer version of the format the skin alone is shown, with a warning. Broken data rejects the promise with an
+ * A newer version of the format shows the skin alone, with a warning. Broken data rejects the promise with an
  * Error that says what is wrong.
  */
 export class FurLoaderPlugin implements GLTFLoaderPlugin {
-	/** The extension that it reads. */
-	readonly name = EXTENSION;
+	/** Name of the extension. */
+	readonly name = FUR_EXTENSION;
 	readonly #parser: GLTFParser;
 	readonly #options: FurLoaderOptions;
+	readonly #buffers: Promise<ArrayBuffer>[] = [];
 
+	/** @throws Error for an asset with fur whose glTF itself is broken: three's loader would read it without a look */
 	constructor(parser: GLTFParser, options: FurLoaderOptions = {}) {
 		this.#parser = parser;
 		this.#options = options;
+		if (this.#extension) checkGltf(parser.json);
+	}
+
+	get #extension() {
+		return this.#parser.json.extensions?.[FUR_EXTENSION];
+	}
+
+	/** Called by the loader: reads from a buffer that has arrived whole. */
+	loadBufferView(index: number): Promise<ArrayBuffer> | null {
+		if (!this.#extension) return null;
+		const { buffer, byteOffset = 0, byteLength } = this.#parser.json.bufferViews[index];
+		this.#buffers[buffer] ??= this.#buffer(buffer);
+		return this.#buffers[buffer].then((bytes) => bytes.slice(byteOffset, byteOffset + byteLength));
+	}
+
+	async #buffer(index: number): Promise<ArrayBuffer> {
+		const { json, options, extensions } = this.#parser;
+		const { uri, byteLength } = json.buffers[index];
+		const name = nameOf(uri) ?? `buffer ${index}`;
+		const isWhole = (bytes: ArrayBuffer) => bytes.byteLength >= byteLength;
+		const bytes: ArrayBuffer | undefined =
+			uri === undefined
+				? extensions.KHR_binary_glTF?.body
+				: await this.#download(name, LoaderUtils.resolveURL(uri, options.path), options.manager, isWhole);
+		const got = bytes?.byteLength ?? 0;
+		if (!bytes || got < byteLength) throw new Error(`${name}: got ${got} bytes, expected ${byteLength}`);
+		return bytes;
 	}
 
 	/** Called by the loader: grows the fur. */
 	async afterRoot(gltf: GLTF): Promise<void> {
-		const extension = this.#parser.json.extensions?.[EXTENSION];
+		const extension = this.#extension;
 		if (!extension) return;
 		const asset = parseFur(extension);
 		if (!asset) {
 			const warn = (version: string) =>
-				console.warn(`${EXTENSION}: version ${version} is newer than ${VERSION}; showing the skin alone`);
+				console.warn(`${FUR_EXTENSION}: version ${version} is newer than ${FUR_VERSION}; showing the skin alone`);
 			return (this.#options.newer ?? warn)(extension.version);
 		}
 		if (this.#options.limits) checkLimits(asset, this.#options.limits);
@@ -113,7 +144,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 			finHeights: asset.tiles ?? 1,
 		};
 		const cuts = [shells, fins].filter((cut) => cut !== undefined) as [Cut, Cut?];
-		const { states = Number.POSITIVE_INFINITY, limits = { layers: LEAST_LAYERS } } = this.#options;
+		const { states = Number.POSITIVE_INFINITY, limits = { layers: MIN_LAYERS } } = this.#options;
 		const worn = new PeltStates(asset, cuts, states, limits.layers);
 		return new Fur(asset, worn, ground, () => {
 			skin.dispose();
@@ -121,11 +152,12 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		});
 	}
 
-	/** What the fur stands on, as bright as without it until there is any. */
+	/** Skin, shells' mesh and base colour; the skin stays unshaded until there is fur. */
 	async #body(asset: FurAsset, scene: Object3D): Promise<{ skin: Skin; surface: Mesh; colour: Color }> {
 		const [surface, object] = await Promise.all([this.#mesh(asset.shells, 'shells'), this.#skin(asset.skin)]);
 		const pieces = isMesh(object) ? [object] : (object.children as Mesh[]);
-		// Shells that bring colours bring the whole of them: those of several materials, or of a picture.
+		for (const { geometry } of pieces) checkGeometry(`${FUR_EXTENSION}/skin`, geometry);
+		// Vertex colours of the shells already contain the base colour of every material or picture.
 		const own = pieces[0]?.material as MeshStandardMaterial | undefined;
 		const colour = (!surface.geometry.hasAttribute('color') && own?.color) || new Color(1, 1, 1);
 		const together = object.matrix.equals(surface.matrix);
@@ -134,20 +166,21 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		return { skin, surface, colour };
 	}
 
-	/** The node's mesh, with what the shaders of shells and fins can't do without. */
+	/** The node's mesh, checked for the attributes that shells or fins need. */
 	async #mesh(node: number, role: 'shells' | 'fins'): Promise<Mesh> {
 		const object = await this.#node(node);
-		if (!isMesh(object)) throw new Error(`${EXTENSION}/${role}: node ${node} is no mesh with one primitive`);
+		if (!isMesh(object)) throw new Error(`${FUR_EXTENSION}/${role}: node ${node} is no mesh with one primitive`);
 		for (const name of ['normal', 'tangent', 'uv']) {
-			if (!object.geometry.hasAttribute(name)) throw new Error(`${EXTENSION}/${role}: the mesh has no ${name}s`);
+			if (!object.geometry.hasAttribute(name)) throw new Error(`${FUR_EXTENSION}/${role}: the mesh has no ${name}s`);
 		}
+		checkGeometry(`${FUR_EXTENSION}/${role}`, object.geometry);
 		return object;
 	}
 
 	async #skin(node: number): Promise<Object3D> {
 		const object = await this.#node(node);
 		const meshes = object && (isMesh(object) || (object.children.length > 0 && object.children.every(isMesh)));
-		if (!meshes) throw new Error(`${EXTENSION}/skin: node ${node} is no mesh`);
+		if (!meshes) throw new Error(`${FUR_EXTENSION}/skin: node ${node} is no mesh`);
 		return object;
 	}
 
@@ -166,7 +199,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		return cut;
 	}
 
-	/** Fins drop nothing by its coverage, and end at their tips. */
+	/** Planes of the fins: no alpha cut, clamped at the tips. */
 	async #finCut(asset: FurAsset, fin: Fin): Promise<Cut> {
 		const { width, height } = fin;
 		const extent = { width, height, layers: 1 };
@@ -176,8 +209,8 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		return cut;
 	}
 
-	/** @param of its part of a state */
-	async #cut(asset: FurAsset, worn: Stored, layout: Layout, of: (state: Pelt) => Stored): Promise<Cut> {
+	/** @param partOf the cut's part of a state */
+	async #cut(asset: FurAsset, worn: Stored, layout: Layout, partOf: (state: Pelt) => Stored): Promise<Cut> {
 		const planes = this.#planes(worn).map(({ role, index }) => this.#image(index).then((file) => ({ role, ...file })));
 		const textures: Record<string, Texture> = {};
 		for (const { role, name, levels } of await decodePlanes(await Promise.all(planes), layout))
@@ -185,7 +218,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		const { wet, dirty } = statesOf(asset);
 		const files = new Map<Pelt, () => Promise<PlaneFile>[]>();
 		for (const state of [...wet.slice(1), ...(dirty ? [dirty] : [])]) {
-			const { planes, colour } = of(state);
+			const { planes, colour } = partOf(state);
 			const stored = this.#planes({ planes, ...(!state.dirt && colour !== undefined && { colour }) });
 			const wanted = await Promise.all(
 				stored.map(async ({ role, index }) => {
@@ -199,7 +232,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		return { textures: textures as unknown as FurTextures, layout, fetch };
 	}
 
-	/** Those with coefficients first: the mip levels look for the coverage there. */
+	/** Planes with coefficients first: the mip levels read the coverage there. */
 	#planes({ planes: [plane0, plane1], colour, direction }: Stored): { role: Role; index: number }[] {
 		const roles = { plane0, plane1, colour, direction };
 		return Object.entries(roles).flatMap(([role, index]) =>
@@ -208,8 +241,8 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 	}
 
 	/**
-	 * The file of an image that is wanted later, if at all: nothing is fetched over the net for it now. What is in memory, in a
-	 * .glb or at an address that its owner may take back, is kept.
+	 * Loader of an image that may be needed later; nothing is fetched over the network now. Data in memory (a .glb, a blob
+	 * address that its owner may revoke) is kept.
 	 */
 	async #later(index: number): Promise<() => Promise<StoredImage>> {
 		const { json, options } = this.#parser;
@@ -224,30 +257,45 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		}
 	}
 
-	/** The file of an image as it is: what the loader would make of it has gone through the browser's own decoder. */
+	/** File of an image, undecoded: the loader's own textures have gone through the browser's decoder. */
 	async #image(index: number): Promise<StoredImage> {
 		const { json, options } = this.#parser;
 		const definition = json.images?.[index];
-		if (!definition) throw new Error(`${EXTENSION}/pelts: image ${index} is not in the file`);
+		if (!definition) throw new Error(`${FUR_EXTENSION}/pelts: image ${index} is not in the file`);
 		if (definition.bufferView !== undefined) {
 			const bytes: ArrayBuffer = await this.#parser.getDependency('bufferView', definition.bufferView);
 			return { name: definition.name ?? `image ${index}`, bytes: new Uint8Array(bytes) };
 		}
-		return this.#file(definition.uri, LoaderUtils.resolveURL(definition.uri, options.path), options.manager);
+		const { uri, name = `image ${index}` } = definition;
+		return this.#file(nameOf(uri) ?? name, LoaderUtils.resolveURL(uri, options.path), options.manager);
 	}
 
 	async #file(name: string, url: string, manager: LoadingManager): Promise<StoredImage> {
+		const bytes = await this.#download(name, url, manager, (bytes) => isWholePng(new Uint8Array(bytes)));
+		return { name, bytes: new Uint8Array(bytes) };
+	}
+
+	async #download(
+		name: string,
+		url: string,
+		manager: LoadingManager,
+		isWhole: (bytes: ArrayBuffer) => boolean,
+	): Promise<ArrayBuffer> {
 		const { requestHeader, crossOrigin } = this.#parser.options;
-		const loader = new FileLoader(manager);
-		loader.setResponseType('arraybuffer');
-		loader.setRequestHeader(requestHeader);
-		loader.setWithCredentials(crossOrigin === 'use-credentials');
 		try {
-			return { name, bytes: new Uint8Array((await loader.loadAsync(url)) as ArrayBuffer) };
+			return await download(
+				{ url, requestHeader, withCredentials: crossOrigin === 'use-credentials', isWhole },
+				manager,
+			);
 		} catch (error) {
 			throw new Error(`${name}: could not be loaded (${(error as Error).message})`);
 		}
 	}
+}
+
+/** Name of a file; undefined for data in the address itself. */
+function nameOf(uri: string | undefined): string | undefined {
+	return uri?.startsWith('data:') ? undefined : uri;
 }
 
 function isMesh(object: Object3D | undefined): object is Mesh {

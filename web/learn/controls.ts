@@ -1,4 +1,4 @@
-/** Parts that figures are made of: a canvas, sliders, choices, buttons, numbers in words. All of plain HTML. */
+/** Parts of figures in plain HTML: canvas, sliders, choices, buttons, notes. */
 
 let made = 0;
 
@@ -10,9 +10,9 @@ function add<K extends keyof HTMLElementTagNameMap>(parent: Element, tag: K, cla
 }
 
 /**
- * A canvas that can be focused, as wide as its place.
+ * Focusable canvas, as wide as its place.
  *
- * @param label for those who cannot see it
+ * @param label accessible name
  * @param aspect width over height
  */
 export function figureCanvas(place: Element, label: string, aspect: number): HTMLCanvasElement {
@@ -24,7 +24,7 @@ export function figureCanvas(place: Element, label: string, aspect: number): HTM
 	return canvas;
 }
 
-/** A row for controls below a picture. */
+/** Row for controls below a picture. */
 export function controlRow(place: Element): HTMLElement {
 	return add(place, 'div', 'controls');
 }
@@ -35,9 +35,9 @@ export interface SliderOptions {
 	max: number;
 	step: number;
 	value: number;
-	/** What is said of the value beside the slider. */
+	/** Text of the value beside the slider. */
 	text: (value: number) => string;
-	/** Called when it is moved, and once at first. */
+	/** Called on every move, and once at first. */
 	input: (value: number) => void;
 }
 
@@ -75,7 +75,7 @@ export function slider(place: Element, { label, min, max, step, value, text, inp
 	};
 }
 
-/** One of several, as radio buttons in a row. @param options value → label */
+/** Choice of one, as radio buttons in a row. @param options value → label */
 export function choice<T extends string>(
 	place: Element,
 	label: string,
@@ -98,7 +98,7 @@ export function choice<T extends string>(
 	return set;
 }
 
-/** A button that does something. */
+/** Button with an action. */
 export function action(place: Element, label: string, act: () => void): HTMLButtonElement {
 	const button = add(place, 'button', 'action');
 	button.type = 'button';
@@ -107,21 +107,21 @@ export function action(place: Element, label: string, act: () => void): HTMLButt
 	return button;
 }
 
-/** A line of numbers below a figure, spoken when it changes only where `live`. */
+/** Line of numbers below a figure; `live` announces changes to screen readers. */
 export function note(place: Element, live = false): HTMLParagraphElement {
 	const line = add(place, 'p', 'note');
 	if (live) line.setAttribute('aria-live', 'polite');
 	return line;
 }
 
-/** A row of pictures side by side. */
+/** Row of pictures side by side. */
 export function panes(place: Element, count: number): HTMLElement {
 	const row = add(place, 'div', 'panes');
 	row.style.setProperty('--panes', String(count));
 	return row;
 }
 
-/** One of a row of pictures, with room for words below it. */
+/** One picture of a row, with a caption below. */
 export function pane(row: Element): { element: HTMLElement; caption: HTMLParagraphElement } {
 	const box = add(row, 'div', 'pane');
 	const element = add(box, 'div');

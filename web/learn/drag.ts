@@ -1,10 +1,10 @@
-/** Hands on a figure's canvas: drags and arrow keys move the light; a finger that moves up or down scrolls the page. */
+/** Input on a figure's canvas: drags and arrow keys move the light; vertical strokes of a finger scroll the page. */
 
 import { type Camera, MathUtils, Object3D, Vector2, Vector3 } from 'three';
 import { directionUnder } from '../page/aim.ts';
 import type { SharedLight } from './light.ts';
 
-const STEP = MathUtils.degToRad(5); // of an arrow key
+const STEP = MathUtils.degToRad(5); // per arrow key
 
 const ARROWS: Record<string, [right: number, up: number]> = {
 	ArrowLeft: [-1, 0],
@@ -23,15 +23,14 @@ export function arrows(target: HTMLElement, step: (right: number, up: number) =>
 	});
 }
 
-/** Has arrow keys move the light while `target` is focused. */
+/** Lets arrow keys move the light while `target` is focused. */
 export function lightByKeys(target: HTMLElement, light: SharedLight): void {
 	arrows(target, (right, up) => light.turn(right * STEP, up * STEP));
 }
 
 /**
- * Calls `move` with the place on the canvas, in normalised device coordinates (-1..1, y up), of the mouse, pen or finger
- * that drags on it, and `end` when it lets go. The style sheet leaves vertical strokes of a finger to the page:
- * `touch-action: pan-y`.
+ * Calls `move` with the place on the canvas, in normalised device coordinates (-1..1, y up), of a dragging mouse, pen or
+ * finger, and `end` on release. The style sheet leaves vertical strokes of a finger to the page: `touch-action: pan-y`.
  */
 export function listenToDrags(
 	canvas: HTMLCanvasElement,
@@ -61,7 +60,7 @@ export function listenToDrags(
 		if (id === dragging) follow(event);
 	});
 	canvas.addEventListener('pointerup', (event) => {
-		// A tap is a drag without a way.
+		// A tap is a drag of length 0.
 		if (event.pointerId !== touched?.id || dragging !== undefined) return;
 		follow(event);
 		end();
@@ -76,9 +75,9 @@ export function listenToDrags(
 }
 
 /**
- * The lamp rides on a sphere around `centre`: drags put it under the finger. Arrow keys move it, too.
+ * Lets drags put the lamp under the finger, on a sphere around `centre`, and arrow keys move it.
  *
- * @param turn radians by which it stands further about the upright axis here than in other figures
+ * @param turn turn of the lamp about the upright axis against other figures, radians
  */
 export function lightByHand(
 	canvas: HTMLCanvasElement,

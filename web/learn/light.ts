@@ -1,12 +1,12 @@
-/** The one light of the lesson: moved in any figure, it moves in all. */
+/** Shared light of the lesson: moved in any figure, it moves in all. */
 
 import { MathUtils, type Vector3 } from 'three';
 import { MovingLight, type Triple, turned } from '../page/light.ts';
 
-/** How near the horizon it may sink, as its height on the unit sphere: the lesson's dome ends there. */
+/** Lowest height of the light on the unit sphere, where the lesson's dome ends. */
 const LOWEST = Math.sin(MathUtils.degToRad(4));
 
-/** Seconds between two pictures while it drifts. */
+/** Seconds between two pictures while drifting. */
 const DRIFT_FRAME = 1 / 36;
 
 export type LightListener = (direction: Vector3) => void;
@@ -19,9 +19,9 @@ export class SharedLight {
 	#late = 0;
 
 	/**
-	 * @param first direction to the lamp
-	 * @param calm whether it jumps where it is wanted and never moves by itself
-	 * @param wake has the next frame call `step`
+	 * @param first initial direction to the lamp
+	 * @param calm whether the light jumps to its target and never drifts
+	 * @param wake requests a call of `step` in the next frame
 	 */
 	constructor(first: Triple, calm: boolean, wake: () => void) {
 		this.#moving = new MovingLight(!calm);
@@ -29,22 +29,22 @@ export class SharedLight {
 		this.#wake = wake;
 	}
 
-	/** Unit vector to the lamp in world axes: x right, y up, z towards the reader. Of the upper half only: y > 0. */
+	/** Unit vector to the lamp in world axes: x right, y up, z towards the reader. Always above the horizon: y > 0. */
 	get direction(): Readonly<Vector3> {
 		return this.#moving.direction;
 	}
 
-	/** True until somebody takes the light. */
+	/** Whether the light drifts, as it does until it is set. */
 	get drifting(): boolean {
 		return this.#moving.drifting;
 	}
 
-	/** Takes the light; it glides there. What is below the horizon is raised to it. */
+	/** Sets the light's target, raised to the horizon if below. */
 	set(x: number, y: number, z: number): void {
 		this.#want((wanted) => wanted.set(x, y, z).normalize());
 	}
 
-	/** Takes the light and turns it about the upright axis, and up; radians. */
+	/** Turns the light's target about the upright axis, and up; radians. */
 	turn(azimuth: number, elevation: number): void {
 		this.#want((wanted) => turned(wanted, azimuth, elevation));
 	}
@@ -61,17 +61,17 @@ export class SharedLight {
 		this.#wake();
 	}
 
-	/** Calls back now and whenever the light has moved. @returns what ends it */
+	/** Calls back now and whenever the light has moved. @returns function that unsubscribes */
 	listen(listener: LightListener): () => void {
 		this.#listeners.add(listener);
 		listener(this.#moving.direction);
 		return () => this.#listeners.delete(listener);
 	}
 
-	/** @param elapsed seconds since the last frame; @returns whether it is still on its way */
+	/** @param elapsed seconds since the last frame; @returns whether it is still moving */
 	step(elapsed: number): boolean {
 		this.#late += elapsed;
-		// By itself it is slow: half of the frames do, and the machine stays cool.
+		// The drift is slow: half of the frames are enough.
 		if (this.drifting && this.#late < DRIFT_FRAME) return true;
 		const moved = this.#moving.step(this.#late);
 		this.#late = 0;

@@ -1,4 +1,4 @@
-/** The lesson: text of one language, and the figures in it, each built when it comes near the window. */
+/** Lesson: text of one language with its figures, each built when it comes near the window. */
 
 import 'katex/dist/katex.min.css';
 import { element, setState } from '../page/element.ts';
@@ -42,7 +42,7 @@ function newLesson(language: Language): Lesson {
 	return { language, words: WORDS[language], calm, light, painter };
 }
 
-/** Builds one figure; where that fails, says why in its place. @returns where it is */
+/** Builds one figure, or shows why it failed. @returns its place */
 async function build(figure: HTMLElement, lesson: Lesson): Promise<HTMLElement> {
 	const place = document.createElement('div');
 	place.className = 'live';
@@ -63,7 +63,7 @@ async function build(figure: HTMLElement, lesson: Lesson): Promise<HTMLElement> 
 	return place;
 }
 
-/** Says of the figure, and of the page by its first one, that all of it has been drawn. */
+/** Marks the figure as drawn, and the page with its first one. */
 async function settled(figure: HTMLElement, place: HTMLElement, { painter }: Lesson): Promise<void> {
 	if (figure.dataset.state !== 'failed') {
 		await painter.drawn(place);
@@ -72,7 +72,7 @@ async function settled(figure: HTMLElement, place: HTMLElement, { painter }: Les
 	if (document.documentElement.dataset.state === 'loading') setState(figure.dataset.state as 'ready' | 'failed');
 }
 
-/** The one that is least far from the middle of the window. */
+/** Figure nearest to the middle of the window. */
 function nearest(figures: Iterable<HTMLElement>): HTMLElement | undefined {
 	const away = (figure: HTMLElement) => {
 		const { top, bottom } = figure.getBoundingClientRect();
@@ -81,7 +81,7 @@ function nearest(figures: Iterable<HTMLElement>): HTMLElement | undefined {
 	return [...figures].sort((a, b) => away(a) - away(b))[0];
 }
 
-/** A link to every step, the one being read marked. */
+/** Links to all steps; marks the one being read. */
 function fillContents(nav: HTMLElement, label: string): void {
 	nav.setAttribute('aria-label', label);
 	const links = new Map<Element, HTMLAnchorElement>();
@@ -110,13 +110,13 @@ async function start(): Promise<void> {
 	fillHeader(document.querySelector('nav.site') as HTMLElement, 'learn', language);
 	element('lesson').innerHTML = (await texts[language]()).default;
 	fillContents(element('steps'), WORDS[language].steps);
-	// The text moves the place that the address asks for.
+	// The inserted text moves the address's target.
 	document.getElementById(location.hash.slice(1))?.scrollIntoView({ behavior: 'instant' });
 
 	const lesson = newLesson(language);
 	const waiting = new Set<HTMLElement>();
 	let building = false;
-	// One after the other, what is being looked at first.
+	// One after the other, nearest first.
 	const next = async () => {
 		const figure = nearest(waiting);
 		if (!figure || building) return;
@@ -129,7 +129,7 @@ async function start(): Promise<void> {
 	const near = new IntersectionObserver(
 		(changes) => {
 			for (const { target, isIntersecting } of changes) {
-				// It may report a figure twice at once.
+				// A figure may be reported twice.
 				if (!isIntersecting || (target as HTMLElement).dataset.state) continue;
 				near.unobserve(target);
 				waiting.add(target as HTMLElement);
@@ -140,7 +140,7 @@ async function start(): Promise<void> {
 	);
 	const figures = [...document.querySelectorAll<HTMLElement>('figure[data-figure]')];
 	for (const figure of figures) near.observe(figure);
-	// One is built in any case: in a small window none may be near.
+	// Build at least one: in a small window none may be near.
 	const first = nearest(figures);
 	if (first) waiting.add(first);
 	void next();

@@ -1,4 +1,4 @@
-/** Texts are HTML when the page gets them: see tools/lesson.mjs. */
+/** HTML of a Markdown text: see tools/site/lesson.mjs. */
 declare module '*.md' {
 	const html: string;
 	export default html;

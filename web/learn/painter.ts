@@ -1,4 +1,4 @@
-/** One WebGL context for all figures: each is drawn into a canvas of its own, while it is on screen and has changed. */
+/** One WebGL context for all figures: each is drawn into its own canvas while on screen and changed. */
 
 import {
 	type Camera,
@@ -11,18 +11,18 @@ import {
 	WebGLRenderTarget,
 } from 'three';
 import { OutputPass } from 'three/addons/postprocessing/OutputPass.js';
-import { limitsOf, type TextureLimits } from '../fur/index.ts';
+import { type FurLimits, furLimits } from '../fur/index.ts';
 import { disposeAll } from '../page/dispose.ts';
 
 const MAX_PIXEL_RATIO = 2;
-/** Of samples per pixel, where pixels are not small themselves. */
+/** Samples per pixel on screens of low density. */
 const SAMPLES = 4;
-/** Screens before and after the one on show, within which a picture is drawn already. */
+/** Margin around the window within which pictures are drawn, share of the window. */
 export const MARGIN = '50%';
 
 /** A figure's canvas. */
 export interface Picture {
-	/** Has it drawn anew in the next frame, or as soon as it is on screen. */
+	/** Requests a redraw in the next frame, or once on screen. */
 	redraw(): void;
 	readonly visible: boolean;
 	remove(): void;
@@ -31,7 +31,7 @@ export interface Picture {
 interface Entry extends Picture {
 	draw: () => void;
 	dirty: boolean;
-	/** Whether it has ever been drawn: the first time it is, wherever it is. */
+	/** Whether it has ever been drawn; the first draw happens even off screen. */
 	drawn: boolean;
 	visible: boolean;
 }
@@ -71,7 +71,7 @@ export class Painter {
 		this.#output = output();
 		const canvas = this.#output?.renderer.domElement;
 		canvas?.addEventListener('webglcontextlost', () => {
-			// three would later ask the new context to delete what belonged to the old one.
+			// Free now: later three would ask the new context to delete objects of the old one.
 			for (const scene of this.#scenes) forget(scene);
 			this.#output?.target.dispose();
 			this.#output?.pass.dispose();
@@ -80,11 +80,11 @@ export class Painter {
 			if (this.#output) this.#output.pass = toScreen();
 			for (const entry of this.#entries.values()) entry.redraw();
 		});
-		// What is printed is whole.
+		// Printing needs all pictures.
 		addEventListener('beforeprint', () => this.#paint(() => true));
 	}
 
-	/** Whether nothing is drawn, since something else needs the machine for itself. */
+	/** Whether drawing is paused, to leave the machine to a measurement. */
 	get paused(): boolean {
 		return this.#paused;
 	}
@@ -94,19 +94,19 @@ export class Painter {
 		this.wake();
 	}
 
-	/** undefined where there is no WebGL2: three-dimensional figures have to fail then, others go on. */
+	/** Renderer; undefined without WebGL2, when only three-dimensional figures fail. */
 	get renderer(): WebGLRenderer | undefined {
 		return this.#output?.renderer;
 	}
 
-	/** What the GPU takes; the most generous where there is none. */
-	get limits(): TextureLimits | undefined {
-		return this.#output && limitsOf(this.#output.renderer.getContext() as WebGL2RenderingContext);
+	/** Limits of the GPU; undefined without one. */
+	get limits(): FurLimits | undefined {
+		return this.#output && furLimits(this.#output.renderer.getContext() as WebGL2RenderingContext);
 	}
 
 	/**
-	 * @param canvas has its size from style sheets; its pixels are set here
-	 * @param draw draws the whole of it, by a 2D context of its own or by `render`
+	 * @param canvas canvas sized by style sheets; its pixels are set here
+	 * @param draw draws all of it, by its 2D context or by `render`
 	 */
 	picture(canvas: HTMLCanvasElement, draw: () => void): Picture {
 		const entry: Entry = {
@@ -157,20 +157,20 @@ export class Painter {
 		context?.drawImage(whole, 0, whole.height - height, width, height, 0, 0, width, height);
 	}
 
-	/** Calls `step` before every frame for as long as it returns true; after that, `wake` is wanted for another. */
+	/** Calls `step` before every frame while it returns true; after that `wake` starts it again. */
 	animate(step: (elapsed: number) => boolean): void {
 		this.#steps.add(step);
 		this.wake();
 	}
 
-	/** Has a frame drawn where anything is to be drawn. */
+	/** Requests a frame. */
 	wake(): void {
 		if (this.#requested || this.#paused) return;
 		this.#requested = true;
 		requestAnimationFrame((now) => this.#frame(now));
 	}
 
-	/** Fulfilled when every picture in `place` has been drawn as it is wanted now. */
+	/** Resolves when every picture in `place` is up to date. */
 	drawn(place: Element): Promise<void> {
 		this.wake();
 		return new Promise((resolve) => this.#waiting.push({ place, resolve }));
@@ -179,7 +179,7 @@ export class Painter {
 	#frame(now: number): void {
 		this.#requested = false;
 		if (this.#paused) return;
-		// A frame after a pause is like one after a hiccup.
+		// Bound the time after a pause.
 		const elapsed = Math.min((now - this.#before) / 1000, 0.1);
 		this.#before = now;
 		let moving = false;
@@ -203,11 +203,11 @@ export class Painter {
 	}
 
 	#fit(canvas: HTMLCanvasElement): void {
-		// On paper a picture stays what it was on screen: there is no next frame to draw it anew.
+		// Printed pictures keep their size: there is no next frame to redraw them.
 		if (matchMedia('print').matches) return;
 		const ratio = Math.min(devicePixelRatio, MAX_PIXEL_RATIO);
 		const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((side) => Math.round(side * ratio));
-		// Not shown just now.
+		// Hidden.
 		if (!width || !height) return;
 		if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
 		this.#entries.get(canvas)?.redraw();
@@ -227,11 +227,11 @@ function toScreen(): OutputPass {
 	return pass;
 }
 
-/** Fur blends in linear light: into half floats where the GPU has them, and on to the screen from there. */
+/** Target for blending in linear light: half floats where the GPU has them. */
 function output(): Output | undefined {
 	const canvas = document.createElement('canvas');
 	const attributes: WebGLContextAttributes = { antialias: false, depth: false, powerPreference: 'high-performance' };
-	// The renderer complains where there is none; the pages don't.
+	// Asked here, since the renderer would log an error.
 	const gl = canvas.getContext('webgl2', attributes);
 	if (!gl) return undefined;
 	const half = gl.getExtension('EXT_color_buffer_float') ?? gl.getExtension('EXT_color_buffer_half_float');

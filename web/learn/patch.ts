@@ -1,14 +1,14 @@
-/** A square of fur with nothing lapped: whole tiles side by side, all lengths in tile widths. u runs along x, v against z. */
+/** Square of fur without lapped patches: whole tiles side by side, lengths in tile widths. u runs along x, v against z. */
 
 import { type BufferGeometry, Color, Mesh, MeshStandardMaterial, Object3D, PlaneGeometry, Vector3 } from 'three';
 import { Fur, type FurShells } from '../fur/index.ts';
 
 /** Squares per tile: the lights' moments are sums at their corners. */
 const CELLS = 4;
-/** What is left of the roots' colour on the skin, in the shadow of all the fur above it. */
+/** Share of the roots' colour that the skin shows in the shadow of its fur. */
 const SHADE = 0.35;
 
-/** A flat square of tiles with the attributes that shells need. @param tiles across; @param cells squares of the mesh across */
+/** Flat square of tiles with the shells' attributes. @param tiles across; @param cells squares of the mesh across */
 export function tiled(tiles: number, cells = Math.max(1, Math.round(tiles * CELLS))): PlaneGeometry {
 	const square = new PlaneGeometry(tiles, tiles, cells, cells).rotateX(-Math.PI / 2);
 	const uv = square.getAttribute('uv');
@@ -21,14 +21,14 @@ export function tiled(tiles: number, cells = Math.max(1, Math.round(tiles * CELL
 }
 
 export class FurPatch extends Object3D {
-	/** As on any body: it can swing and get wet. */
+	/** Fur of the square, which can swing and get wet. */
 	readonly fur: Fur;
 	readonly shells: FurShells;
 	readonly skin: Mesh<BufferGeometry, MeshStandardMaterial>;
-	/** Longest hairs. */
+	/** Length of the longest hairs. */
 	readonly height: number;
 
-	/** @param pelt any fur of it; @param surface instead of a square of so many tiles */
+	/** @param pelt any fur with this pelt; @param surface replaces the square of tiles */
 	constructor(pelt: Pick<Fur, 'asset' | 'pelt' | 'ground'>, tiles: number, surface = tiled(tiles)) {
 		super();
 		this.height = pelt.asset.height;
@@ -42,11 +42,11 @@ export class FurPatch extends Object3D {
 			new PlaneGeometry(tiles, tiles).rotateX(-Math.PI / 2),
 			new MeshStandardMaterial({ color: shade }),
 		);
-		// Beside the pelt's own skin the shells would be in another scene.
+		// The pelt's own skin may be in another scene.
 		this.add(this.skin, this.shells);
 	}
 
-	/** Middle of the fur. */
+	/** Centre of the fur. */
 	get middle(): Vector3 {
 		return new Vector3(0, this.height / 2, 0).add(this.position);
 	}

@@ -1,4 +1,4 @@
-/** A three-dimensional figure: a scene under the lesson's light, and one window on it or several, whose cameras stay. */
+/** Three-dimensional figure: a scene under the lesson's light, with one or more windows of fixed cameras. */
 
 import {
 	type Camera,
@@ -13,7 +13,7 @@ import {
 	type Vector2,
 	Vector3,
 } from 'three';
-import { fitShadow } from '../fur/index.ts';
+import { fitFurShadow } from '../fur/index.ts';
 import { backdrop } from '../page/backdrop.ts';
 import { Lamp, lampDistance } from '../page/lamp.ts';
 import { figureCanvas } from './controls.ts';
@@ -21,45 +21,45 @@ import { lightByHand, lightByKeys, listenToDrags } from './drag.ts';
 import type { Lesson } from './lesson.ts';
 import type { Picture } from './painter.ts';
 
-/** Degrees. */
+/** Vertical field of view, degrees. */
 const FIELD_OF_VIEW = 24;
-/** Of the window over the sphere on which the lamp rides, for its halo. */
+/** Size of the window over the lamp's sphere, for the lamp's halo. */
 const ROOM = 1.06;
 
 const keyColour = new Color(1, 0.95, 0.87).multiplyScalar(2.8 * Math.PI);
 
 export interface WindowOptions {
-	/** For those who cannot see it. */
+	/** Accessible name. */
 	label: string;
 	/** Width over height. */
 	aspect?: number;
-	/** Where the camera stands: degrees to the right of the front and above the ground. */
+	/** Camera: degrees to the right of the front and above the ground. */
 	azimuth?: number;
 	elevation?: number;
-	/** The same where the camera moves: read before every picture. */
+	/** Moving camera: read before every picture. */
 	eye?: Readonly<{ azimuth: number; elevation: number }>;
-	/** How much nearer than where the whole sphere of the lamp is in the picture. */
+	/** Zoom over the view of the lamp's whole sphere. */
 	zoom?: number;
-	/** What is in the middle of the picture; else what the lamp turns about. */
+	/** Middle of the picture; the lamp's centre by default. */
 	target?: Vector3;
-	/** Whether the lamp is in the picture, and moved by hand there. */
+	/** Whether the lamp is shown and can be dragged. */
 	lamp?: boolean;
-	/** Degrees by which the lamp stands further about the upright axis in this window than in others. */
+	/** Turn of the lamp about the upright axis against other windows, degrees. */
 	turn?: number;
-	/** What drags do here instead of moving the lamp, which is left to arrow keys; `pointer` is undefined when one ends. */
+	/** Drags instead of moving the lamp, which arrow keys still do; `pointer` is undefined at a drag's end. */
 	drag?: (pointer: Vector2 | undefined, camera: Camera) => void;
 	/** Called before every picture of this window, with the light where it will be. */
 	before?: () => void;
 }
 
 export interface ViewOptions extends WindowOptions {
-	/** What is looked at; the lamp rides on a sphere around it. */
+	/** Centre of the lamp's sphere. */
 	centre?: Vector3;
 	radius?: number;
 }
 
 export class View {
-	/** Of the first window. */
+	/** Canvas of the first window. */
 	readonly canvas: HTMLCanvasElement;
 	readonly scene = new Scene();
 	readonly key = new DirectionalLight(keyColour);
@@ -72,7 +72,7 @@ export class View {
 	readonly #here = new Vector3();
 	readonly #toCamera = new Vector3();
 
-	/** @throws Error for the reader where there is no WebGL2 */
+	/** @throws Error for the reader without WebGL2 */
 	constructor(place: HTMLElement, lesson: Lesson, { centre, radius, ...options }: ViewOptions) {
 		if (!lesson.painter.renderer) throw new Error(lesson.words.needsWebGL2);
 		this.#lesson = lesson;
@@ -131,10 +131,10 @@ export class View {
 		for (const picture of this.#windows) picture.redraw();
 	}
 
-	/** The key light casts shadows. @param softness of their edges, world units; @param reach radius of what casts them */
+	/** Lets the key light cast shadows. @param softness width of their edges, world units; @param reach radius of the casters */
 	cast(softness: number, reach = this.radius): void {
 		this.#shine(this.#here.copy(this.#lesson.light.direction));
-		fitShadow(this.key, new Sphere(this.centre, reach), softness);
+		fitFurShadow(this.key, new Sphere(this.centre, reach), softness);
 		const { shadow } = this.key;
 		shadow.radius = (softness * shadow.mapSize.x) / (2 * reach);
 	}

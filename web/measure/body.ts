@@ -1,4 +1,4 @@
-/** A furry body as the page shows it, for figures beside a path tracer's: one lamp, black surroundings, linear floats. */
+/** Pictures of a furry body for comparison with a path tracer: one lamp, black surroundings, linear floats. */
 
 import {
 	BufferAttribute,
@@ -14,13 +14,13 @@ import {
 	WebGLRenderer,
 	WebGLRenderTarget,
 } from 'three';
-import { type Fur, fitShadow, furMethod, type MethodName } from '../fur/index.ts';
+import { type Fur, type FurMethodName, fitFurShadow, furMethod } from '../fur/index.ts';
 import type { BodyCell, BodyJob } from './bodyJob.ts';
 import { loadFur, renderFloats } from './studio.ts';
 
 const BARE = '-bare';
 
-/** The body of a job, ready to be drawn in any of its cells. */
+/** Body of a job, drawn in any of its cells. */
 export class BodyScene {
 	readonly #renderer = new WebGLRenderer({ antialias: false });
 	readonly #scene = new Scene();
@@ -30,9 +30,9 @@ export class BodyScene {
 	readonly #centre: Vector3;
 	/** Eyes, a nose and the like. */
 	readonly #features: Mesh[] = [];
-	/** The body itself. */
+	/** Meshes of the body itself. */
 	readonly #skin: Mesh[] = [];
-	/** By cell: what passes have added. */
+	/** Sums of the passes, by cell. */
 	readonly #sums: Float32Array[] = [];
 
 	constructor(
@@ -55,12 +55,12 @@ export class BodyScene {
 		});
 		for (const feature of this.#features) feature.visible = false;
 		this.#scene.add(body, this.#lamp, this.#lamp.target);
-		// The sky is not baked, nor are highlights and light from behind. The colour of bare skin is no colour of hairs.
+		// Only baked light: no sky, no highlights, no light from behind. The colour of bare skin does not tint the hairs.
 		Object.assign(fur.material, { environment: false, gloss, backlight });
 		fur.material.skinColour.set(1, 1, 1);
 	}
 
-	/** Rows from the bottom: light of the picture, premultiplied, one number or three, then its coverage. */
+	/** Picture by rows from the bottom: light, premultiplied, one number or three, then coverage. */
 	draw(cell: number, method: string): Float32Array {
 		const { lamp, eye } = this.job.cells[cell] as BodyCell;
 		this.#look(eye);
@@ -68,14 +68,17 @@ export class BodyScene {
 		const light = this.#lamp;
 		this.#aim(lamp);
 		light.castShadow = !bare;
-		const name = (bare ? method.slice(0, -BARE.length) : method) as MethodName;
-		// Without a lamp: a hair is as bright as one with L = 1.
-		const worn = furMethod(name, this.fur, { brightness: this.job.irradiance / (4 * Math.PI) });
-		worn.wear();
+		const name = (bare ? method.slice(0, -BARE.length) : method) as FurMethodName;
+		// Unlit: a hair is as bright as one with L = 1.
+		const lighting = furMethod(this.fur, name, {
+			renderer: this.#renderer,
+			brightness: this.job.irradiance / (4 * Math.PI),
+		});
+		lighting.apply();
 		this.#scene.updateMatrixWorld(true);
-		worn.before(this.#renderer, light);
+		this.fur.update(0);
 		const pixels = this.#render();
-		worn.dispose();
+		lighting.dispose();
 		return this.job.coloured ? pixels : pairs(pixels);
 	}
 
@@ -88,12 +91,12 @@ export class BodyScene {
 		const [fur, shares] = await Promise.all([loadFur(`${name}/model.gltf`), fetchFloats(`${name}.f32`)]);
 		const black = new MeshBasicMaterial({ color: 0 });
 		const before = this.#skin.map(({ material }) => material);
-		// The light of the skin is added once.
+		// Add the light of the skin once.
 		if (number > 0) for (const piece of this.#skin) piece.material = black;
 		Object.assign(fur.material, { tipShare: 0 });
 		fur.material.skinColour.set(1, 1, 1);
-		const worn = furMethod('unlit', fur, { brightness: 1 });
-		worn.wear();
+		const lighting = furMethod(fur, 'unlit', { brightness: 1 });
+		lighting.apply();
 		this.#show(false);
 		this.#scene.add(fur.shells);
 		const count = shares.length / this.job.cells.length;
@@ -113,19 +116,19 @@ export class BodyScene {
 			}
 		}
 		this.#scene.remove(fur.shells);
-		worn.dispose();
+		lighting.dispose();
 		fur.dispose();
 		for (const [i, piece] of this.#skin.entries()) piece.material = before[i] as Mesh['material'];
 		black.dispose();
 		this.#show(true);
 	}
 
-	/** As from `draw`: all passes so far. */
+	/** Sum of all passes so far, as from `draw`. */
 	composite(cell: number): Float32Array {
 		return this.#sums[cell] ?? new Float32Array();
 	}
 
-	/** Rows from the bottom, four numbers a pixel: the skin's normal, and 1 where it is hit. */
+	/** Normals by rows from the bottom, four numbers a pixel: the skin's normal, and 1 where it is hit. */
 	normals(cell: number): Float32Array {
 		const material = new MeshNormalMaterial();
 		const pixels = this.#plainly(cell, this.#skin, () => material);
@@ -133,14 +136,14 @@ export class BodyScene {
 		const normal = new Vector3();
 		for (let at = 0; at < pixels.length; at += 4) {
 			if (!pixels[at + 3]) continue;
-			// In the camera's axes, 0..1.
+			// Stored in the camera's axes, 0..1.
 			normal.fromArray(pixels, at).multiplyScalar(2).subScalar(1).transformDirection(this.#camera.matrixWorld);
 			normal.toArray(pixels, at);
 		}
 		return pixels;
 	}
 
-	/** Rows from the bottom: 1 and 1 where an eye or the like is seen past the skin, else 0. */
+	/** Features by rows from the bottom: 1 and 1 where an eye or the like is visible past the skin, else 0. */
 	features(cell: number): Float32Array {
 		const [hidden, shown] = [new MeshBasicMaterial({ colorWrite: false }), new MeshBasicMaterial()];
 		const pixels = this.#plainly(cell, [...this.#skin, ...this.#features], (piece) =>
@@ -169,7 +172,7 @@ export class BodyScene {
 			.set(...lamp)
 			.multiplyScalar(4 * radius)
 			.add(this.#centre);
-		fitShadow(this.#lamp, new Sphere(this.#centre, radius + this.fur.asset.length), this.fur.asset.length);
+		fitFurShadow(this.#lamp, new Sphere(this.#centre, radius + this.fur.asset.length), this.fur.asset.length);
 	}
 
 	/** Shows the fur, or the skin alone. */
@@ -181,7 +184,7 @@ export class BodyScene {
 		return renderFloats(this.#renderer, this.#scene, this.#camera, this.#target);
 	}
 
-	/** Some pieces alone, in other materials, without fur. */
+	/** Draw some pieces alone, in other materials, without fur. */
 	#plainly(cell: number, pieces: readonly Mesh[], dress: (piece: Mesh) => Mesh['material']): Float32Array {
 		this.#look((this.job.cells[cell] as BodyCell).eye);
 		const before = pieces.map(({ material, visible }) => ({ material, visible }));
@@ -214,7 +217,7 @@ function pairs(rgba: Float32Array): Float32Array {
 	return found;
 }
 
-/** Floats as text, for those who open the page. */
+/** Floats as text, for transfer out of the page. */
 export async function encoded(floats: Float32Array): Promise<string> {
 	const url = await new Promise<string>((resolve, reject) => {
 		const reader = new FileReader();

@@ -1,6 +1,6 @@
-/** What `furbake verify --body` wants to see of a page. */
+/** Jobs of `furbake verify --body` for a page. */
 
-/** An eye and a lamp. */
+/** Eye and lamp of a picture. */
 export interface BodyCell {
 	name: string;
 	/** Name of the eye. */
@@ -11,27 +11,27 @@ export interface BodyCell {
 	lamp: readonly [number, number, number];
 }
 
-/** What is drawn; written by `furbake verify --body`. */
+/** Job, written by `furbake verify --body`. */
 export interface BodyJob {
 	width: number;
 	height: number;
-	/** Degrees, from the picture's lower to its upper edge. */
+	/** Vertical field of view, degrees. */
 	fieldOfView: number;
-	/** What every eye looks at, and the radius of the skin around it, world units. */
+	/** Target of every eye, and the radius of the skin around it, world units. */
 	centre: readonly [number, number, number];
 	radius: number;
-	/** Of the lamp, across its rays. */
+	/** Irradiance of the lamp, across its rays. */
 	irradiance: number;
 	cells: readonly BodyCell[];
-	/** A method's name, with `-bare` after it where no shadow map is wanted. */
+	/** Names of methods, with the suffix `-bare` for no shadow map. */
 	methods: readonly string[];
-	/** Of the fur's highlights, and of the light from behind: both 0 where only what was baked is to be seen. */
+	/** Strength of highlights and of light from behind; both 0 for baked light alone. */
 	gloss?: number;
 	backlight?: number;
-	/** Whether pictures are red, green and blue, then coverage, in place of light and coverage. */
+	/** Whether pictures are red, green, blue and coverage in place of light and coverage. */
 	coloured: boolean;
-	/** Of the samples' own composite, in passes/NN beside the model; 0: it is not drawn. */
+	/** Passes of the samples' own composite, in passes/NN beside the model; 0 for none. */
 	passes: number;
-	/** What a white texel of a pass stands for, in the unit of L. */
+	/** Value of a white texel of a pass, in the unit of L. */
 	brightest: number;
 }

@@ -1,4 +1,4 @@
-/** A picture of the light around, drawn by its moments, against the same light from a thousand lamps. */
+/** Error of environment light by moments, against the same light from a thousand lamps. */
 
 import {
 	Color,
@@ -11,7 +11,8 @@ import {
 	WebGLRenderer,
 } from 'three';
 import { EXRLoader } from 'three/addons/loaders/EXRLoader.js';
-import { environmentLight, type Lamp, luminance, visitEnvironment } from '../fur/index.ts';
+import { type FurLamp, furEnvironment } from '../fur/index.ts';
+import { luminance, visitEnvironment } from '../fur/reference.ts';
 import type { Deviation, EnvironmentFigures } from './figures.ts';
 import { loadFur, Studio } from './studio.ts';
 
@@ -20,20 +21,20 @@ const VIEWS = [
 	{ name: 'behind, from above', azimuth: Math.PI, polar: Math.PI / 3 },
 ] as const;
 
-/** Lamps taken out of the harmonics, at most. */
-const MOST = 2;
+/** Largest number of lamps taken out of the harmonics. */
+const MAX_LAMPS = 2;
 
-/** Of the lamps that stand for an environment, radii of the model: none but for rounding is nearer to one side of it. */
+/** Distance of the lamps that stand for an environment, radii of the model: practically parallel light. */
 const FAR = 1e4;
 
-/** So many of them are lit in one frame: shaders have room for no more. */
+/** Lamps per frame, as many as shaders have room for. */
 const AT_ONCE = 256;
 
 /**
- * The picture as lamps: points spread evenly over the sphere (Fibonacci), each with the light of the texels that are
- * nearest to it, from the middle of what is bright among them.
+ * Lamps that stand for the picture: points spread evenly over the sphere (Fibonacci), each with the light of the texels
+ * nearest to it, moved to their brightness-weighted middle.
  */
-export function lampsOf(texture: DataTexture, count: number): Lamp[] {
+export function lampsOf(texture: DataTexture, count: number): FurLamp[] {
 	const golden = Math.PI * (3 - Math.sqrt(5));
 	const points = Array.from({ length: count }, (_, i) => {
 		const y = 1 - (2 * i + 1) / count;
@@ -41,7 +42,7 @@ export function lampsOf(texture: DataTexture, count: number): Lamp[] {
 		return new Vector3(level * Math.cos(i * golden), y, level * Math.sin(i * golden));
 	});
 	const lamps = points.map(() => ({ direction: new Vector3(), colour: new Color(0, 0, 0) }));
-	// No direction is farther than 4/√count from its point: points are in order of y, 2/count apart.
+	// Bound of the search: no direction is farther than 4/√count from its point, and points are in order of y, 2/count apart.
 	const reach = Math.ceil(2 * Math.sqrt(count));
 	visitEnvironment(texture, (radiance, to, solidAngle) => {
 		const level = Math.floor(((1 - to.y) / 2) * count);
@@ -57,7 +58,7 @@ export function lampsOf(texture: DataTexture, count: number): Lamp[] {
 	return lamps.filter(({ direction }) => direction.normalize().lengthSq() > 0);
 }
 
-/** Over the pixels that fur covers at least half. */
+/** Deviation over the pixels that fur covers at least half. */
 function deviation(picture: Float32Array, truth: Float32Array): Deviation & { pixels: number } {
 	let [values, sum, whole, squares] = [0, 0, 0, 0];
 	truth.forEach((wanted, i) => {
@@ -71,15 +72,15 @@ function deviation(picture: Float32Array, truth: Float32Array): Deviation & { pi
 	return { pixels: values / 3, rmse: Math.sqrt(squares / values) / (whole / values), bias: sum / whole - 1 };
 }
 
-const directional = ({ direction, colour }: Lamp) => {
+const directional = ({ direction, colour }: FurLamp) => {
 	const light = new DirectionalLight(colour);
 	light.position.copy(direction);
 	return light;
 };
 
 /**
- * In linear light, the fur alone: no tone mapping, no shadow, no highlight, every place as open to the sky as its horizon
- * lets it, which is all that lamps know of it, too.
+ * Measures the fur alone in linear light: no tone mapping, no shadow, no highlight. Openness is left to the horizon, as it
+ * is for lamps.
  *
  * @param model address of a model.gltf
  * @param picture equirectangular, or the address of an EXR
@@ -95,7 +96,7 @@ export async function measureEnvironment(
 	const renderer = new WebGLRenderer({ antialias: false });
 	const studio = new Studio(renderer, fur, width, height);
 	studio.showFurAlone();
-	studio.wear(shells, fins);
+	studio.showFur(shells, fins);
 	for (const part of [fur.shells, fur.fins]) {
 		const attribute = part?.geometry.getAttribute('_fur');
 		for (let i = 0; i < (attribute?.count ?? 0); i++) attribute?.setZ(i, 1);
@@ -105,16 +106,16 @@ export async function measureEnvironment(
 		return studio.draw();
 	};
 
-	// Far points instead of parallel lights: three writes out a loop over these, a thousand times.
+	// Far points instead of parallel lights, over which three unrolls its loop a thousand times.
 	const many = lampsOf(texture, lamps).map(({ direction, colour }) => {
 		const lamp = new PointLight(colour, 1, 0, 0);
 		lamp.position.copy(direction).multiplyScalar(FAR * studio.radius);
 		return lamp;
 	});
 	const frames = Math.ceil(many.length / AT_ONCE);
-	// Each frame's lamps are all around: where a polynomial dips below zero it is the sum that is cut there.
+	// Lamps of each frame are spread all around, so that negative light is clamped in the sum, not per lamp.
 	const groups = Array.from({ length: frames }, (_, frame) => many.filter((_, i) => i % frames === frame));
-	const splits = Array.from({ length: MOST + 1 }, (_, most) => environmentLight(texture, most));
+	const splits = Array.from({ length: MAX_LAMPS + 1 }, (_, most) => furEnvironment(texture, most));
 
 	const measured = VIEWS.slice(0, views).map(({ name, azimuth, polar }) => {
 		studio.look(azimuth, polar);

@@ -1,4 +1,4 @@
-/** What fins are worth and what they cost, for one baked model; `npm run fins` prints it. */
+/** Gain and cost of fins for one baked model, printed by `npm run fins`. */
 
 import { WebGLRenderer } from 'three';
 import type { Coverage, FinCost, FinFigures, FinView } from './figures.ts';
@@ -13,11 +13,11 @@ const VIEWS = [
 	{ name: 'above', azimuth: -Math.PI / 4, polar: Math.PI / 3 },
 ] as const;
 
-/** @returns of each pixel, premultiplied rgba, whether it is at least half covered */
+/** @returns whether each pixel, premultiplied rgba, is at least half covered */
 const covered = (rgba: Float32Array) =>
 	Array.from({ length: rgba.length / 4 }, (_, i) => (rgba[i * 4 + 3] ?? 0) >= 0.5);
 
-/** Of the wanted pixels, how many two pictures cover. */
+/** Coverage of the wanted pixels by two pictures. */
 function coverage(wanted: boolean[], without: Float32Array, fins: Float32Array): Coverage {
 	const count = (mask: boolean[]) => wanted.filter((want, i) => want && mask[i]).length;
 	return { pixels: count(wanted), without: count(covered(without)), fins: count(covered(fins)) };
@@ -36,7 +36,7 @@ function near(mask: boolean[], width: number, i: number, radius: number): boolea
 
 function view(studio: Studio, name: string, width: number, length: number): FinView {
 	const draw = (shells: number, fins: boolean) => {
-		studio.wear(shells, fins);
+		studio.showFur(shells, fins);
 		return studio.draw();
 	};
 	const skin = draw(0, false);
@@ -65,11 +65,11 @@ function view(studio: Studio, name: string, width: number, length: number): FinV
 	};
 }
 
-/** Frames without, with, with, without fins, round after round, each round seen from the next side. */
+/** Cost of fins: frames without, with, with, without, each round from the next side. */
 function cost(studio: Studio, shells: number, rounds: number): FinCost {
 	const times: [without: number, fins: number][] = [];
 	const frame = (fins: boolean) => {
-		studio.wear(shells, fins);
+		studio.showFur(shells, fins);
 		return studio.time();
 	};
 	for (const fins of [true, false]) frame(fins);
@@ -93,8 +93,8 @@ function cost(studio: Studio, shells: number, rounds: number): FinCost {
 
 /**
  * @param url of an asset's model.gltf
- * @param counts of shells to measure the cost at
- * @param rounds of four frames for each count
+ * @param counts numbers of shells to measure the cost at
+ * @param rounds rounds of four frames for each number
  */
 export async function measureFins(
 	url: string,

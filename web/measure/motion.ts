@@ -1,30 +1,47 @@
-/** What motion costs a frame, for one baked model; `npm run motion` prints it. */
+/** Cost of motion for one baked model, printed by `npm run motion`. */
 
 import { WebGLRenderer } from 'three';
-import { FurMotion } from '../fur/index.ts';
+import { type Fur, FurMotion } from '../fur/index.ts';
 import type { MotionCost, MotionFigures } from './figures.ts';
 import { median, perRound, ratio, thereAndBack } from './statistics.ts';
 import { loadFur, Studio } from './studio.ts';
 
-const SECONDS = 1 / 60; // of a frame, whatever it takes to draw
-const SETTLING = 60; // frames until wind has the hair, and springs have been compiled
+const SECONDS = 1 / 60; // simulated length of a frame
+const SETTLING = 60; // frames until hairs follow the wind and programs are compiled
 const GUSTY = { strength: 0.5, gusts: 0.7 };
 
-/** What takes turns: fur that knows nothing of motion, fur whose springs sleep, and fur in the wind. */
+/** Modes compared: fur without motion, asleep, and in the wind. */
 const MODES = ['without', 'asleep', 'cpu', 'gpu'] as const;
 
 type Mode = (typeof MODES)[number];
 
-/** The value that so many of all don't exceed. @param share of all */
+/** Quantile of the values. @param share of all values */
 function quantile(values: readonly number[], share: number): number {
 	const sorted = values.toSorted((a, b) => a - b);
 	return sorted[Math.min(Math.floor(share * sorted.length), sorted.length - 1)] ?? Number.NaN;
 }
 
+/** Motion of each mode that has one, with those in the wind under way. */
+function makeMotions(fur: Fur, renderer: WebGLRenderer): Partial<Record<Mode, FurMotion>> {
+	// Without a renderer the CPU does all; a clock that makes the CPU seem slow moves it to the GPU.
+	let [late, asked] = [0, 0];
+	const clock = () => {
+		late += 1000 / ++asked;
+		return late;
+	};
+	const [asleep, cpu, gpu] = [new FurMotion(fur), new FurMotion(fur), new FurMotion(fur, { renderer, clock })];
+	for (const motion of [cpu, gpu]) {
+		Object.assign(motion.wind, GUSTY);
+		fur.motion = motion;
+		for (let i = 0; i < SETTLING; i++) fur.update(SECONDS);
+	}
+	return { asleep, cpu, gpu };
+}
+
 /**
  * @param url of an asset's model.gltf
- * @param rounds of a turn there and a turn back for each mode
- * @param frames of a turn, after one that does not count
+ * @param rounds rounds of a turn there and a turn back for each mode
+ * @param frames frames of a turn, after one that does not count
  */
 export async function measureMotion(
 	url: string,
@@ -33,30 +50,14 @@ export async function measureMotion(
 	const fur = await loadFur(url);
 	const renderer = new WebGLRenderer({ antialias: false });
 	const studio = new Studio(renderer, fur, width, height);
-	studio.wear(shells, fur.fins !== undefined);
-	// The CPU has all of it where there is no renderer, the GPU by a clock that says that the CPU takes longer.
-	let [late, asked] = [0, 0];
-	const clock = () => {
-		late += 1000 / ++asked;
-		return late;
-	};
-	const motions: Partial<Record<Mode, FurMotion>> = {
-		asleep: new FurMotion(fur),
-		cpu: new FurMotion(fur),
-		gpu: new FurMotion(fur, { renderer, clock }),
-	};
-	for (const mode of ['cpu', 'gpu'] as const) {
-		const motion = motions[mode] as FurMotion;
-		Object.assign(motion.wind, GUSTY);
-		for (let i = 0; i < SETTLING; i++) motion.update(SECONDS);
-	}
+	studio.showFur(shells, fur.fins !== undefined);
+	const motions = makeMotions(fur, renderer);
 	const script: Record<Mode, number[]> = { without: [], asleep: [], cpu: [], gpu: [] };
 	const turns: Record<Mode, number[]> = { without: [], asleep: [], cpu: [], gpu: [] };
 	const frame = (mode: Mode): [script: number, whole: number] => {
 		const start = performance.now();
-		const motion = motions[mode];
-		motion?.update(SECONDS);
-		fur.swing = motion?.swing;
+		fur.motion = motions[mode];
+		fur.update(SECONDS);
 		const moved = performance.now() - start;
 		return [moved, moved + studio.time()];
 	};
@@ -64,7 +65,7 @@ export async function measureMotion(
 		for (const mode of thereAndBack(MODES)) {
 			frame(mode);
 			const times = Array.from({ length: frames }, () => frame(mode));
-			// The first round compiles.
+			// Skip the first round, which compiles.
 			if (round < 0) continue;
 			script[mode].push(...times.map(([moved]) => moved));
 			turns[mode].push(times.reduce((sum, [, whole]) => sum + whole, 0) / frames);

@@ -1,4 +1,4 @@
-/** How near a frame comes to the picture that far more work would make; `npm run quality` prints it. */
+/** Error of a frame against a far more costly reference, printed by `npm run quality`. */
 
 import { WebGLRenderer } from 'three';
 import type { Quality } from './figures.ts';
@@ -13,14 +13,14 @@ const VIEWS = [
 	{ azimuth: 2, polar: 1 },
 ] as const;
 
-/** sRGB, 0..1, of linear light. */
+/** sRGB value, 0..1, of linear light. */
 function encode(linear: number): number {
 	const c = Math.min(Math.max(linear, 0), 1);
 	return c < 0.0031308 ? 12.92 * c : 1.055 * c ** (1 / 2.4) - 0.055;
 }
 
 /**
- * Over the pixels that the reference's fur covers at least half: what differs from the skin alone.
+ * Compares pixels that the reference's fur covers at least half: those that differ from the skin alone.
  *
  * @param pictures rgba, premultiplied, linear
  */
@@ -42,7 +42,7 @@ export function compare(picture: Float32Array, reference: Float32Array, skin: Fl
 
 /**
  * @param url of an asset's model.gltf
- * @param distances in units of that at which the model fills the picture
+ * @param distances distances over that at which the model fills the picture
  */
 export async function measureQuality(
 	url: string,
@@ -55,11 +55,11 @@ export async function measureQuality(
 	const found = distances.flatMap((distance) =>
 		VIEWS.map(({ azimuth, polar }) => {
 			studio.look(azimuth, polar, distance);
-			studio.wear(0, false);
+			studio.showFur(0, false);
 			const skin = studio.draw();
-			studio.wear(REFERENCE_SHELLS, fins);
+			studio.showFur(REFERENCE_SHELLS, fins);
 			const reference = studio.draw(REFERENCE_SAMPLES);
-			studio.wear('auto', fins);
+			studio.showFur('auto', fins);
 			const picture = studio.draw();
 			return { distance, azimuth, shells: fur.shells.shellCount, ...compare(picture, reference, skin) };
 		}),

@@ -1,4 +1,4 @@
-/** What many timed frames say: medians, and ratios of rivals that took turns. */
+/** Statistics of timed frames: medians, and ratios of subjects that took turns. */
 
 /** @returns the middle value, or the mean of the two; NaN of none */
 export function median(values: readonly number[]): number {
@@ -8,21 +8,20 @@ export function median(values: readonly number[]): number {
 }
 
 /**
- * The turns of a round: there and back, A B C C B A, so that a machine that gets slower or faster at an even pace is as
- * unfair to the first as to the last.
+ * Turns of a round, there and back: A B C C B A. A machine that slows down or speeds up evenly favours none.
  */
-export function thereAndBack<T>(rivals: readonly T[]): T[] {
-	return [...rivals, ...rivals.toReversed()];
+export function thereAndBack<T>(subjects: readonly T[]): T[] {
+	return [...subjects, ...subjects.toReversed()];
 }
 
-/** Of a rival, the mean of its two turns, for each round. */
+/** Mean of a subject's two turns in each round. */
 export function perRound(turns: readonly number[]): number[] {
 	return Array.from({ length: turns.length >> 1 }, (_, round) => {
 		return ((turns[2 * round] ?? Number.NaN) + (turns[2 * round + 1] ?? Number.NaN)) / 2;
 	});
 }
 
-/** Median over the rounds of one rival's time over another's, both as from `perRound`. */
+/** Median over the rounds of one subject's time over another's, both as from `perRound`. */
 export function ratio(rounds: readonly number[], base: readonly number[]): number {
 	return median(rounds.map((time, round) => time / (base[round] ?? Number.NaN)));
 }

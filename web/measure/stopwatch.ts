@@ -1,30 +1,30 @@
-/** How long a frame takes until it is there, not until its commands are handed over. */
+/** Time of a frame until it is drawn, not until its commands are submitted. */
 
 import type { WebGLRenderer, WebGLRenderTarget } from 'three';
 
-/** Rasterisers that run on the processor: their timer queries tell when commands were taken, not when they were done. */
+/** Rasterisers on the processor: their timer queries measure the submission of commands, not their execution. */
 const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
 
-/** Milliseconds that a turn should last: what a clock of a millisecond's steps still tells apart. */
+/** Milliseconds of a turn, enough for a clock with steps of a millisecond. */
 const TURN = 30;
-const MOST_FRAMES = 64;
+const MAX_FRAMES = 64;
 
-/** What is used of EXT_disjoint_timer_query_webgl2. */
+/** Used part of EXT_disjoint_timer_query_webgl2. */
 interface TimerQuery {
 	TIME_ELAPSED_EXT: number;
 	GPU_DISJOINT_EXT: number;
 }
 
-/** The browser's own word on what draws. */
+/** Device as reported by the browser. */
 export function deviceOf(renderer: WebGLRenderer): string {
 	const gl = renderer.getContext();
-	// Firefox answers the plain question at full length, and calls this extension's name out of date.
+	// Firefox gives the full name here, and warns about the extension.
 	const plain = String(gl.getParameter(gl.RENDERER));
 	const extension = /^webkit webgl/i.test(plain) ? gl.getExtension('WEBGL_debug_renderer_info') : null;
 	return extension ? String(gl.getParameter(extension.UNMASKED_RENDERER_WEBGL)) : plain;
 }
 
-/** Lets the page live between two turns. */
+/** Yields to the page between two turns. */
 export const breath = () => new Promise<void>((resolve) => setTimeout(resolve));
 
 export class Stopwatch {
@@ -45,20 +45,20 @@ export class Stopwatch {
 		return this.#query ? 'timer query' : 'readPixels';
 	}
 
-	/** How many frames a turn has to have, from how long one took. */
+	/** Number of frames of a turn, from the time of one. */
 	static framesFor(milliseconds: number): number {
-		return Math.min(Math.max(Math.ceil(TURN / Math.max(milliseconds, 1e-3)), 1), MOST_FRAMES);
+		return Math.min(Math.max(Math.ceil(TURN / Math.max(milliseconds, 1e-3)), 1), MAX_FRAMES);
 	}
 
 	/**
-	 * Milliseconds a frame, over some of them.
+	 * Mean milliseconds of some frames.
 	 *
-	 * @param target half floats; what the frames are drawn in
+	 * @param target target of the frames, half floats
 	 */
 	async time(frame: () => void, frames: number, target: WebGLRenderTarget): Promise<number> {
 		for (;;) {
 			const time = this.#query ? await this.#elapsed(this.#query, frame, frames) : this.#read(frame, frames, target);
-			// A lost context draws nothing, and very fast.
+			// A lost context draws nothing, fast.
 			if (this.#gl.isContextLost()) throw new Error('the graphics context was lost');
 			if (time !== undefined) return time;
 		}
@@ -71,7 +71,7 @@ export class Stopwatch {
 		return (performance.now() - start) / frames;
 	}
 
-	/** @returns undefined where the GPU was disturbed and the query says nothing */
+	/** @returns undefined where the GPU was disturbed and the query is invalid */
 	async #elapsed(query: TimerQuery, frame: () => void, frames: number): Promise<number | undefined> {
 		const gl = this.#gl;
 		const handle = gl.createQuery();

@@ -17,7 +17,7 @@ import {
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { type Fur, type FurLoaderOptions, FurLoaderPlugin } from '../fur/index.ts';
 
-const FIELD_OF_VIEW = 20; // degrees, from the picture's lower to its upper edge
+const FIELD_OF_VIEW = 20; // vertical, degrees
 
 /** @param url of an asset's model.gltf */
 export async function loadFur(url: string, options: FurLoaderOptions = {}): Promise<Fur> {
@@ -25,7 +25,7 @@ export async function loadFur(url: string, options: FurLoaderOptions = {}): Prom
 	return (await loader.loadAsync(url)).userData.fur;
 }
 
-/** Renders as floats, rgba, premultiplied, over nothing or, with a `ground` of 1, over white; row by row from the bottom. */
+/** Picture as floats, rgba, premultiplied, over nothing or, with a `ground` of 1, over white; row by row from the bottom. */
 export function renderFloats(
 	renderer: WebGLRenderer,
 	scene: Scene,
@@ -55,11 +55,11 @@ function averaged(fine: Float32Array, width: number, height: number, samples: nu
 	return mean;
 }
 
-/** A whole model over nothing, centred and filling the picture's height, lit from the left and by the sky. */
+/** View of a whole model over nothing, centred and filling the picture's height, lit from the left and by the sky. */
 export class Studio {
-	/** Of the skin, model units. */
+	/** Radius of the skin, model units. */
 	readonly radius: number;
-	/** Pixels that a unit of the model is wide at its centre. */
+	/** Pixels per model unit at its centre. */
 	readonly scale: number;
 	readonly #renderer: WebGLRenderer;
 	readonly #scene = new Scene();
@@ -68,7 +68,7 @@ export class Studio {
 	readonly #centre: Sphere['center'];
 	readonly #distance: number;
 	readonly #picture: WebGLRenderTarget;
-	/** As deep as what the demo's frames are blended in. */
+	/** Half floats, as in the demo. */
 	readonly #frame: WebGLRenderTarget;
 
 	constructor(
@@ -103,20 +103,20 @@ export class Studio {
 	/**
 	 * @param azimuth radians from the front to the model's left
 	 * @param polar radians from straight above
-	 * @param distance in units of that at which the model fills the picture
+	 * @param distance over that at which the model fills the picture
 	 */
 	look(azimuth = 0, polar = Math.PI / 2, distance = 1): void {
 		this.#camera.position.setFromSphericalCoords(this.#distance * distance, polar, azimuth).add(this.#centre);
 		this.#camera.lookAt(this.#centre);
 	}
 
-	/** Instead of the lights before. */
+	/** Replaces the lights. */
 	light(...lights: Light[]): void {
 		this.#lights.clear();
 		this.#lights.add(...lights);
 	}
 
-	/** The body, eyes and all, hides what is behind it, and is neither seen nor covered. */
+	/** Make the body, eyes included, an invisible occluder. */
 	showFurAlone(): void {
 		const hidden = new MeshBasicMaterial({ colorWrite: false });
 		this.#scene.traverse((piece) => {
@@ -124,8 +124,8 @@ export class Studio {
 		});
 	}
 
-	/** @param shells 0: none; 'auto': as many as the picture needs */
-	wear(shells: number | 'auto', fins: boolean): void {
+	/** @param shells 0 for none, 'auto' for as many as the picture needs */
+	showFur(shells: number | 'auto', fins: boolean): void {
 		this.fur.shells.visible = shells !== 0;
 		if (shells === 'auto') this.fur.shells.automatic = true;
 		else if (shells > 0) this.fur.shells.shellCount = shells;
@@ -144,7 +144,7 @@ export class Studio {
 		return samples > 1 ? averaged(pixels, width, height, samples) : pixels;
 	}
 
-	/** Milliseconds of one frame, until the GPU has finished it: a pixel of it is read. */
+	/** Milliseconds of one frame up to the GPU's end, by reading a pixel. */
 	time(): number {
 		const start = performance.now();
 		this.#renderer.setRenderTarget(this.#frame);
@@ -153,7 +153,7 @@ export class Studio {
 		return performance.now() - start;
 	}
 
-	/** Frees the fur and what it was drawn in; the renderer is the caller's. */
+	/** Frees the fur and its targets; the renderer is the caller's. */
 	dispose(): void {
 		this.fur.dispose();
 		this.#picture.dispose();

@@ -1,16 +1,16 @@
-/** From a finger to a direction of the light. */
+/** Direction of the light under a finger. */
 
 import { type Camera, MathUtils, Ray, Vector2, Vector3 } from 'three';
 
-/** Beyond the rim of the sphere the lamp goes behind the model: it is straight behind at this many radii. */
+/** Radii from the sphere's middle at which the lamp is straight behind the model. */
 const behind = 1.6;
 
 const ray = new Ray();
 const onRay = new Vector3();
 
 /**
- * The direction of the lamp under a finger. The lamp rides on a sphere around the model: within its rim it lies exactly
- * under the finger on the near side; beyond, the finger draws it over the rim and on to the far side.
+ * Direction of the lamp under a finger. The lamp is on a sphere around the model: exactly under the finger on the near side
+ * within the sphere's rim, on the far side beyond it.
  *
  * @param pointer in normalised device coordinates, -1..1, y up
  * @param centre of the sphere, world
@@ -37,17 +37,17 @@ export function directionUnder(
 		.normalize();
 }
 
-/** Who listens to drags. */
+/** Callbacks of drags. */
 export interface DragHandlers {
 	/** pointer in normalised device coordinates */
 	move(pointer: Vector2): void;
-	/** whether a drag is for the light now */
+	/** Whether drags may move the light now. */
 	allowed(): boolean;
 	active(active: boolean): void;
 }
 
-const patience = 90; // milliseconds in which a second finger may follow the first
-const slack = 6; // pixels that a finger moves before it is a drag
+const patience = 90; // milliseconds within which a second finger cancels a drag
+const slack = 6; // pixels before a touch becomes a drag
 
 /** Drags of the left button, a pen or one finger on the canvas; two fingers are for the camera. */
 export function listenToDrags(canvas: HTMLCanvasElement, { move, allowed, active }: DragHandlers): void {
@@ -96,7 +96,7 @@ export function listenToDrags(canvas: HTMLCanvasElement, { move, allowed, active
 		else if (pointerId === dragging) follow(clientX, clientY);
 	});
 	canvas.addEventListener('pointerup', ({ pointerId, clientX, clientY }) => {
-		// A tap is a drag without a way.
+		// A tap is a drag of length 0.
 		if (pointerId === waiting?.id) begin(pointerId, clientX, clientY);
 	});
 	for (const name of ['pointerup', 'pointercancel', 'lostpointercapture'] as const) {

@@ -1,4 +1,4 @@
-/** What stands around the model: a soft slate gradient behind it, and the shadows where it would touch the ground and that it casts there. */
+/** Surroundings of the model: a soft slate gradient, a contact shadow and a cast shadow. */
 
 import {
 	type Box3,
@@ -25,8 +25,8 @@ const middle: ColorRepresentation = '#56687a';
 const rim: ColorRepresentation = '#212a33';
 
 /**
- * The linear colour that the Khronos Neutral tone mapping turns into `colour` (linear, below its shoulder at 0.76).
- * The curve takes an offset off every channel: m - 6.25 m² of the smallest one where that is below 0.08, 0.04 above.
+ * Inverse of the Khronos Neutral tone mapping for `colour` (linear, below its shoulder at 0.76). The curve subtracts from
+ * every channel: m - 6.25 m² of the smallest one where that is below 0.08, 0.04 above.
  */
 export function beforeNeutral(colour: Color): Color {
 	const smallest = Math.min(colour.r, colour.g, colour.b);
@@ -41,16 +41,16 @@ function smoothstep(t: number): number {
 }
 
 /**
- * Radial gradient for `scene.background`, with a grain of one eighth-bit step, or dark slopes band.
+ * Radial gradient for `scene.background`, with a grain of one 8-bit step against banding.
  *
- * @param half whether in half floats, which hold it to the bit
+ * @param half whether in half floats, which are exact
  */
 export function backdrop(half: boolean, size = 384): DataTexture {
 	const inner = new Color(middle).convertLinearToSRGB();
 	const outer = new Color(rim).convertLinearToSRGB();
 	const colour = new Color();
 	const texels = new (half ? Uint16Array : Uint8Array)(size * size * 4);
-	// The same grain every time: a link shows the same picture to the bit.
+	// Fixed seed: a link shows the same picture to the bit.
 	const grain = random(1);
 	const stored = half ? DataUtils.toHalfFloat : (value: number) => value * 255 + 0.5;
 	for (let y = 0; y < size; y++) {
@@ -105,7 +105,7 @@ export class ContactShadow extends Mesh<PlaneGeometry, MeshBasicMaterial> {
 		this.renderOrder = -1;
 	}
 
-	/** Lies under the box, a little wider than it. @param fur its length, which reaches beyond the box */
+	/** Fit the shadow under the box, a little wider. @param fur length of the fur, which reaches beyond the box */
 	fit(box: Box3, fur: number): void {
 		const size = box.getSize(new Vector3()).addScalar(2 * fur);
 		box.getCenter(this.#place).setY(box.min.y - fur / 2);
@@ -114,10 +114,10 @@ export class ContactShadow extends Mesh<PlaneGeometry, MeshBasicMaterial> {
 	}
 
 	/**
-	 * Stays on the ground under a body that moves, and becomes paler as it rises.
+	 * Follow a moving body on the ground, paler as it rises.
 	 *
-	 * @param offset of the body from the place where it was fitted
-	 * @param yaw its turn about the upright axis, radians
+	 * @param offset of the body from its place at `fit`
+	 * @param yaw turn about the upright axis, radians
 	 * @param height of the body
 	 */
 	follow(offset: Vector3, yaw: number, height: number): void {
@@ -129,33 +129,33 @@ export class ContactShadow extends Mesh<PlaneGeometry, MeshBasicMaterial> {
 	}
 }
 
-/** Opacity of a shadow that no other light reaches. */
+/** Opacity of a shadow without any other light. */
 const castDarkness = 0.7;
 
-/** Sine of the lamp's elevation at which the ground has no shadow any more, and all of it. */
+/** Sines of the lamp's elevation between which the shadow fades in. */
 const [none, whole] = [0.12, 0.35];
 
-/** The shadow that a lamp's map has of the body, on the ground below it. */
+/** Shadow of the body on the ground, from the lamp's shadow map. */
 export class CastShadow extends Mesh<CircleGeometry, ShadowMaterial> {
 	constructor() {
 		super(new CircleGeometry(1, 48), new ShadowMaterial({ color: '#141414', depthWrite: false }));
 		this.receiveShadow = true;
 		this.rotation.x = -Math.PI / 2;
-		// Before the fur, which blends over it, and the contact's shadow, which lies on it.
+		// Before the fur, which blends over it, and before the contact shadow on top of it.
 		this.renderOrder = -2;
 	}
 
-	/** Lies under the box. @param fur its length, which reaches beyond the box */
+	/** Fit under the box. @param fur length of the fur, which reaches beyond the box */
 	fit(box: Box3, fur: number): void {
 		this.position.y = box.min.y - fur / 2;
 	}
 
 	/**
-	 * Goes where the shadow falls.
+	 * Move to where the shadow falls.
 	 *
 	 * @param centre of the body; @param radius of it, world units
 	 * @param direction unit vector to the lamp
-	 * @param share that the lamp has in the light on the ground
+	 * @param share of the lamp in the light on the ground
 	 */
 	follow(centre: Vector3, radius: number, direction: Vector3, share: number): void {
 		const { y } = direction;

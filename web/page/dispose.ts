@@ -1,8 +1,8 @@
-/** What the GPU holds of a scene, given back. */
+/** Freeing of a scene's GPU objects. */
 
 import { InstancedMesh, type IUniform, Material, Mesh, type Object3D, Scene, Sprite, Texture } from 'three';
 
-/** Frees geometries, materials and textures; what is drawn again comes back by itself. */
+/** Frees geometries, materials and textures; drawing again uploads them again. */
 export function disposeAll(object: Object3D): void {
 	object.traverse((child) => {
 		if (child instanceof Scene && child.background instanceof Texture) child.background.dispose();

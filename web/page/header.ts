@@ -1,4 +1,4 @@
-/** The small header of all pages: where one is, where else one can go, and in which language. */
+/** Header of all pages: links to the other pages and languages. */
 
 import { addressIn, LANGUAGES, type Language } from './language.ts';
 
@@ -6,6 +6,7 @@ const PAGES = {
 	demo: { file: './', en: 'Demo', zh: '演示' },
 	learn: { file: './learn.html', en: 'Learn', zh: '学习' },
 	bench: { file: './bench.html', en: 'Bench', zh: '测速' },
+	docs: { file: './docs/', en: 'Docs', zh: '文档' },
 } as const;
 
 export type PageName = keyof typeof PAGES;
@@ -21,7 +22,7 @@ function link(text: string, href: string, className = ''): HTMLAnchorElement {
 }
 
 /**
- * Fills the page's `<nav class="site">`. A language that the address asks for is kept from page to page.
+ * Fills the page's `<nav class="site">`. A language in the address is kept from page to page.
  */
 export function fillHeader(nav: HTMLElement, here: PageName, language: Language): void {
 	const asked = new URLSearchParams(location.search).has('lang') ? `?lang=${language}` : '';
@@ -40,7 +41,7 @@ export function fillHeader(nav: HTMLElement, here: PageName, language: Language)
 	const { name, tag } = LANGUAGES[other];
 	const change = link(name, addressIn(other, location.href), 'language');
 	change.lang = change.hreflang = tag;
-	// The address changes while one looks around.
+	// Read on click: the address changes with the view.
 	change.addEventListener('click', () => {
 		change.href = addressIn(other, location.href);
 	});

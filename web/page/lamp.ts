@@ -1,4 +1,4 @@
-/** The visible lamp: a small glowing bulb that rides on a sphere around the model, and its ray. */
+/** Visible lamp: a small glowing bulb on a sphere around the model, and its ray. */
 
 import {
 	AdditiveBlending,
@@ -23,10 +23,10 @@ import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
 export const lampDistance = 1.22;
 
 const warm = [1, 0.8, 0.55] as const;
-const resting = 0.35; // strength of the lines while nobody moves the light
+const resting = 0.35; // strength of the lines while the light rests
 const easing = 0.18; // seconds in which they brighten
 
-/** Circle arc in the x-y plane; its brightness is a function of the angle, black is nothing. */
+/** Circle arc in the x-y plane; brightness by angle, black is invisible. */
 function arc(from: number, to: number, brightness: (angle: number) => number, material: LineMaterial): Line2 {
 	const steps = 96;
 	const positions: number[] = [];
@@ -58,7 +58,7 @@ function lightMap(width: number, height: number, brightness: (u: number, v: numb
 const additive = { blending: AdditiveBlending, depthWrite: false, transparent: true };
 
 /**
- * Built once for a lamp at distance 1; everything that moves is a rotation or the scale:
+ * Built once for a lamp at distance 1; all motion is rotation or scale:
  *
  *     lamp ── carrier (azimuth) ── arm (elevation) ── ray, rail, bulb, halo
  *         └─ horizon
@@ -73,7 +73,7 @@ export class Lamp extends Group {
 	readonly #dim = (material: LineMaterial | MeshBasicMaterial) => {
 		material.opacity = this.#strength;
 	};
-	/** Whether somebody moves the light just now: ray and rail are brighter then. */
+	/** Whether the light is being moved: ray and rail are brighter then. */
 	active = false;
 
 	constructor() {
@@ -83,13 +83,13 @@ export class Lamp extends Group {
 		const reach = 0.9; // radians of the rail to both sides of the lamp
 		const rail = arc(-reach, reach, (angle) => 0.3 * Math.cos((angle / reach) * (Math.PI / 2)) ** 2, this.#line());
 
-		// A soft band and not a line: lines have steps without multisampling.
+		// A soft band, since lines have steps without multisampling.
 		this.#ray = new Mesh(
 			new PlaneGeometry(1, 0.012).translate(0.5, 0, 0),
 			new MeshBasicMaterial({
 				map: lightMap(64, 16, (u, v) => (1 - v * v) ** 2 * ((u + 1) / 2) ** 1.2),
 				side: DoubleSide,
-				// Both sides at once: in two passes three would look its program up anew in every frame.
+				// Both sides at once: with two passes three looks the program up in every frame.
 				forceSinglePass: true,
 				...additive,
 			}),
@@ -132,8 +132,8 @@ export class Lamp extends Group {
 	/**
 	 * Turns the ray's band to the camera.
 	 *
-	 * @param elapsed seconds since the last frame; Infinity for no gliding
-	 * @returns whether it is still becoming brighter or darker
+	 * @param elapsed seconds since the last frame; Infinity to skip easing
+	 * @returns whether brightness is still changing
 	 */
 	glide(camera: Camera, elapsed: number): boolean {
 		this.#arm.updateWorldMatrix(true, false);

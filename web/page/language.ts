@@ -1,13 +1,13 @@
 /**
- * English or Chinese, the paper's language: as the address asks, else as the browser prefers.
+ * Language of a page, English or Chinese: by the address, else by the browser's preference.
  *
- * Each page has its words as one object per language and of one type, so that the compiler finds what one of them lacks;
- * a package for two languages without plurals would be more than they are.
+ * Words of a page are one object per language, of one type, so that the compiler finds missing ones. Two languages without
+ * plurals need no package.
  */
 
 export type Language = 'en' | 'zh';
 
-/** Their own names, and what `lang` attributes call them. */
+/** Own name and `lang` tag of each language. */
 export const LANGUAGES: Record<Language, { name: string; tag: string }> = {
 	en: { name: 'English', tag: 'en' },
 	zh: { name: '中文', tag: 'zh-Hans' },
@@ -19,7 +19,7 @@ export function isLanguage(name: string): name is Language {
 
 /**
  * @param search the address's query: `lang=en` or `lang=zh` decides
- * @param preferred language tags, the dearest first
+ * @param preferred language tags by preference
  */
 export function languageOf(search: string, preferred: readonly string[]): Language {
 	const asked = new URLSearchParams(search).get('lang');
@@ -27,10 +27,10 @@ export function languageOf(search: string, preferred: readonly string[]): Langua
 	return preferred.map((tag) => tag.toLowerCase().split('-')[0] ?? '').find(isLanguage) ?? 'en';
 }
 
-/** The same address in another language. */
+/** Address in another language. */
 export function addressIn(language: Language, href: string): string {
 	const url = new URL(href);
-	// By hand: what else stands in the address stays as it is written there.
+	// By hand: other parameters keep their spelling.
 	const others = url.search.slice(1).split('&');
 	const kept = others.filter((part) => part !== '' && !/^lang(=|$)/.test(part));
 	url.search = [...kept, `lang=${language}`].join('&');
@@ -38,7 +38,7 @@ export function addressIn(language: Language, href: string): string {
 }
 
 /**
- * Puts words where elements ask for them: `data-text="key"` as text, `data-label="key"` as aria-label, `data-tip="key"` as
+ * Fills elements with words: `data-text="key"` as text, `data-label="key"` as aria-label, `data-tip="key"` as
  * title. The page's own title and description are the keys `title` and `description`.
  */
 export function fillIn(words: Readonly<Record<string, unknown>>, language: Language): void {

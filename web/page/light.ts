@@ -1,12 +1,12 @@
-/** The light's direction over time: drifting by itself until somebody takes it, then gliding where it is wanted. */
+/** Direction of the light over time: drifts until it is first set, then eases to its target. */
 
 import { MathUtils, Object3D, Spherical, Vector3 } from 'three';
 
 /** x, y, z. */
 export type Triple = [number, number, number];
 
-const easing = 0.06; // seconds in which the light follows a finger
-const round = 26; // seconds of one turn by itself
+const easing = 0.06; // time constant of the light behind a finger, seconds
+const round = 26; // seconds of one turn while drifting
 const arrived = 1e-4; // radians
 
 const right = new Vector3(1, 0, 0);
@@ -29,22 +29,22 @@ export class MovingLight {
 	#start: Vector3 | undefined;
 	#time = 0;
 
-	/** @param glides false: the light jumps where it is wanted, and nothing moves by itself */
+	/** @param glides whether the light eases and drifts; else it jumps to its target */
 	constructor(glides: boolean) {
 		this.#glides = glides;
 	}
 
-	/** True until somebody takes the light. */
+	/** Whether the light drifts, as it does until it is set. */
 	get drifting(): boolean {
 		return this.#start !== undefined;
 	}
 
-	/** Where the light is going, or is. */
+	/** Target of the light. */
 	get wanted(): Triple {
 		return this.#wanted.toArray();
 	}
 
-	/** Puts the light somewhere, without a way; `drift` lets it wander from there. */
+	/** Set the light at once; `drift` lets it drift from there. */
 	put(direction: Triple, drift: boolean): void {
 		this.direction.set(...direction).normalize();
 		this.#wanted.copy(this.direction);
@@ -52,7 +52,7 @@ export class MovingLight {
 		this.#time = 0;
 	}
 
-	/** @param set changes the wanted direction, which it is given */
+	/** @param set changes the target in place */
 	want(set: (wanted: Vector3) => void): void {
 		if (this.#start) this.#wanted.copy(this.direction);
 		this.#start = undefined;
@@ -74,7 +74,7 @@ export class MovingLight {
 			return true;
 		}
 		this.#axis.crossVectors(this.direction, this.#wanted);
-		// Straight opposite: any way around will do.
+		// Opposite direction: any axis will do.
 		if (this.#axis.lengthSq() < 1e-8)
 			this.#axis.crossVectors(this.direction, Math.abs(this.direction.y) < 0.9 ? Object3D.DEFAULT_UP : right);
 		this.direction.applyAxisAngle(this.#axis.normalize(), angle * (1 - Math.exp(-elapsed / easing))).normalize();

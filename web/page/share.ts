@@ -1,9 +1,9 @@
-/** Taking along what a page shows: as text, and as a file. */
+/** Export of a page's content as text or file. */
 
 /** @returns whether the text is in the clipboard */
 export async function copy(text: string): Promise<boolean> {
 	try {
-		// Only pages that came over a safe connection have one, and the visitor may have said no.
+		// Missing on insecure pages, and the visitor may refuse.
 		await navigator.clipboard.writeText(text);
 		return true;
 	} catch {
@@ -11,7 +11,7 @@ export async function copy(text: string): Promise<boolean> {
 	}
 }
 
-/** As browsers did it before there was a clipboard for pages. */
+/** Fallback without the clipboard API. */
 function copyBySelection(text: string): boolean {
 	const before = document.activeElement;
 	const field = document.createElement('textarea');
@@ -25,12 +25,12 @@ function copyBySelection(text: string): boolean {
 	return copied;
 }
 
-/** Hands a file to the visitor. */
+/** Offers a file for download. */
 export function download(file: Blob, name: string): void {
 	const link = document.createElement('a');
 	link.href = URL.createObjectURL(file);
 	link.download = name;
 	link.click();
-	// Not before the browser has begun to read it.
+	// After the browser has begun to read it.
 	setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }

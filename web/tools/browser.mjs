@@ -1,13 +1,13 @@
 /**
- * The browser for tests and measurements: an installed Chromium or Chrome, else Playwright's own, which is then installed.
- * Called as a command it prints the path of what is installed, or fails.
+ * Browser for tests and measurements: an installed Chromium or Chrome, else Playwright's own, installed on demand.
+ * As a command it prints the path of the installed one, or fails.
  */
 import { existsSync } from 'node:fs';
 import { delimiter, join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { ask, Failure, root, runAside, say, windows } from './process.mjs';
 
-/** For software rendering that is the same everywhere, and for silence. */
+/** Switches for software rendering that is equal everywhere, and for silence. */
 export const browserArgs = [
 	'--headless=new',
 	'--no-sandbox',
@@ -36,7 +36,7 @@ function candidates() {
 /** @returns {Promise<string | undefined>} path of an installed browser that starts */
 export async function findBrowser() {
 	for (const path of candidates()) {
-		// A package's stub (Ubuntu's snap) is there but does not start; on Windows --version opens a window.
+		// A package's stub (Ubuntu's snap) exists but does not start; on Windows --version opens a window.
 		if (windows || (await ask(path, ['--version'])) !== undefined) return path;
 	}
 	return undefined;
@@ -58,7 +58,7 @@ export async function ensureBrowser() {
 }
 
 /**
- * Opens a page with nothing on it but a module, whose exports are then `loaded` there.
+ * Opens an empty page with a module, whose exports are the global `loaded`.
  *
  * @param {import('@playwright/test').Page} page
  * @param {string} site where web/ is served, with a slash at its end

@@ -1,7 +1,7 @@
 /** `npm run build`: the static site in dist/, with relative paths. */
 import { ensureNode } from './environment.mjs';
 import { command } from './process.mjs';
-import { vite } from './vite.mjs';
+import { vite } from './site/vite.mjs';
 
 await command(async () => {
 	await ensureNode();

@@ -3,6 +3,7 @@
  * `--write` lets the tools repair what they can.
  */
 import { join } from 'node:path';
+import { checkAddressTable } from './address.mjs';
 import { ensureNode, ensurePython, python } from './environment.mjs';
 import { command, root, run } from './process.mjs';
 
@@ -16,7 +17,7 @@ await command(async () => {
 	const module = (/** @type {string[]} */ ...path) => join(root, 'node_modules', ...path);
 	const node = (/** @type {string} */ script, /** @type {string[]} */ ...args) =>
 		run(process.execPath, [script, ...args], { cwd: web });
-	// From baker/, so that its pyproject.toml rules the tests too.
+	// From baker/, so that its pyproject.toml applies to the tests too.
 	const py = (/** @type {string[]} */ ...args) => run(python, ['-m', ...args], { cwd: baker });
 
 	const biome = module('@biomejs', 'biome', 'bin', 'biome');
@@ -42,8 +43,9 @@ await command(async () => {
 		['tsc web', () => node(tsc, '-p', '.')],
 		['tsc web/tools', () => node(tsc, '-p', 'tools')],
 		['tsc tests', () => node(tsc, '-p', join('..', 'tests'))],
-		// What is public has its words; `npm run docs` makes pages of them.
+		// Every public name has a docstring; `npm run docs` makes pages of them.
 		['typedoc', () => node(module('typedoc', 'bin', 'typedoc'), '--options', 'typedoc.json', '--emit', 'none')],
+		['web/docs/address.md', async () => ((await checkAddressTable(write)) ? 0 : 1)],
 		['ruff check', () => py('ruff', 'check', ...(write ? ['--fix'] : []), ...pyproject, ...sources)],
 		['ruff format', () => py('ruff', 'format', ...(write ? [] : ['--check']), ...pyproject, ...sources)],
 		['mypy', () => py('mypy', '--strict', 'furbake')],

@@ -1,5 +1,5 @@
 /**
- * Installs what is missing in both wings, and only that. Needs nothing but Node: no dependency is imported here.
+ * Installs missing dependencies of both wings. Runs on Node alone: imports no dependency.
  */
 import { createHash } from 'node:crypto';
 import { existsSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -7,12 +7,12 @@ import { join } from 'node:path';
 import { ask, Failure, root, run, runAside, say, windows } from './process.mjs';
 
 const oldestNode = [20, 19];
-const oldestPython = [3, 11];
+export const oldestPython = [3, 11];
 const venv = join(root, 'baker', '.venv');
 const bin = join(venv, windows ? 'Scripts' : 'bin');
 const stamp = join(venv, 'furbake.stamp');
 
-/** The project's own Python and the command `furbake` inside it; they exist after `ensurePython`. */
+/** Python of the project and its command `furbake`; they exist after `ensurePython`. */
 export const python = join(bin, windows ? 'python.exe' : 'python');
 export const furbake = join(bin, windows ? 'furbake.exe' : 'furbake');
 
@@ -34,7 +34,7 @@ function packages(file) {
 	}
 }
 
-/** npm keeps beside the packages a lock of what it really installed: it is compared with ours. */
+/** Compares npm's record of installed packages with the lock file. */
 function nodeIsInstalled() {
 	const installed = packages('node_modules/.package-lock.json');
 	return Object.entries(packages('package-lock.json')).every(
@@ -55,7 +55,7 @@ export async function ensureNode() {
 	if (code !== 0) throw new Failure(`npm ci failed with exit code ${code}`);
 }
 
-/** @returns {Promise<string[] | undefined>} a command line that starts a Python that is new enough */
+/** @returns {Promise<string[] | undefined>} command line of a Python that is new enough */
 async function findPython() {
 	const names = ['python3', 'python', 'python3.14', 'python3.13', 'python3.12', 'python3.11'].map((name) => [name]);
 	const candidates = windows ? [['py', '-3'], ...names] : names;
@@ -67,10 +67,16 @@ async function findPython() {
 	return undefined;
 }
 
-/** What the environment is made of: it is made anew when this changes. @param {boolean} dev */
+/** Versions and hashes of the packages, by `npm run lock`. @param {boolean} dev with the tools for tests and checks */
+export function lockFile(dev) {
+	return join(root, 'baker', 'requirements', dev ? 'dev.txt' : 'use.txt');
+}
+
+/** Recipe of the environment, which is rebuilt when it changes. @param {boolean} dev */
 function recipe(dev) {
-	const project = readFileSync(join(root, 'baker', 'pyproject.toml'));
-	return `${createHash('sha256').update(project).digest('hex')} ${dev ? 'dev' : 'use'} ${root}`;
+	const found = createHash('sha256');
+	for (const file of [join(root, 'baker', 'pyproject.toml'), lockFile(dev)]) found.update(readFileSync(file));
+	return `${found.digest('hex')} ${dev ? 'dev' : 'use'} ${root}`;
 }
 
 /**
@@ -96,10 +102,15 @@ export async function ensurePython({ dev = false } = {}) {
 		}
 	}
 	say('installing the baker wing (pip)');
-	const what = join(root, 'baker') + (tools ? '[dev]' : '');
-	const pip = ['-m', 'pip', 'install', '--quiet', '--disable-pip-version-check', '--editable', what];
-	const code = await runAside(python, pip);
-	if (code !== 0) throw new Failure(`pip install failed with exit code ${code}`);
+	const pip = ['-m', 'pip', 'install', '--quiet', '--disable-pip-version-check'];
+	const steps = [
+		['--require-hashes', '--requirement', lockFile(tools)],
+		['--no-deps', '--no-build-isolation', '--editable', join(root, 'baker')],
+	];
+	for (const step of steps) {
+		const code = await runAside(python, [...pip, ...step]);
+		if (code !== 0) throw new Failure(`pip install failed with exit code ${code}`);
+	}
 	writeFileSync(stamp, recipe(tools));
 }
 

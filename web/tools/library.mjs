@@ -1,4 +1,4 @@
-/** `npm run library`: the library for other apps in lib/, one module with its types; `npm pack` runs it first. */
+/** `npm run library`: builds the library for other apps in lib/, a module per entry point with its types; `npm pack` runs it first. */
 import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { ensureNode } from './environment.mjs';
@@ -7,7 +7,7 @@ import { command, Failure, root, runAside, say } from './process.mjs';
 const folder = join(root, 'lib');
 
 /**
- * Declarations as compilers write them name sources, `./shells.ts`: they are rewritten to the modules that those become.
+ * Rewrites imports of sources (`./shells.ts`) in declarations to those of built modules.
  *
  * @param {string} text
  */
@@ -17,7 +17,7 @@ function withModules(text) {
 
 await command(async () => {
 	await ensureNode();
-	/** Standard output is npm's own, for `npm pack --json`. @param {string} name @param {...string} args */
+	/** Keeps standard output free, for `npm pack --json`. @param {string} name @param {...string} args */
 	const step = async (name, ...args) => {
 		const code = await runAside(process.execPath, [join(root, 'node_modules', name), ...args]);
 		if (code !== 0) throw new Failure(`${name} failed with exit code ${code}`);

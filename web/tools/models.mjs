@@ -1,6 +1,5 @@
 /**
- * The default models, which `public/models/models.json` lists, and what the lesson measures with: bakes what is missing or
- * stale.
+ * Default models of `public/models/models.json`, and the lesson's data: bakes missing and stale ones.
  */
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join } from 'node:path';
@@ -8,7 +7,7 @@ import { pathToFileURL } from 'node:url';
 import { ensurePython, python } from './environment.mjs';
 import { Failure, root, run, say } from './process.mjs';
 
-/** All in one process: to import its libraries takes Python longer than to see that a model is fresh. */
+/** All in one process: importing libraries takes Python longer than checking that a model is fresh. */
 const bakeAll = `
 import json, sys
 from furbake.cli import main
@@ -21,11 +20,13 @@ const cache = join(root, 'node_modules', '.cache', 'furbake');
  * @typedef {object} DefaultModel
  * @property {string} name folder in public/models, and the name in the page's address
  * @property {string} title for the page's menu
- * @property {string} model what furbake bakes: a built-in, or `npm:` and a file that an npm package holds as a module
- * @property {string[]} options of `furbake bake`
- * @property {string} [preset] of a model: what it is furry with
+ * @property {string} model input of furbake: a built-in, or `npm:` and a file in an npm package's module
+ * @property {string[]} options of `furbake bake`, without those that the properties below stand for
+ * @property {string} [preset] of a model: its fur
  * @property {string} [pelt] of a pelt: the preset that it is
  * @property {'ptm' | 'eigen'} [basis] of a pelt
+ * @property {boolean} [wet] of a pelt: baked in states from dry to wet
+ * @property {boolean} [dirt] of a pelt: baked in a dirty state
  * @property {number} [gloss] of a pelt: strength of the highlights that suits it
  * @property {number} [tips] of a pelt: how far a model's own second tip colour shows on it
  * @property {boolean} [fine] of a pelt: with the preset's own planes, which replace those of the preset's models once they have come
@@ -39,8 +40,22 @@ export function defaultModels() {
 }
 
 /**
- * A model as a file that furbake reads. `npm:PACKAGE/FILE` means the module FILE.js, whose default export is FILE as a
- * data URI: it is unpacked once.
+ * All options of the command that bakes a model.
+ *
+ * @param {DefaultModel} model
+ */
+export function bakeOptions({ options, basis, wet, dirt }) {
+	return [
+		...options,
+		...(basis === 'eigen' ? ['--basis', basis] : []),
+		...(wet ? ['--states', 'dry..wet'] : []),
+		...(dirt ? ['--dirt'] : []),
+	];
+}
+
+/**
+ * Path of a model's file for furbake. `npm:PACKAGE/FILE` means the module FILE.js, whose default export is FILE as a
+ * data URI: unpacked once.
  *
  * @param {string} model
  */
@@ -57,7 +72,7 @@ async function unpacked(model) {
 	return target;
 }
 
-/** Bakes what is missing or stale. Where that is impossible, says so in one line: what is there is served. */
+/** Bakes missing and stale models. On failure prints one line, and existing models are served. */
 export async function bakeDefaultModels() {
 	try {
 		await ensurePython();
@@ -67,10 +82,12 @@ export async function bakeDefaultModels() {
 		return;
 	}
 	const bakes = [];
-	for (const { name, model, options } of defaultModels())
-		bakes.push(['bake', await unpacked(model), '-o', join('public', 'models', name), ...options, '--if-stale']);
+	for (const entry of defaultModels()) {
+		const target = join('public', 'models', entry.name);
+		bakes.push(['bake', await unpacked(entry.model), '-o', target, ...bakeOptions(entry), '--if-stale']);
+	}
 	bakes.push(['lesson', '-o', join('public', 'lesson'), '--if-stale']);
-	// Standard error, as all that is said before the address: the bar still sees a terminal there.
+	// On standard error, like all output before the address, so that the progress bar sees a terminal.
 	const code = await run(python, ['-c', bakeAll, JSON.stringify(bakes)], { cwd: root, stdio: ['ignore', 2, 2] });
 	if (code !== 0) say(`baking failed with exit code ${code}: serving what could not be baked as it is`);
 }

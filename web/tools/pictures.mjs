@@ -1,12 +1,12 @@
 /**
- * `npm run pictures`: the project's own pictures, made anew by its pages: `public/og.jpg`, which goes with shared links,
- * `still.jpg`, the bunny under three lights, and `demo.jpg` and `learn.jpg`, the pages themselves.
+ * `npm run pictures`: regenerates the project's pictures: `public/og.jpg` for shared links, `still.jpg`, the bunny under
+ * three lights, and `demo.jpg` and `learn.jpg`, the pages themselves.
  */
 import { join } from 'node:path';
 import { browserArgs, ensureBrowser } from './browser.mjs';
 import { ensureNode } from './environment.mjs';
 import { command, root, say } from './process.mjs';
-import { serve } from './vite.mjs';
+import { serve } from './site/vite.mjs';
 
 /** @import { Browser, Page } from '@playwright/test' */
 
@@ -14,9 +14,9 @@ const CAMERA = '-20,10,0.9';
 /** Light from the left, from above, from behind. */
 const LIGHTS = ['-0.9,0.45,0.2', '0.05,0.98,0.2', '0.75,0.45,-0.5'];
 const WORDS = ['furbake', 'Fur that you relight by dragging,', 'baked from any mesh'];
-/** Drawn this many times finer, and averaged. */
+/** Supersampling factor per side. */
 const FINER = 2;
-/** Milliseconds that a picture may take, on a processor alone. */
+/** Milliseconds per picture, enough for software rendering. */
 const PATIENCE = 300_000;
 
 /**
@@ -96,7 +96,7 @@ async function learn(browser, site) {
 	await page.goto(`${site}learn.html#slices`);
 	const ready = "document.querySelector('[data-figure=slices]')?.dataset.state === 'ready'";
 	await page.waitForFunction(ready, null, { timeout: PATIENCE });
-	// Figures above grow when they come on screen.
+	// Wait for the figures above, which grow on screen.
 	await page.waitForTimeout(3000);
 	const top = "document.getElementById('slices').scrollIntoView({ behavior: 'instant' })";
 	await page.evaluate(top);

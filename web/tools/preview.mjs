@@ -3,7 +3,7 @@ import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import { ensureNode } from './environment.mjs';
 import { command, root } from './process.mjs';
-import { vite } from './vite.mjs';
+import { vite } from './site/vite.mjs';
 
 await command(async () => {
 	await ensureNode();

@@ -1,5 +1,5 @@
 /**
- * Running other programs, and telling a person about it: what every command of the house shares.
+ * Running of other programs, and messages to the terminal; shared by all commands.
  *
  * All messages go to standard error: standard output belongs to the program that a command wraps.
  */
@@ -11,7 +11,7 @@ export const root = fileURLToPath(new URL('../../', import.meta.url)).replace(/[
 
 export const windows = process.platform === 'win32';
 
-/** A failure that is told in one line, without a stack. */
+/** Failure reported in one line, without a stack. */
 export class Failure extends Error {}
 
 /** @param {string} line one line for the person at the terminal */
@@ -47,15 +47,16 @@ export function runAside(command, args, options = {}) {
 }
 
 /**
- * What a program prints on standard output; undefined where it is missing or fails.
+ * Standard output of a program; undefined if it is missing or fails.
  *
  * @param {string} command
  * @param {string[]} args
+ * @param {{ shell?: boolean }} [options]
  * @returns {Promise<string | undefined>}
  */
-export function ask(command, args) {
+export function ask(command, args, options = {}) {
 	return new Promise((resolve) => {
-		const child = spawn(command, args, { cwd: root, stdio: ['ignore', 'pipe', 'ignore'] });
+		const child = spawn(command, args, { cwd: root, stdio: ['ignore', 'pipe', 'ignore'], ...options });
 		let text = '';
 		child.stdout.on('data', (chunk) => {
 			text += chunk;
@@ -66,7 +67,7 @@ export function ask(command, args) {
 }
 
 /**
- * A command's body: a `Failure` becomes its one line and exit code 1; a returned number is the exit code.
+ * Runs a command's body: a `Failure` or a wrong option becomes its one line and exit code 1; a returned number is the exit code.
  *
  * @param {() => Promise<number | void>} body
  */
@@ -74,8 +75,9 @@ export async function command(body) {
 	try {
 		process.exitCode = (await body()) ?? 0;
 	} catch (error) {
-		if (!(error instanceof Failure)) throw error;
-		say(error.message);
+		const { code, message } = /** @type {NodeJS.ErrnoException} */ (error);
+		if (!(error instanceof Failure || code?.startsWith('ERR_PARSE_ARGS'))) throw error;
+		say(message);
 		process.exitCode = 1;
 	}
 }

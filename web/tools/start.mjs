@@ -1,5 +1,5 @@
 /**
- * `npm start [-- --port N --host ADDRESS --open]`: installs and bakes what is missing, then serves the demo.
+ * `npm start [-- --port N --host ADDRESS --open]`: installs and bakes missing parts, then serves the demo.
  */
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
@@ -14,12 +14,7 @@ const options = /** @type {const} */ ({
 });
 
 await command(async () => {
-	let values;
-	try {
-		({ values } = parseArgs({ options }));
-	} catch (error) {
-		throw new Failure(/** @type {Error} */ (error).message);
-	}
+	const { values } = parseArgs({ options });
 	const port = values.port === undefined ? undefined : Number(values.port);
 	if (port !== undefined && !(Number.isInteger(port) && port >= 0 && port < 65536))
 		throw new Failure(`--port: got ${values.port}, expected a whole number below 65536`);

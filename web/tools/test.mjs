@@ -1,9 +1,11 @@
 /**
- * `npm test`: every test of both wings, unit and browser. All three runners run, whatever fails; the last line counts.
+ * `npm test [-- --all]`: every test of both wings, unit and browser. All three runners run even after failures; the last line
+ * counts. With `--all` proofs that take minutes are whole: their tests read `FURBAKE_TEST_ALL`.
  */
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { parseArgs } from 'node:util';
 import { ensureBrowser } from './browser.mjs';
 import { ensureNode, ensurePython, python } from './environment.mjs';
 import { command, root, run } from './process.mjs';
@@ -25,7 +27,7 @@ function countJunit(xml) {
 /** @param {string} json Vitest's report; @returns {Count} */
 function countVitest(json) {
 	const { numPassedTests, numFailedTests, testResults } = JSON.parse(json);
-	// A file that cannot even be loaded has no failed test in it.
+	// A file that fails to load has no failed test in it.
 	const broken = testResults.filter(
 		(/** @type {any} */ file) => file.status === 'failed' && !file.assertionResults.length,
 	);
@@ -39,7 +41,7 @@ function countPlaywright(json) {
 }
 
 /**
- * Runs one runner and counts. One that dies without a report, fails without a failed test or runs no test is a failure.
+ * Runs one runner and counts. A runner that dies without a report, fails without a failed test or runs no test is a failure.
  *
  * @param {string} name
  * @param {() => Promise<number>} start
@@ -66,6 +68,8 @@ async function tally(name, start, report, count) {
 }
 
 await command(async () => {
+	const { values } = parseArgs({ options: { all: { type: 'boolean', default: false } } });
+	if (values.all) process.env.FURBAKE_TEST_ALL = '1';
 	await ensureNode();
 	const reports = mkdtempSync(join(tmpdir(), 'furbake-test-'));
 	const report = (/** @type {string} */ name) => join(reports, name);
@@ -76,7 +80,7 @@ await command(async () => {
 			'pytest',
 			async () => {
 				await ensurePython({ dev: true });
-				// On every core: each test keeps to one.
+				// On every core: each test uses one.
 				const split = ['-n', 'auto', '--dist=worksteal'];
 				const folder = join('..', 'tests', 'baker');
 				const args = ['-c', 'pyproject.toml', ...split, `--junitxml=${report('pytest.xml')}`, folder];

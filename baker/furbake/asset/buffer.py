@@ -24,7 +24,7 @@ ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
 
 @dataclass
 class Buffer:
-    """The bytes of one glTF buffer and what the document says of them."""
+    """The bytes of one glTF buffer, with its views and accessors."""
 
     data: bytearray = field(default_factory=bytearray)
     views: list[Record] = field(default_factory=list)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -15,23 +16,30 @@ from numpy.typing import NDArray
 from furbake.asset.buffer import Buffer, numbers
 from furbake.asset.planes import pack, pack_fin, write_png
 from furbake.asset.skin import Looks, feature_nodes, fur_colour, skin_primitives
-from furbake.asset.vertices import fin_vertices, grid, quantise_positions, settle, shell_vertices, tiles_across
-from furbake.pelt.basis import environment
+from furbake.asset.vertices import (
+    fin_vertices,
+    grid,
+    quantise_positions,
+    shell_vertices,
+    shifted_by_tiles,
+    tiles_across,
+)
 from furbake.pelt.fin import fin_environment
 from furbake.pelt.multiple import Multiple
 from furbake.pelt.pelt import Pelt
+from furbake.pelt.texels.basis import environment
 from furbake.surface.charts import Charts
-from furbake.surface.coat import VertexFur
-from furbake.surface.features import Feature, placed
-from furbake.surface.fins import Fins
 from furbake.surface.mesh import Surface
+from furbake.surface.place.features import Feature, placed
+from furbake.surface.place.fins import Fins
+from furbake.surface.place.vertex_fur import VertexFur
 
 Record = dict[str, Any]
 Floats = NDArray[np.float64]
 
 EXTENSION = "FUR_ptm_shells"
 VERSION, VERSION_STATES, VERSION_CURVES = "1.0", "1.1", "2.0"
-"""Of assets with one pelt, of those that have several states of it, and of all that have mean curves."""
+"""Format versions: one pelt, several states of it, mean curves."""
 
 QUANTIZATION = "KHR_mesh_quantization"
 
@@ -42,37 +50,44 @@ STATE = ("wetness", "dirt", "length", "shade", "gloss", "sharpness")
 """Numbers of a pelt's state."""
 
 
-def write_gltf(
-    folder: Path,
-    surface: Surface,
-    charts: Charts,
-    fur: VertexFur,
-    pelt: Pelt,
-    length: float,
-    fins: Fins | None = None,
-    base: Surface | None = None,
-    features: tuple[Feature, ...] = (),
-    states: tuple[Pelt, ...] = (),
-) -> Record:
-    """Write model.gltf, model.bin and all images into `folder`; counts and file sizes for the record.
+@dataclass(frozen=True)
+class FurModel:
+    """A body with its fur, as it is stored.
 
-    pelt, states : the dry fur, and further states of it
+    skin : the surface as it is shown
+    charts, fur : of the ground
+    pelts : the dry fur, then further states of it
     length : longest fur, model units
-    base : the surface that charts, fur and fins stand on where it is not the skin itself but a simpler copy
+    fins : on the ground, or None
+    ground : surface that charts, fur and fins stand on where it is not the skin itself but a simpler copy
     features : further opaque meshes of the scene; where they stand on the skin they are put there
     """
-    pelts = (pelt, *states)
+
+    skin: Surface
+    charts: Charts
+    fur: VertexFur
+    pelts: tuple[Pelt, ...]
+    length: float
+    fins: Fins | None = None
+    ground: Surface | None = None
+    features: tuple[Feature, ...] = ()
+
+
+def write_gltf(folder: Path, model: FurModel) -> Record:
+    """Write model.gltf, model.bin and all images into `folder`; counts and file sizes for the record."""
+    surface, charts, fins, fur, pelts = model.skin, model.charts, model.fins, model.fur, model.pelts
+    pelt = pelts[0]
     looks = Looks(folder, [name for each in pelts for name in _write_planes(folder, each, _prefix(each, pelt))])
     planes = list(looks.images)
     buffer = Buffer()
-    ground = base or surface
+    ground = model.ground or surface
     offset, scale = grid(surface.vertices, ground.vertices)
     positions = quantise_positions(ground.vertices, offset, scale)
-    colours = fur.colour if base is None else None
+    colours = fur.colour if model.ground is None else None
     skin = skin_primitives(surface, quantise_positions(surface.vertices, offset, scale), colours, buffer, looks)
     fur = fur_colour(surface, fur)
 
-    uv = settle(charts)
+    uv = shifted_by_tiles(charts)
     tiles = tiles_across(uv, *([] if fins is None else [fins.uv]))
     shells = buffer.primitive(shell_vertices(ground, charts, fur, positions, uv, tiles), charts.faces)
     meshes: list[Record] = [{"name": "skin", "primitives": skin}, {"name": "shells", "primitives": [shells]}]
@@ -82,7 +97,7 @@ def write_gltf(
     names = [mesh["name"] for mesh in meshes]
     place = {"translation": numbers(offset), "scale": numbers(np.full(3, scale))}
     nodes = [{"name": name, "mesh": i, **place} for i, name in enumerate(names)]
-    nodes += feature_nodes(placed(surface, features), buffer, looks, meshes)
+    nodes += feature_nodes(placed(surface, model.features), buffer, looks, meshes)
     document = {
         "asset": {"version": "2.0", "generator": f"furbake {version('furbake')}"},
         "extensionsUsed": [EXTENSION, QUANTIZATION],
@@ -95,7 +110,7 @@ def write_gltf(
         "accessors": buffer.accessors,
         "bufferViews": buffer.views,
         "buffers": [{"uri": "model.bin", "byteLength": len(buffer.data)}],
-        "extensions": {EXTENSION: extension(pelts, length, tiles, planes, names)},
+        "extensions": {EXTENSION: extension(pelts, model.length, tiles, planes, names)},
     }
     (folder / "model.bin").write_bytes(bytes(buffer.data))
     (folder / "model.gltf").write_text(dump(document), "utf-8", newline="\n")
@@ -116,11 +131,11 @@ def extension(pelts: Sequence[Pelt], length: float, tiles: float, images: list[s
     length : longest fur, model units; tiles : how many of them a texture coordinate of 1 stands for
     """
     pelt = pelts[0]
-    basis: Record = {"kind": pelt.kind}
-    if pelt.kind == "eigen":
-        if pelt.matrix is None or pelt.degree is None:
+    basis: Record = {"kind": pelt.basis.kind}
+    if pelt.basis.kind == "eigen":
+        if pelt.basis.matrix is None or pelt.basis.degree is None:
             raise ValueError("basis: got eigen without its matrix, expected a row of weights per coefficient")
-        basis |= {"degree": pelt.degree, "matrix": [numbers(row) for row in pelt.matrix]}
+        basis |= {"degree": pelt.basis.degree, "matrix": [numbers(row) for row in pelt.basis.matrix]}
     mud = next((each.state.mud for each in pelts if each.state.mud is not None), None)
     version = VERSION if len(pelts) == 1 else VERSION_STATES
     lit: Record = {"environment": [numbers(row) for row in environment(pelt.basis)]}
@@ -153,7 +168,7 @@ def extension(pelts: Sequence[Pelt], length: float, tiles: float, images: list[s
 
 
 def _state(pelt: Pelt, images: list[str], prefix: str, several: bool) -> Record:
-    """The JSON object of one state, whose images begin with `prefix`. Where there is but one it is dry and clean."""
+    """The JSON object of one state, whose images begin with `prefix`. A single one is dry and clean."""
     state: Record = {"name": pelt.state.name}
     if several:
         state |= {name: numbers(np.array([getattr(pelt.state, name)]))[0] for name in STATE}
@@ -203,7 +218,7 @@ def _tables(tables: Floats) -> list[Any]:
 
 
 def _prefix(pelt: Pelt, dry: Pelt) -> str:
-    """With what the names of a pelt's images begin."""
+    """Prefix of the names of a pelt's images."""
     return "" if pelt is dry else f"{pelt.state.name}-"
 
 

@@ -1,4 +1,4 @@
-"""What a baked folder holds, in numbers."""
+"""Figures of a baked folder."""
 
 from __future__ import annotations
 

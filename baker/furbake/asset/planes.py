@@ -9,6 +9,8 @@ A fin's images are its side view, row 0 at the roots.
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,11 +19,17 @@ import OpenImageIO as oiio  # noqa: N813 — as its own documentation spells it
 from numpy.typing import NDArray
 
 from furbake.pelt.pelt import FinPelt, Pelt
+from furbake.surface.files import check_regular
+from furbake.surface.limits import Budget, limits
+from furbake.surface.soup import MeshError
 
 Bytes = NDArray[np.uint8]
 
 SLOTS = ((0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (0, 3))
 """(plane, channel) of a0 to a5."""
+
+
+STANDARD_ERROR = 2
 
 
 class PlaneError(ValueError):
@@ -39,7 +47,7 @@ class Planes:
 
 @dataclass(frozen=True)
 class Texels:
-    """What the images hold, per texel; the reverse of `pack`.
+    """Contents of a pelt's images per texel; the reverse of `pack`.
 
     codes : (K, N, N, C), alpha, tint : (K, N, N), colour, direction : (K, N, N, 3) bytes or None
     """
@@ -70,7 +78,7 @@ def pack_fin(fin: FinPelt) -> Planes:
 
 
 def unpack_fin(planes: Planes, coefficients: int = 6) -> Texels:
-    """What a fin's images hold, (height, width, ...). Raises ValueError where they are not two of one size."""
+    """Texels of a fin's images, (height, width, ...). Raises ValueError where they are not two of one size."""
     shapes = {plane.shape for plane in planes.coefficients}
     if len(planes.coefficients) != 2 or len(shapes) != 1 or next(iter(shapes))[2] != 4:
         raise ValueError(f"fin: got planes {[p.shape for p in planes.coefficients]}, expected two of 4 channels")
@@ -80,7 +88,7 @@ def unpack_fin(planes: Planes, coefficients: int = 6) -> Texels:
 
 
 def unpack(planes: Planes, coefficients: int) -> Texels:
-    """What a pelt's images hold. Raises ValueError where shapes and count disagree."""
+    """Texels of a pelt's images. Raises ValueError where shapes and count disagree."""
     first = planes.coefficients[0]
     size = first.shape[1]
     if len(planes.coefficients) != (1 if coefficients == 3 else 2) or first.shape[0] % size or first.shape[2] != 4:
@@ -102,6 +110,8 @@ def write_png(path: Path, pixels: NDArray[np.uint8] | NDArray[np.uint16], srgb: 
     spec = oiio.ImageSpec(width, height, channels, pixels.dtype.name)
     spec.attribute("oiio:UnassociatedAlpha", 1)  # or RGB is multiplied by A, and coefficients are lost
     spec.attribute("png:compressionLevel", 9)
+    if channels == 4:
+        spec.attribute("compression", "filtered")  # coefficients are noise with few matches: 3 % less
     spec.attribute("oiio:ColorSpace", "srgb_rec709_scene" if srgb else "data")
     output = oiio.ImageOutput.create(os.fspath(path))
     if output is None:
@@ -115,7 +125,18 @@ def write_png(path: Path, pixels: NDArray[np.uint8] | NDArray[np.uint16], srgb: 
 
 
 def read_png(path: Path) -> Bytes:
-    """(height, width, channels) bytes of an image as they are. Raises PlaneError."""
+    """(height, width, channels) bytes of an image as they are. Raises PlaneError, also where it is too large."""
+    try:
+        check_regular(path, Budget(str(path), "bytes"))
+    except OSError as error:
+        raise PlaneError(f"{path}: {(error.strerror or 'cannot be read').lower()}, expected a picture") from error
+    except MeshError as error:
+        raise PlaneError(str(error)) from error
+    with _silent():
+        return _read_png(path)
+
+
+def _read_png(path: Path) -> Bytes:
     config = oiio.ImageSpec()
     config.attribute("oiio:UnassociatedAlpha", 1)
     source = oiio.ImageInput.open(os.fspath(path), config)
@@ -125,12 +146,31 @@ def read_png(path: Path) -> Bytes:
         spec = source.spec()
         if spec.format != oiio.UINT8:
             raise PlaneError(f"{path}: samples are {spec.format}, expected bytes")
+        if spec.width * spec.height > limits().pixels:
+            raise PlaneError(f"{path}: {spec.width} x {spec.height} pixels, expected at most {limits().pixels}")
         pixels = source.read_image("uint8")
         if pixels is None:
             raise PlaneError(f"{path}: {' '.join(source.geterror().split()) or 'cannot be read'}")
         return np.asarray(pixels, dtype=np.uint8).reshape(spec.height, spec.width, spec.nchannels)
     finally:
         source.close()
+
+
+@contextmanager
+def _silent() -> Iterator[None]:
+    """Keep off standard error what libpng writes there itself; its errors are raised as well."""
+    try:
+        kept = os.dup(STANDARD_ERROR)
+    except OSError:  # closed
+        yield
+        return
+    try:
+        with open(os.devnull, "wb") as null:  # noqa: PTH123 — no path
+            os.dup2(null.fileno(), STANDARD_ERROR)
+        yield
+    finally:
+        os.dup2(kept, STANDARD_ERROR)
+        os.close(kept)
 
 
 def _two_planes(codes: Bytes, alpha: Bytes, tint: Bytes) -> Bytes:

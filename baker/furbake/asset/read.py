@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from furbake.asset.gltf import EXTENSION
 from furbake.asset.planes import Bytes, read_png
-
-COMPONENTS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
-WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
+from furbake.surface.files import read_regular
+from furbake.surface.limits import Budget
+from furbake.surface.read.accessors import TYPES, WIDTHS, elements
 
 
 class AssetError(ValueError):
@@ -57,18 +57,19 @@ class Asset:
         """(count, width) components as stored, or (count,) for scalars. Raises AssetError where it leaves the data."""
         accessor = self.document["accessors"][_index(index)]
         view = self.document["bufferViews"][_index(accessor["bufferView"])]
-        dtype, width = np.dtype(COMPONENTS[accessor["componentType"]]), WIDTHS[accessor["type"]]
-        count = _index(accessor["count"])
-        item = width * dtype.itemsize
-        stride = _index(view.get("byteStride", item))
-        inner, start = _index(accessor.get("byteOffset", 0)), _index(view.get("byteOffset", 0))
-        end = inner + stride * (count - 1) + item
-        length = _index(view["byteLength"])
-        if count < 1 or stride < item or end > length or start + length > len(self.data):
-            raise AssetError(f"model.gltf: accessor {index} leaves its buffer, expected {end} of {length} bytes there")
-        raw = np.frombuffer(self.data, np.uint8, length, start)[inner:]
-        rows = np.lib.stride_tricks.as_strided(raw, (count, item), (stride, 1))
-        values = np.ascontiguousarray(rows).view(dtype)
+        kind, width, count = (
+            np.dtype(TYPES[accessor["componentType"]]),
+            WIDTHS[accessor["type"]],
+            _index(accessor["count"]),
+        )
+        inner, stride = _index(accessor.get("byteOffset", 0)), _index(view.get("byteStride", 0))
+        start, length = _index(view.get("byteOffset", 0)), _index(view["byteLength"])
+        if count < 1 or start + length > len(self.data):
+            raise AssetError(f"model.gltf: accessor {index} leaves its buffer, expected 1 or more elements in it")
+        try:
+            values = elements(memoryview(self.data)[start : start + length], inner, count, width, kind, stride)
+        except ValueError as error:
+            raise AssetError(f"model.gltf: accessor {index} leaves its buffer ({error}), expected it inside") from error
         return values[:, 0] if width == 1 else values
 
     def image(self, index: int) -> Bytes:
@@ -81,12 +82,12 @@ def read_asset(folder: Path) -> Asset:
     if not folder.is_dir():
         what = "is a file" if folder.exists() else "no such folder"
         raise AssetError(f"{folder}: {what}, expected a folder that furbake wrote")
-    document = _json(folder / "model.gltf")
-    record = _json(folder / "bake.json") if (folder / "bake.json").exists() else {}
+    document = read_json(folder / "model.gltf")
+    record = read_json(folder / "bake.json") if (folder / "bake.json").exists() else {}
     uri = "model.bin"
     try:
         uri = document["buffers"][0]["uri"]
-        data = inside(folder, uri).read_bytes()
+        data = read_regular(inside(folder, uri), Budget(str(folder), "bytes"))
     except (LookupError, TypeError) as error:
         raise AssetError("model.gltf: no buffer, expected one with its uri") from error
     except OSError as error:
@@ -107,9 +108,10 @@ def _index(value: Any) -> int:
     return value
 
 
-def _json(path: Path) -> dict[str, Any]:
+def read_json(path: Path) -> dict[str, Any]:
+    """A JSON object in a regular file. Raises AssetError."""
     try:
-        found = json.loads(path.read_text("utf-8"))
+        found = json.loads(read_regular(path, Budget(path.name, "bytes")).decode("utf-8"))
     except OSError as error:
         raise AssetError(f"{path.name}: {(error.strerror or 'cannot be read').lower()}, expected JSON") from error
     except (ValueError, RecursionError) as error:

@@ -12,27 +12,27 @@ from numpy.typing import NDArray
 
 from furbake.asset.buffer import Buffer, numbers
 from furbake.asset.vertices import Attributes, deep_shares, shares, signed
-from furbake.surface.coat import VertexFur
 from furbake.surface.colours import translucent
-from furbake.surface.features import Feature, ball
 from furbake.surface.material import Material, Picture, Skin
 from furbake.surface.mesh import Surface
+from furbake.surface.place.features import Feature, ball
+from furbake.surface.place.vertex_fur import VertexFur
 
 Record = dict[str, Any]
 
 ENDINGS = {"image/png": "png", "image/jpeg": "jpg"}
-"""Of the files that pictures are written to, by media type."""
+"""File name endings of pictures by media type."""
 
 ALIKE = 0.5 / 255.0
 """Colours nearer than this are one."""
 
 FARTHEST = 1e6
-"""Largest texture coordinate: beyond it 32-bit floats say nothing of the place in a picture."""
+"""Largest texture coordinate: beyond it 32-bit floats do not tell texels apart."""
 
 
 @dataclass
 class Looks:
-    """What a document says of materials as it grows; the pictures are written into `folder` on the way.
+    """Materials, textures and images of a document; their pictures are written into `folder`.
 
     images : names of the image files, those of the pelt first
     """
@@ -57,7 +57,7 @@ class Looks:
         return {name: records for name, records in members.items() if records}
 
     def material(self, material: Material, textured: bool) -> int:
-        """Index of a material; its picture is left out where nothing says how it lies (`textured`)."""
+        """Index of a material; without texture coordinates (`textured`) its picture is left out."""
         surface: Record = {
             "baseColorFactor": numbers(np.array(material.factor)),
             "metallicFactor": numbers(np.array([material.metallic]))[0],
@@ -107,7 +107,7 @@ def skin_primitives(
 
 
 def fur_colour(surface: Surface, fur: VertexFur) -> VertexFur:
-    """The fur with the whole colour of the skin below it, or none where the first material of the skin says that."""
+    """The fur with the whole colour of the skin below it, or none where the skin's first material has it."""
     first = _material(surface.skin[0], surface).factor[:3] if surface.skin else surface.colour
     whole = np.array(surface.colour) * (np.ones(3) if fur.colour is None else fur.colour)
     same = bool((np.abs(whole - np.array(first)) < ALIKE).all())
@@ -155,7 +155,7 @@ def _attributes(piece: Skin, positions: NDArray[np.uint16], normals: NDArray[np.
 
 
 def _material(piece: Skin, surface: Surface) -> Material:
-    """The model's own material, opaque where it only says that it might not be.
+    """The model's own material, opaque unless some of it lets light through.
 
     Where it is all there is to the skin's colour, that is the surface's: an exporter's grey counts as white.
     """
@@ -167,12 +167,12 @@ def _material(piece: Skin, surface: Surface) -> Material:
 
 
 def _text(name: str) -> str:
-    """A name as files can hold it: half a pair of surrogates is no character."""
+    """A name without lone surrogates, which UTF-8 cannot hold."""
     return name.encode("utf-8", "replace").decode()
 
 
 def _index(records: list[Record], record: Record) -> int:
-    """Index of a record in the list, at whose end it is put where it is not in it."""
+    """Index of a record in the list; a new one is appended."""
     if record not in records:
         records.append(record)
     return records.index(record)

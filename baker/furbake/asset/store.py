@@ -1,7 +1,10 @@
 """Folders and files that appear whole or not at all, whenever the process that writes them stops.
 
-Everything is written to a hidden sibling, `.NAME.PID-xxxxxxxx.part`, then renamed once. What a killed process leaves
-behind is cleared away at the next bake to the same place.
+Everything is written to a hidden sibling, `.NAME.PID-xxxxxxxx.part`, then renamed once; where something is replaced,
+the two change places in one step, so that a reader finds the old or the new at any moment.
+
+Whoever writes holds the lock of the hidden sibling `.NAME.lock`, which the system gives back when a process dies. So
+all that lies beside a free lock is left by the dead, whatever its number, and is cleared away by the next to write.
 """
 
 from __future__ import annotations
@@ -15,8 +18,16 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
 
-MARKS = ("bake.json", "model.gltf")
-"""A folder that holds one of these is a bake, whatever else somebody put in it."""
+from filelock import FileLock, Timeout
+
+from furbake.asset.exchange import move, swap
+from furbake.asset.owned import strangers
+
+PATIENCE = 0.2
+"""Seconds in which another process may give a lock back; it is gone between two looks where that one just ends."""
+
+NAMED = 5
+"""Names that a message lists at the most."""
 
 
 class StoreError(OSError):
@@ -27,25 +38,27 @@ class StoreError(OSError):
 def atomic_folder(target: Path, force: bool = False) -> Iterator[Path]:
     """A new empty folder to write in, which becomes `target` when the block ends, and vanishes when it fails.
 
-    force : replace an old `target`, which stays untouched until the new one is complete. A folder that can't be a
-        bake is never replaced: one with folders in it, the current one, the home folder
+    force : replace an old `target` that furbake wrote, and nothing else: it stays untouched until the new one is
+        complete, and then both change places
 
-    Raises StoreError before the block where `target` cannot be written, after it where the rename fails.
+    Raises StoreError before the block where `target` cannot be written or is being written by another process, after
+    it where it has appeared meanwhile or the rename fails.
     """
     name, target = str(target), Path(os.path.realpath(target))
+    check_free(target, force, name)
     made = _make_parents(name, target.parent)
     try:
-        _recover(target)
-        check_free(target, force, name)
-        fresh = _sibling(target, "part")
-        with _told(name, "expected a folder that can be written"):
-            fresh.mkdir()
-        try:
-            yield fresh
+        with _locked(name, target):
+            check_free(target, force, name)
+            fresh = _sibling(target, "part")
             with _told(name, "expected a folder that can be written"):
-                _replace(fresh, target)
-        finally:
-            shutil.rmtree(fresh, ignore_errors=True)
+                fresh.mkdir()
+            try:
+                yield fresh
+                with _told(name, "expected a folder that can be written"):
+                    _place(fresh, target, force, name)
+            finally:
+                shutil.rmtree(fresh, ignore_errors=True)
     except BaseException:
         for folder in reversed(made):
             with suppress(OSError):
@@ -57,26 +70,26 @@ def atomic_folder(target: Path, force: bool = False) -> Iterator[Path]:
 def atomic_file(target: Path) -> Iterator[BinaryIO]:
     """An open file that becomes `target`, replacing it, when the block ends, and vanishes when it fails.
 
-    Raises StoreError where it cannot be written.
+    Raises StoreError where it cannot be written or is being written by another process.
     """
     name, target = str(target), Path(os.path.realpath(target))
     if target.is_dir():
         raise StoreError(f"{name}: is a folder, expected a file to write")
-    _recover(target)
     fresh = _sibling(target, "part")
-    try:
-        with _told(name, "expected a file that can be written"):
-            file = fresh.open("xb")
-        with file:
-            yield file
-        with _told(name, "expected a file that can be written"):
-            fresh.replace(target)
-    finally:
-        fresh.unlink(missing_ok=True)
+    with _locked(name, target, "expected a file that can be written"):
+        try:
+            with _told(name, "expected a file that can be written"):
+                file = fresh.open("xb")
+            with file:
+                yield file
+            with _told(name, "expected a file that can be written"):
+                fresh.replace(target)
+        finally:
+            fresh.unlink(missing_ok=True)
 
 
 def check_free(target: Path, force: bool, name: str | None = None) -> None:
-    """Raise StoreError unless a bake may be written to `target`."""
+    """Raise StoreError unless a bake may be written to `target`; with `force` that may hold what furbake wrote."""
     name = name or str(target)
     if not os.path.lexists(target):
         return
@@ -88,20 +101,36 @@ def check_free(target: Path, force: bool, name: str | None = None) -> None:
     if here in (Path.cwd(), *Path.cwd().parents, Path.home()):
         raise StoreError(f"{name}: is the current folder, one above it or the home folder, expected one to replace")
     with _told(name, "expected a folder that can be read"):
-        folders = sorted(entry.name for entry in target.iterdir() if entry.is_dir())
-        baked = any((target / mark).exists() for mark in MARKS)
-    if folders and not baked:
-        raise StoreError(f"{name}: holds the folder {folders[0]} and is no bake, expected a bake to replace")
+        _check_own(target, name)
 
 
-def _replace(fresh: Path, target: Path) -> None:
-    """Rename `fresh` to `target`; an old target is set aside first, and put back if that fails."""
-    if not target.exists():
-        fresh.rename(target)
+def _check_own(folder: Path, name: str) -> None:
+    """Raise StoreError where a folder holds anything that furbake did not write."""
+    lost = strangers(folder)
+    if lost:
+        more = f" and {len(lost) - NAMED} more" if len(lost) > NAMED else ""
+        what = ", ".join(lost[:NAMED])
+        raise StoreError(f"{name}: holds {what}{more}, not written by furbake, expected nothing beside a bake")
+
+
+def _place(fresh: Path, target: Path, force: bool, name: str) -> None:
+    """Rename `fresh` to `target`, looked at once more; afterwards `fresh` is the old folder, if there was one."""
+    if not os.path.lexists(target):
+        with suppress(FileExistsError):
+            move(fresh, target)
+            return
+    check_free(target, force, name)
+    if swap(fresh, target):
+        try:
+            _check_own(fresh, name)
+        except BaseException:
+            swap(fresh, target)
+            raise
         return
     old = _sibling(target, "old")
     target.rename(old)
     try:
+        _check_own(old, name)
         fresh.rename(target)
     except BaseException:
         old.rename(target)
@@ -109,33 +138,45 @@ def _replace(fresh: Path, target: Path) -> None:
     shutil.rmtree(old, ignore_errors=True)
 
 
+@contextmanager
+def _locked(name: str, target: Path, expected: str = "expected a folder that can be written") -> Iterator[None]:
+    """Hold the lock of `target`, where what others left is cleared away first.
+
+    Raises StoreError where another process, or another part of this one, holds it.
+    """
+    lock = FileLock(target.with_name(f".{target.name}.lock"), timeout=PATIENCE, is_singleton=False)
+    with _told(name, expected):
+        target.parent.stat()  # the library would create the folder
+        try:
+            lock.acquire()
+        except Timeout:
+            raise StoreError(f"{name}: is being written by another process, expected to be alone there") from None
+    try:
+        _recover(target)
+        yield
+    finally:
+        with suppress(OSError):  # while it is held: nobody else can come by a lock on a file without a name
+            Path(lock.lock_file).unlink()
+        lock.release()
+
+
 def _recover(target: Path) -> None:
-    """Clear away what killed processes left beside `target`; an old folder that they had set aside comes back."""
-    pattern = re.compile(rf"\.{re.escape(target.name)}\.(\d+)-[0-9a-f]{{8}}\.(part|old)")
+    """Clear away what dead processes left beside `target`; an old folder that they had set aside comes back.
+
+    Call it under the lock alone: then no living process owns any of it.
+    """
+    pattern = re.compile(rf"\.{re.escape(target.name)}\.\d+-[0-9a-f]{{8}}\.(part|old)")
     with suppress(OSError):
         for entry in sorted(target.parent.iterdir()):
             match = pattern.fullmatch(entry.name)
-            if not match or _alive(int(match[1])):
+            if not match:
                 continue
-            if match[2] == "old" and not os.path.lexists(target):
+            if match[1] == "old" and not os.path.lexists(target):
                 entry.rename(target)
             elif entry.is_dir() and not entry.is_symlink():
                 shutil.rmtree(entry, ignore_errors=True)
             else:
                 entry.unlink()
-
-
-def _alive(pid: int) -> bool:
-    """Whether a process runs. Where the system gives no harmless way to ask, the answer is yes."""
-    if os.name != "posix":
-        return True
-    try:
-        os.kill(pid, 0)
-    except (ProcessLookupError, OverflowError):
-        return False
-    except PermissionError:
-        return True
-    return True
 
 
 def _sibling(target: Path, kind: str) -> Path:
@@ -160,9 +201,11 @@ def _make_parents(name: str, parent: Path) -> list[Path]:
 
 @contextmanager
 def _told(name: str, expected: str) -> Iterator[None]:
-    """Turns what the system says into one sentence."""
+    """Turn an error of the system into one sentence."""
     try:
         yield
+    except StoreError:
+        raise
     except OSError as error:
         text = (error.strerror or str(error) or type(error).__name__).lower()
         raise StoreError(f"{name}: {text}, {expected}") from error

@@ -1,4 +1,4 @@
-"""The pelt of a baked folder: what `write_gltf` stored of it, read back byte for byte."""
+"""The pelt of a baked folder, read back byte for byte from what `write_gltf` stored."""
 
 from __future__ import annotations
 
@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 from furbake.asset.gltf import STATE
 from furbake.asset.planes import PlaneError, Planes, unpack, unpack_fin
 from furbake.asset.read import Asset, AssetError
-from furbake.pelt.basis import smooth_terms
-from furbake.pelt.curves import KNOTS, RADII, Curves, unit
+from furbake.pelt.curves import KNOTS, RADII, Curves, lean_direction
+from furbake.pelt.hairs.ramp import Ramp
+from furbake.pelt.hairs.states import PeltState
 from furbake.pelt.multiple import Multiple
-from furbake.pelt.pelt import FinPelt, Pelt, Ramp, State
+from furbake.pelt.pelt import FinPelt, Pelt
+from furbake.pelt.texels.basis import PTM, Basis, smooth_terms
 
 Floats = NDArray[np.float64]
 RGB = tuple[float, float, float]
@@ -60,16 +62,12 @@ def _pelt(fur: dict[str, Any], asset: Asset, index: int) -> Pelt:
             got = " x ".join(str(side) for side in image.shape[1::-1])
             raise AssetError(f"{asset.folder}: a plane is {got}, expected {size} x {layers * size}")
     texels = unpack(images, count)
-    basis = fur["basis"]
-    if basis["kind"] not in ("ptm", "eigen"):
-        raise AssetError(f"model.gltf: basis {basis['kind']!r}, expected ptm or eigen")
-    eigen = basis["kind"] == "eigen"
     ramp, state = fur["ramp"], _state(stored, fur)
     drift, curves = _array(fur["drift"], layers, 2), None
     if "curves" in fur:
         many = len(fur["curves"]["even"]), len(RADII), KNOTS
         even, along = (_array(fur["curves"][name], *many) for name in ("even", "along"))
-        curves = Curves(even, along, unit(drift[-1]))
+        curves = Curves(even, along, lean_direction(drift[-1]))
     return Pelt(
         codes=texels.codes,
         alpha=texels.alpha,
@@ -77,9 +75,7 @@ def _pelt(fur: dict[str, Any], asset: Asset, index: int) -> Pelt:
         colour=texels.colour,
         scale=_array(stored["scale"], count),
         bias=_array(stored["bias"], count),
-        kind="eigen" if eigen else "ptm",
-        degree=int(basis["degree"]) if eigen else None,
-        matrix=_array(basis["matrix"], count, smooth_terms(int(basis["degree"]))) if eigen else None,
+        basis=_basis(fur["basis"], count),
         drift=drift,
         height=float(fur["height"]) * state.length,
         ramp=Ramp(_rgb(ramp["root"]), _rgb(ramp["tip"]), _rgb(ramp["tip2"]), float(ramp["power"])),
@@ -95,6 +91,16 @@ def _pelt(fur: dict[str, Any], asset: Asset, index: int) -> Pelt:
     )
 
 
+def _basis(stored: dict[str, Any], count: int) -> Basis:
+    """The basis of `count` coefficients per texel."""
+    if stored["kind"] == "ptm":
+        return PTM
+    if stored["kind"] != "eigen":
+        raise AssetError(f"model.gltf: basis {stored['kind']!r}, expected ptm or eigen")
+    degree = int(stored["degree"])
+    return Basis("eigen", degree, _array(stored["matrix"], count, smooth_terms(degree)))
+
+
 def _multiple(stored: dict[str, Any], layers: int) -> Multiple:
     """Light that has met several hairs."""
     return Multiple(
@@ -107,11 +113,11 @@ def _multiple(stored: dict[str, Any], layers: int) -> Multiple:
     )
 
 
-def _state(stored: dict[str, Any], fur: dict[str, Any]) -> State:
-    """How wet and dirty a pelt is; what is missing is as in dry and clean fur."""
+def _state(stored: dict[str, Any], fur: dict[str, Any]) -> PeltState:
+    """State of a pelt; a missing number is that of dry and clean fur."""
     values: dict[str, Any] = {name: float(stored[name]) for name in STATE if name in stored}
     mud = _rgb(fur["mud"]) if values.get("dirt") else None
-    return State(name=stored["name"], mud=mud, **values)
+    return PeltState(name=stored["name"], mud=mud, **values)
 
 
 def _fin(stored: dict[str, Any], asset: Asset) -> FinPelt:
@@ -141,6 +147,8 @@ def _array(values: Any, *shape: int) -> Floats:
     array = np.array(values, np.float64)
     if array.shape != shape:
         raise ValueError(f"got numbers of shape {array.shape}, expected {shape}")
+    if not np.isfinite(array).all():
+        raise ValueError("got NaN or infinity, expected numbers")
     return array
 
 

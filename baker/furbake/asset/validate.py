@@ -1,4 +1,4 @@
-"""Is a baked folder what it claims to be? Schema, references, sizes, ranges; every problem in one sentence."""
+"""Checks of a baked folder: schema, references, sizes, ranges; every problem in one sentence."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ ATTRIBUTES = {
     "shells": (REQUIRED, {*REQUIRED, "COLOR_0", "_FUR", "_COMB"}),
     "fins": ((*REQUIRED, "_EDGE"), {*REQUIRED, "COLOR_0", "_FUR", "_EDGE"}),
 }
-"""What the vertices of the fur must have, and what they may have."""
+"""Attributes of the fur's vertices, required and optional."""
 
-HEAVIEST = 32
+MAX_VERTEX_BYTES = 32
 """Bytes of a shell or fin vertex."""
 
 UNIT = 0.02
-"""How far from 1 a normal may be: bytes hold it to 1/127 per component."""
+"""Tolerance of a normal's length: bytes hold it to 1/127 per component."""
 
 FIGURES = (
     "psnr", "psnr_worst_layer", "psnr_composite", "r2", "psnr_quantised", "psnr_quantised_composite",
@@ -38,14 +38,14 @@ FIGURES = (
 
 
 def validate(folder: Path) -> list[str]:
-    """What is wrong with a baked folder, nothing when all is well."""
+    """Problems of a baked folder; empty if it is valid."""
     try:
         asset = read_asset(folder)
         fur = asset.fur
     except AssetError as error:
         return [str(error)]
     problems = [f"{EXTENSION}: {_where(error)}{error.message}" for error in schema().iter_errors(fur)]
-    if problems:  # the other checks lean on the schema
+    if problems:  # the other checks need a document that fits the schema
         return problems
     for check in (_document, _nodes, _skin, _shells, _fins, pelts, curves, multiple, states, _record):
         try:
@@ -56,6 +56,13 @@ def validate(folder: Path) -> list[str]:
             what = check.__name__.strip("_")
             problems.append(f"model.gltf: {what} is malformed ({type(error).__name__}: {error}), expected valid glTF")
     return problems
+
+
+def check(folder: Path) -> None:
+    """Raise AssetError, with the first problem, for a folder that is not valid."""
+    if problems := validate(folder):
+        more = f"; {len(problems) - 1} more, see furbake validate" if problems[1:] else ""
+        raise AssetError(f"{' '.join(problems[0].split())}{more}")
 
 
 @cache
@@ -111,7 +118,7 @@ def _below(nodes: list[dict[str, Any]], root: int) -> set[int]:
 
 
 def _skin(asset: Asset) -> Iterator[str]:
-    """The body and whatever else the scene shows: meshes in materials that there are, with pictures that there are."""
+    """The body and all other meshes of the scene: materials and pictures exist."""
     nodes, fur = asset.document["nodes"], asset.fur
     for index, node in enumerate(nodes):
         if "mesh" not in node or index in (fur["shells"], fur.get("fins")):
@@ -153,7 +160,7 @@ def _fins(asset: Asset) -> Iterator[str]:
 
 
 def _furry(asset: Asset, name: str) -> Iterator[str]:
-    """What shells and fins have in common."""
+    """Checks that shells and fins have in common."""
     required, known = ATTRIBUTES[name]
     primitive = asset.primitive(asset.fur[name])
     yield from _primitive(asset, name, primitive, required)
@@ -163,8 +170,8 @@ def _furry(asset: Asset, name: str) -> Iterator[str]:
         yield f"{name}: {', '.join(strange)}, expected only {', '.join(sorted(known))}"
     views = [asset.document["bufferViews"][asset.document["accessors"][i]["bufferView"]] for i in attributes.values()]
     weight = sum(view["byteStride"] for view in {json.dumps(v, sort_keys=True): v for v in views}.values())
-    if weight > HEAVIEST:
-        yield f"{name}: {weight} bytes per vertex, expected at most {HEAVIEST}"
+    if weight > MAX_VERTEX_BYTES:
+        yield f"{name}: {weight} bytes per vertex, expected at most {MAX_VERTEX_BYTES}"
     signs = np.unique(asset.accessor(attributes["TANGENT"])[:, 3])
     if not set(signs.tolist()) <= {-127, 127, -1.0, 1.0}:
         yield f"{name}: TANGENT w of {signs[0]}, expected 1 or -1"

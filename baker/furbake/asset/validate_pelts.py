@@ -1,4 +1,4 @@
-"""Are the pelts of a baked folder what the extension says they are? Every problem in one sentence."""
+"""Checks of the pelts of a baked folder against its extension; every problem in one sentence."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from furbake.asset.gltf import EXTENSION
 from furbake.asset.read import Asset
-from furbake.pelt.basis import smooth_terms
+from furbake.pelt.texels.basis import smooth_terms
 
 
 def _basis(basis: dict[str, Any], count: int) -> Iterator[str]:
@@ -86,11 +86,11 @@ def multiple(asset: Asset) -> Iterator[str]:
     if "curves" not in fur:
         yield f"{EXTENSION}: multiple without curves, expected both"
     for i, pelt in enumerate(fur["pelts"]):
-        told = pelt.get("multiple", {})
+        record = pelt.get("multiple", {})
         for key in ("shares", "ratio", "seen", "tint", "colour"):
-            if key in told and len(told[key]) != fur["layers"]:
-                yield f"{EXTENSION}: pelts[{i}].multiple.{key} has {len(told[key])} rows, expected {fur['layers']}"
-        if told and ("colour" in told) != ("colour" in fur["pelts"][0]):
+            if key in record and len(record[key]) != fur["layers"]:
+                yield f"{EXTENSION}: pelts[{i}].multiple.{key} has {len(record[key])} rows, expected {fur['layers']}"
+        if record and ("colour" in record) != ("colour" in fur["pelts"][0]):
             yield f"{EXTENSION}: one of pelts[{i}].multiple and pelts[0] has no colour, expected both or none"
 
 
@@ -106,8 +106,8 @@ def states(asset: Asset) -> Iterator[str]:
     dirty = [pelt for pelt in found if pelt.get("dirt", 0)]
     wetness = [pelt.get("wetness", 0) for pelt in found if pelt not in dirty]
     if sorted(set(wetness)) != wetness:
-        told = ", ".join(f"{value:g}" for value in wetness)
-        yield f"{EXTENSION}: clean pelts have the wetness {told}, expected one that rises"
+        listed = ", ".join(f"{value:g}" for value in wetness)
+        yield f"{EXTENSION}: clean pelts have the wetness {listed}, expected one that rises"
     if any(pelt.get("wetness", 0) for pelt in dirty):
         yield f"{EXTENSION}: pelt {dirty[0]['name']} is wet and dirty, expected one of the two"
     if len(dirty) > 1:

@@ -21,9 +21,9 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
 from furbake.surface.charts import Charts
-from furbake.surface.coat import VertexFur, tangential
-from furbake.surface.fins import Fins
 from furbake.surface.mesh import Surface
+from furbake.surface.place.fins import Fins
+from furbake.surface.place.vertex_fur import VertexFur, tangential
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -33,7 +33,7 @@ Attributes = dict[str, NDArray[Any]]
 
 SHORT = 65535
 FULL_FUR = (255, 255, 255, 0)
-"""_FUR where it is left out: the whole weight and length, open, of the first tip colour."""
+"""Default of _FUR: the whole weight and length, open, of the first tip colour."""
 
 
 def shell_vertices(
@@ -56,7 +56,7 @@ def shell_vertices(
         "TEXCOORD_0": quantise_uv(uv, tiles),
         **_colour(fur, source),
         **_fur(weights, fur, source),
-        **_unless("_COMB", signed(_components(comb, tangent, bitangent)), 0),
+        **omit_default("_COMB", signed(_components(comb, tangent, bitangent)), 0),
     }
 
 
@@ -94,7 +94,7 @@ def grid(*parts: Floats) -> tuple[Floats, float]:
     return low, float((high - low).max())
 
 
-def settle(charts: Charts) -> Floats:
+def shifted_by_tiles(charts: Charts) -> Floats:
     """(M, 2) texture coordinates with each patch moved by whole tiles to where they are positive and small."""
     count = len(charts.source)
     start, end = charts.faces.reshape(-1), np.roll(charts.faces, -1, axis=1).reshape(-1)
@@ -145,7 +145,7 @@ def deep_shares(values: Floats) -> Shorts:
 
 def _fur(weights: Bytes, fur: VertexFur, source: Ints) -> Attributes:
     place = np.column_stack([shares(values) for values in (fur.lengths, fur.occlusion, fur.tip)])
-    return _unless("_FUR", np.column_stack([weights, place[source]]), FULL_FUR)
+    return omit_default("_FUR", np.column_stack([weights, place[source]]), FULL_FUR)
 
 
 def _colour(fur: VertexFur, source: Ints) -> Attributes:
@@ -157,6 +157,6 @@ def _components(vectors: Floats, one: Floats, two: Floats) -> Floats:
     return np.column_stack([np.einsum("ij,ij->i", vectors, axis) for axis in (one, two)])
 
 
-def _unless(name: str, values: NDArray[Any], missing: Any) -> Attributes:
-    """The attribute, unless it is everywhere what it would be where missing."""
+def omit_default(name: str, values: NDArray[Any], missing: Any) -> Attributes:
+    """The attribute, left out where all its values are the default."""
     return {name: values} if (values != np.array(missing)).any() else {}

@@ -2,6 +2,6 @@
 
 import sys
 
-from furbake.cli.command import main
+from furbake.cli import main
 
 sys.exit(main())

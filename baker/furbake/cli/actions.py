@@ -1,36 +1,38 @@
-"""What each sub-command does with its arguments; its exit status."""
+"""Actions of the sub-commands: from arguments to an exit status."""
 
 from __future__ import annotations
 
-import argparse
 import json
-import sys
 import time
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from types import SimpleNamespace
 from typing import Any
 
 from furbake.asset.inspect import summary
 from furbake.asset.read import AssetError, read_asset
-from furbake.asset.validate import validate
-from furbake.bake import STAGES, bake
+from furbake.asset.validate import check, validate
+from furbake.cli.command import INVALID
+from furbake.cli.output import complain, say
 from furbake.cli.progress import shown
 from furbake.groom.files import write_groom
 from furbake.groom.strands import STAGES as GROOM_STAGES
 from furbake.groom.strands import groom
-from furbake.identity import bake_key
-from furbake.lesson import STAGES as LESSON_STAGES
-from furbake.lesson import fresh as fresh_lesson
-from furbake.lesson import write as write_lesson
-from furbake.likeness import verify as body
-from furbake.likeness.colour import colour_lines, verify_colour
-from furbake.likeness.tables import lines as body_lines
+from furbake.identity import bake_key, library_versions
 from furbake.options import BakeOptions, OptionError, as_toml, override, preset, preset_names, preset_summary
-from furbake.report import STAGES as REPORT_STAGES
-from furbake.report import write as write_report
-from furbake.swatch import save
-from furbake.verify import SAMPLES, lines, verify
+from furbake.pelt.hairs.states import WETNESS
+from furbake.pipeline import STAGES, bake
+from furbake.show.lesson import STAGES as LESSON_STAGES
+from furbake.show.lesson import fresh as fresh_lesson
+from furbake.show.lesson import write as write_lesson
+from furbake.show.report import STAGES as REPORT_STAGES
+from furbake.show.report import write as write_report
+from furbake.show.swatch import save
+from furbake.study.verify import body
+from furbake.study.verify.colour import colour_lines, verify_colour
+from furbake.study.verify.tables import lines as body_lines
+from furbake.study.verify.tile import SAMPLES, lines, verify
 
 GIVEN = (
     "layers", "size", "lights", "basis", "coefficients", "curves", "length", "tile", "height", "seed", "flat", "guide",
@@ -41,17 +43,18 @@ GIVEN = (
 
 VERIFY_STAGES = ("strands", "light", "trace")
 
-INVALID = 1
 
-
-def chosen(args: argparse.Namespace) -> BakeOptions:
-    """The preset's options, then every `--set`, then what has an option of its own."""
+def chosen(args: SimpleNamespace) -> BakeOptions:
+    """The preset's options, overridden by every `--set`, then by the options of the command."""
     options = preset(args.preset)
     try:
         options = override(options, dict(args.set))
     except OptionError as error:
         raise OptionError(f"set: {error}") from None
-    options = replace(options, **{name: getattr(args, name) for name in GIVEN if hasattr(args, name)})
+    given = {name: getattr(args, name, None) for name in GIVEN}
+    if given["states"] == ("dry..wet",):
+        given["states"] = tuple(WETNESS)
+    options = replace(options, **{name: value for name, value in given.items() if value is not None})
     if options.guide.endswith(".json"):  # strokes, and where there are none from nose to tail
         if options.comb is not None:
             raise OptionError(f"comb: got {options.comb} beside the strokes of --guide, expected one file of strokes")
@@ -60,15 +63,15 @@ def chosen(args: argparse.Namespace) -> BakeOptions:
     return options
 
 
-def run_bake(args: argparse.Namespace) -> int:
+def run_bake(args: SimpleNamespace) -> int:
     """Bake a mesh into a folder."""
     options = chosen(args)
     out = Path(args.out)
     if args.if_stale and (record := _fresh(args.model, out, options)):
         if args.json:
-            print(json.dumps({"folder": str(out), "baked": False, "seconds": {}, **record}))
+            say(json.dumps({"folder": str(out), "baked": False, "seconds": {}, **record}))
         elif not args.quiet:
-            print(f"{out}: up to date")
+            say(f"{out}: up to date")
         return 0
     samples = Path(args.samples) if args.samples else None
     start = time.perf_counter()
@@ -76,12 +79,12 @@ def run_bake(args: argparse.Namespace) -> int:
         result = bake(args.model, out, options, force=args.force or args.if_stale, samples=samples, progress=progress)
     if not args.quiet:
         for notice in result.notices:
-            print(f"furbake: note: {notice}", file=sys.stderr)
+            complain(f"note: {notice}")
     if args.json:
-        print(json.dumps({"folder": str(out), "baked": True, "seconds": result.seconds, **result.record}))
+        say(json.dumps({"folder": str(out), "baked": True, "seconds": result.seconds, **result.record}))
     elif not args.quiet:
         size = sum(result.record["asset"]["bytes"].values()) / 1e6
-        print(
+        say(
             f"{out}: {result.record['input']['name']} in {options.layers} layers of {options.size} x {options.size}, "
             f"{result.record['fit']['psnr']:.1f} dB, {size:.2f} MB, {time.perf_counter() - start:.1f} s"
         )
@@ -89,20 +92,21 @@ def run_bake(args: argparse.Namespace) -> int:
 
 
 def _fresh(model: str, out: Path, options: BakeOptions) -> dict[str, Any] | None:
-    """The record of a whole bake of the same options, version and input in `out`, if there is one."""
+    """The record of a whole bake of the same options, versions and input in `out`, if there is one."""
     try:
         record = read_asset(out).record
         whole = all((out / name).stat().st_size == size for name, size in record["asset"]["bytes"].items())
-        return record if whole and record["key"] == bake_key(model, options) else None
+        made_alike = record["libraries"] == library_versions() and record["key"] == bake_key(model, options)
+        return record if whole and made_alike else None
     except (AssetError, OSError, LookupError, TypeError, AttributeError):
         return None
 
 
-def run_inspect(args: argparse.Namespace) -> int:
-    """Say what is in a baked folder."""
+def run_inspect(args: SimpleNamespace) -> int:
+    """Print the contents of a baked folder."""
     found = summary(read_asset(Path(args.folder)))
     if args.json:
-        print(json.dumps(found))
+        say(json.dumps(found))
         return 0
     table(found)
     return 0
@@ -116,31 +120,31 @@ def _text(value: Any) -> str:
     return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
-def run_validate(args: argparse.Namespace) -> int:
-    """List what is wrong with a baked folder."""
+def run_validate(args: SimpleNamespace) -> int:
+    """List the problems of a baked folder."""
     folder = Path(args.folder)
     if not folder.is_dir():
         read_asset(folder)
     problems = validate(folder)
     for problem in problems:
-        print(problem)
+        say(problem)
     if not problems:
-        print(f"{folder}: valid")
+        say(f"{folder}: valid")
     return INVALID if problems else 0
 
 
-def run_presets(args: argparse.Namespace) -> int:
+def run_presets(args: SimpleNamespace) -> int:
     """All presets in a line each, or every knob of one, to copy."""
     if args.name:
         options = preset(args.name)
-        print(json.dumps(options.as_record()) if args.json else described(args.name, options), end="")
+        say(json.dumps(options.as_record()) if args.json else described(args.name, options), end="")
         return 0
     if args.json:
-        print(json.dumps({name: preset(name).as_record() for name in preset_names()}))
+        say(json.dumps({name: preset(name).as_record() for name in preset_names()}))
         return 0
     for name in preset_names():
         options = preset(name)
-        print(f"{name:<12}{options.layers} layers of {options.size} x {options.size}. {preset_summary(name)}")
+        say(f"{name:<12}{options.layers} layers of {options.size} x {options.size}. {preset_summary(name)}")
     return 0
 
 
@@ -150,30 +154,35 @@ def described(name: str, options: BakeOptions) -> str:
     return f"# {first}\n\n{as_toml(options)}"
 
 
-def run_report(args: argparse.Namespace) -> int:
+def run_report(args: SimpleNamespace) -> int:
     """Write DIR/report.html."""
+    check(Path(args.folder))
     with shown(REPORT_STAGES, args.quiet) as progress:
         out = write_report(Path(args.folder), progress)
     if not args.quiet:
-        print(out)
+        say(str(out))
     return 0
 
 
-def run_swatch(args: argparse.Namespace) -> int:
+def run_swatch(args: SimpleNamespace) -> int:
     """Write a picture of a baked pelt, or of a preset's."""
-    out, look = Path(args.out), {"tiles": args.tiles, "size": args.pixels, "state": args.state}
+    out = Path(args.out)
+    look: dict[str, Any] = {"tiles": args.tiles, "size": args.pixels, "state": args.state}
+    if args.light is not None:
+        look["light"] = args.light
     if args.folder:
         if args.preset or args.set:
             raise OptionError(f"swatch: got {args.folder!r} and --preset or --set, expected DIR alone or no DIR")
-        save(Path(args.folder), out, args.light, **look)
+        check(Path(args.folder))
+        save(Path(args.folder), out, **look)
     else:
         args.preset = args.preset or "paper"
         options = in_state(chosen(args), args.state)
         with TemporaryDirectory(prefix="furbake-") as scratch, shown(STAGES, args.quiet) as progress:
             bake("plane", Path(scratch) / "plane", options, progress=progress)
-            save(Path(scratch) / "plane", out, args.light, **look)
+            save(Path(scratch) / "plane", out, **look)
     if not args.quiet:
-        print(out)
+        say(str(out))
     return 0
 
 
@@ -187,7 +196,7 @@ def in_state(options: BakeOptions, state: str | None) -> BakeOptions:
     return options
 
 
-def run_lesson(args: argparse.Namespace) -> int:
+def run_lesson(args: SimpleNamespace) -> int:
     """Write the lesson's data."""
     options, out = chosen(args), Path(args.out)
     record = fresh_lesson(out, options) if args.if_stale else None
@@ -196,28 +205,29 @@ def run_lesson(args: argparse.Namespace) -> int:
         with shown(LESSON_STAGES, args.quiet) as progress:
             record = write_lesson(out, options, force=args.force or args.if_stale, progress=progress)
     if args.json:
-        print(json.dumps({"folder": str(out), "baked": not done, **record}))
+        say(json.dumps({"folder": str(out), "baked": not done, **record}))
     elif not args.quiet:
         size = sum(record["bytes"].values()) / 1e6
-        print(f"{out}: up to date" if done else f"{out}: {len(record['samples'])} layers measured, {size:.2f} MB")
+        say(f"{out}: up to date" if done else f"{out}: {len(record['samples'])} layers measured, {size:.2f} MB")
     return 0
 
 
-def run_groom(args: argparse.Namespace) -> int:
+def run_groom(args: SimpleNamespace) -> int:
     """Write the strands of a baked fur on its body."""
     out = Path(args.out)
+    check(Path(args.folder))
     with shown(GROOM_STAGES, args.quiet) as progress:
         strands = groom(Path(args.folder), progress)
         write_groom(out, strands)
     count, points = strands.points.shape[:2]
     if args.json:
-        print(json.dumps({"file": str(out), "hairs": count, "points": points, "bytes": out.stat().st_size}))
+        say(json.dumps({"file": str(out), "hairs": count, "points": points, "bytes": out.stat().st_size}))
     elif not args.quiet:
-        print(f"{out}: {count} hairs of {points} points, {out.stat().st_size / 1e6:.1f} MB")
+        say(f"{out}: {count} hairs of {points} points, {out.stat().st_size / 1e6:.1f} MB")
     return 0
 
 
-def run_verify(args: argparse.Namespace) -> int:
+def run_verify(args: SimpleNamespace) -> int:
     """Compare a bake with a path tracer."""
     picture = Path(args.out) if args.out else None
     if args.body:
@@ -225,13 +235,13 @@ def run_verify(args: argparse.Namespace) -> int:
     with shown(VERIFY_STAGES, args.quiet) as progress:
         figures = verify(Path(args.folder), picture=picture, spp=args.spp or SAMPLES, progress=progress)
     if args.json:
-        print(json.dumps(figures))
+        say(json.dumps(figures))
     elif not args.quiet:
-        print("\n".join(lines(figures)))
+        say("\n".join(lines(figures)))
     return 0
 
 
-def _verify_body(args: argparse.Namespace, picture: Path | None) -> int:
+def _verify_body(args: SimpleNamespace, picture: Path | None) -> int:
     options = body.Options(
         plan=args.plan,
         methods=args.methods,
@@ -241,21 +251,22 @@ def _verify_body(args: argparse.Namespace, picture: Path | None) -> int:
         ceiling=args.ceiling,
         look=(args.gloss, args.backlight),
         truth=Path(args.truth) if args.truth else None,
+        fast=not args.scalar,
     )
     if args.colour:
         with shown(body.STAGES, args.quiet) as progress:
             figures = verify_colour(Path(args.folder), options, picture=picture, progress=progress)
         if args.json:
-            print(json.dumps(figures))
+            say(json.dumps(figures))
         elif not args.quiet:
-            print("\n".join(colour_lines(figures)))
+            say("\n".join(colour_lines(figures)))
         return 0
     with shown(body.STAGES, args.quiet) as progress:
         figures = body.verify_body(Path(args.folder), options, picture=picture, progress=progress)
     if args.json:
-        print(json.dumps(figures))
+        say(json.dumps(figures))
     elif not args.quiet:
-        print("\n".join(body_lines(figures)))
+        say("\n".join(body_lines(figures)))
     return 0
 
 
@@ -263,8 +274,8 @@ def table(found: dict[str, Any]) -> None:
     """Print names and values, one a line, groups indented."""
     for name, value in found.items():
         if isinstance(value, dict):
-            print(f"{name}:")
+            say(f"{name}:")
             for key, item in value.items():
-                print(f"  {key + ':':<26}{_text(item)}")
+                say(f"  {key + ':':<26}{_text(item)}")
         else:
-            print(f"{name + ':':<28}{_text(value)}")
+            say(f"{name + ':':<28}{_text(value)}")

@@ -2,61 +2,79 @@
 
 from __future__ import annotations
 
-import argparse
-import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
-from furbake.asset.planes import PlaneError
-from furbake.asset.read import AssetError
-from furbake.asset.store import StoreError
-from furbake.cli.actions import INVALID
-from furbake.cli.arguments import UsageError, parser
-from furbake.groom.files import GroomError
-from furbake.options import OptionError
-from furbake.pathtrace import VerifyError
-from furbake.surface.mesh import MeshError
+import click
 
-BAD_INPUT, INTERRUPTED = 2, 130
+from furbake.cli.interrupt import INTERRUPTED, MESSAGE, importing
+from furbake.cli.output import complain, drop_output, open_streams
+from furbake.cli.parsing import FULL, Entry, Group, UsageError, sentence
+
+INVALID, BAD_INPUT = 1, 2
+
+COMMANDS = {
+    "bake": Entry("arguments", "bake a mesh into a folder"),
+    "inspect": Entry("arguments", "say what is in a baked folder"),
+    "validate": Entry("arguments", "check a baked folder: exit 1 and a list if it is bad"),
+    "presets": Entry("arguments", "list the presets, or all knobs of one as TOML to copy"),
+    "report": Entry("arguments", "write DIR/report.html: how good the bake is, and where it is not"),
+    "swatch": Entry("arguments", "picture of a baked pelt, or of a preset's"),
+    "lesson": Entry("arguments", "data of the lesson on the page Learn"),
+    "verify": Entry("studies", "compare a bake with a path tracer (Mitsuba 3)"),
+    "compare": Entry("studies", "table of presets and bases, measured anew, as Markdown"),
+    "states": Entry("studies", "table of how states of fur mix, baked anew, as Markdown"),
+    "trim": Entry("studies", "table of fur that is cut at run time, as Markdown"),
+    "bend": Entry("studies", "table of how right the light on bent fur is, as Markdown"),
+    "patches": Entry("studies", "table of how lapped patches cover models, as Markdown"),
+    "groom": Entry("arguments", "write the strands of a baked fur on its body"),
+}
+
+FURBAKE = Group("furbake", COMMANDS, help="Bakes fur that can be relit in real time, from any mesh.")
+click.version_option(package_name="furbake", message="%(prog)s %(version)s")(FURBAKE)
 
 
-def main(argv: Sequence[str] | None = None) -> int:
-    """Run the command; its exit status: 0 done, 1 something is invalid, 2 bad input, 130 interrupted."""
-    for stream in (sys.stdout, sys.stderr):
-        if hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="backslashreplace")  # a name of a file may hold anything
+def run(argv: Sequence[str] | None) -> int:
+    """Run the command; its exit status."""
+    open_streams()
+    arguments = list(sys.argv[1:] if argv is None else argv)
     try:
-        args = parser().parse_args(_joined(sys.argv[1:] if argv is None else argv))
-        run: Callable[[argparse.Namespace], int] = args.run
-        status = run(args)
+        with FURBAKE.make_context("furbake", list(arguments)) as context:
+            status: int = FURBAKE.invoke(context)
         sys.stdout.flush()
-    except (UsageError, OptionError, MeshError, StoreError, AssetError, PlaneError, VerifyError, GroomError) as error:
+    except click.exceptions.Exit as end:
+        return end.exit_code
+    except click.UsageError as error:
+        return _fail(sentence(error, arguments))
+    except UsageError as error:
         return _fail(str(error))
-    except BrokenPipeError:  # whoever read the output has gone
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return INVALID
-    except OSError as error:
-        what = error.filename or "file"
-        return _fail(f"{what}: {(error.strerror or str(error)).lower()}, expected it to be readable or writable")
-    except MemoryError:
-        return _fail("memory: not enough for this bake, expected smaller --layers, --size or --lights")
     except KeyboardInterrupt:
-        print("furbake: interrupted, nothing written", file=sys.stderr)
+        complain(MESSAGE)
         return INTERRUPTED
+    except BrokenPipeError:  # the reader of the output has closed it
+        drop_output()
+        return INVALID
+    except Exception as error:
+        if (text := _told(error)) is None:
+            raise
+        return _fail(text)
     return status
 
 
-def _joined(argv: Sequence[str]) -> list[str]:
-    """`--light -1,0,1` as `--light=-1,0,1`: argparse takes what begins with a minus for another option."""
-    joined: list[str] = []
-    for argument in argv:
-        if joined and joined[-1] == "--light" and argument[:1] == "-" and argument[1:2].isdigit():
-            joined[-1] += f"={argument}"
-        else:
-            joined.append(argument)
-    return joined
+def _told(error: Exception) -> str | None:
+    """An error of the user's as a sentence; None for one of furbake's own."""
+    with importing():
+        from furbake.cli.failures import TOLD  # noqa: PLC0415 — imports all that can fail
+    if isinstance(error, TOLD):
+        return str(error)
+    if isinstance(error, OSError):
+        expected = "room to write" if error.errno in FULL else "it to be readable or writable"
+        return f"{error.filename or 'file'}: {(error.strerror or str(error)).lower()}, expected {expected}"
+    if isinstance(error, MemoryError):
+        return "memory: not enough for this bake, expected smaller --layers, --size or --lights"
+    return None
 
 
 def _fail(message: str) -> int:
-    print(f"furbake: error: {' '.join(message.split())}", file=sys.stderr)
+    complain(f"error: {message}")
     return BAD_INPUT

@@ -1,4 +1,4 @@
-"""What strands stand on: the shells' mesh of a baked folder, as numbers, and which of its faces lie side by side."""
+"""The shells' mesh of a baked folder, with neighbours of its faces, for strands to stand on."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def number(asset: Asset, index: int) -> Floats:
     return np.asarray(values, np.float64)
 
 
-def unit(vectors: Floats) -> Floats:
+def normalised(vectors: Floats) -> Floats:
     """Vectors of length 1; what has none stays 0."""
     return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12))
 
@@ -123,9 +123,9 @@ def _ground(asset: Asset, base: tuple[float, float, float]) -> Ground:
             return np.tile(np.array(missing), (count, 1))
         return number(asset, index[name])[:, : len(missing)]
 
-    normals = unit(number(asset, index["NORMAL"])[:, :3])
+    normals = normalised(number(asset, index["NORMAL"])[:, :3])
     tangent = number(asset, index["TANGENT"])
-    along = unit(tangent[:, :3] - normals * np.einsum("ij,ij->i", tangent[:, :3], normals)[:, None])
+    along = normalised(tangent[:, :3] - normals * np.einsum("ij,ij->i", tangent[:, :3], normals)[:, None])
     across = tangent[:, 3:] * np.cross(normals, along)
     comb, traits = attribute("_COMB", (0.0, 0.0)), attribute("_FUR", (1.0, 1.0, 1.0, 0.0))
     faces = np.asarray(asset.accessor(primitive["indices"]), np.int64).reshape(-1, 3)
@@ -160,7 +160,7 @@ def neighbours(places: NDArray[Any], uv: Floats, faces: Ints) -> tuple[Ints, Flo
     """
     within = np.rint((uv - np.floor(uv)) * 4096.0).astype(np.int64) % 4096
     corner = _same(np.column_stack([_same(places), within]))
-    ends = np.stack([faces[:, [1, 2, 0]], faces[:, [2, 0, 1]]], axis=-1).reshape(-1, 2)  # of the edge opposite i
+    ends = np.stack([faces[:, [1, 2, 0]], faces[:, [2, 0, 1]]], axis=-1).reshape(-1, 2)  # the edge opposite i
     one, two = corner[ends].T
     low, high = np.minimum(one, two), np.maximum(one, two)
     order = np.lexsort((high, low))

@@ -1,4 +1,4 @@
-"""Where hairs stand: every root of the tile in every face of a patch, thinned where patches overlap."""
+"""Roots of hairs: every root of the tile in every face of a patch, thinned where patches overlap."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from furbake.groom.ground import Floats, Ground, Ints
 
 CELLS = 32
-"""Of the grid in which roots are looked up, per side of a tile."""
+"""Cells per side of a tile, of the grid in which roots are looked up."""
 
 AT_ONCE = 2_000_000
 """Cells of faces that are looked through at a time."""
@@ -90,7 +90,7 @@ def _inside(ground: Ground, seeds: Floats) -> Roots:
 
 
 def _covers(ground: Ground, face: Ints, uv: Floats) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
-    """(n,) whether a place is inside a face. Both faces of an edge reckon with the same ends, so one of them has it."""
+    """(n,) whether a place is inside a face. Both faces of an edge compute with the same ends: one of them has it."""
     inside = np.ones(len(face), bool)
     corners = ground.faces[face]
     for i in range(3):

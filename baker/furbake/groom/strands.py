@@ -15,8 +15,8 @@ from furbake.groom.ground import Floats, Ground, Ints, read_ground
 from furbake.groom.roots import barycentric, place_roots
 from furbake.groom.walk import walk
 from furbake.options import BakeOptions, OptionError
-from furbake.pelt.pelt import Ramp
-from furbake.pelt.strands import Strands, grow
+from furbake.pelt.hairs.ramp import Ramp
+from furbake.pelt.hairs.strands import Strands, grow
 
 Single = NDArray[np.float32]
 Progress = Callable[[str, float], None]
@@ -50,7 +50,7 @@ def groom(folder: Path, progress: Progress = lambda stage, fraction: None) -> Gr
 
     progress : called with a stage of `STAGES` and the fraction of it that is done
 
-    Raises AssetError where the folder is no whole asset, or bake.json does not say what grows.
+    Raises AssetError where the folder is no whole asset, or bake.json has no usable options.
     """
     asset = read_asset(folder)
     options = recorded(asset)

@@ -7,7 +7,7 @@ import numpy as np
 from furbake.groom.ground import Floats, Ground, Ints
 from furbake.groom.roots import barycentric
 
-MOST_STEPS = 200
+MAX_STEPS = 200
 """Faces that a step of a hair may cross."""
 
 
@@ -19,11 +19,11 @@ def walk(ground: Ground, face: Ints, uv: Floats) -> tuple[Ints, Floats]:
     """
     face, uv = face.copy(), uv.copy()
     going = np.arange(len(face))
-    for step in range(MOST_STEPS):
+    for step in range(MAX_STEPS):
         shares = barycentric(ground, face[going], uv[going])
         across = np.where((shares < -1e-9) & (ground.beside[face[going]] >= 0), shares, np.inf)
         edge = np.argmin(across, axis=1)
-        # Between needles the farthest edge may lead round in a circle: then take the nearest for once.
+        # Between needles the farthest edge may lead round in a circle: take the nearest now and then.
         if step % 16 == 15:
             edge = np.argmax(np.where(np.isfinite(across), across, -np.inf), axis=1)
         leaves = np.isfinite(across[np.arange(len(going)), edge])

@@ -6,7 +6,7 @@ to c·H, c² = 1 − |d|². The law, for light from l with z = l·n, on fur that
 - Transmittance. Between s and the tip the hairs are sheared by (1 + s)·d on the whole and pressed together to c. Thin
   hairs take from a ray what they took before from the ray that this makes of it, whatever its slant: texels are
   looked up for the direction of (l − (1 + s)/c·z·d, z/c).
-- What the eye sees of it: a factor 1 + Σ c_f(s)·f over the terms f of `terms`, each c_f a parabola over s.
+- Visibility. A factor 1 + Σ c_f(s)·f over the terms f of `terms`, each c_f a parabola over s.
   `fit_bends` finds these 24 numbers by light transport through hairs that are bent; `general` are those of any fur.
 """
 
@@ -18,22 +18,21 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.pelt.curves import unit
-from furbake.pelt.fill import fill
-from furbake.pelt.fit import fit, relight
+from furbake.pelt.curves import lean_direction
+from furbake.pelt.hairs.strands import Coat, Strands
+from furbake.pelt.hairs.volume import Volume, coarsen, fine_shape, voxelise
+from furbake.pelt.light.transport import Setting, hemisphere, sample
 from furbake.pelt.pelt import Pelt
-from furbake.pelt.quantise import dequantise
-from furbake.pelt.strands import Coat, Strands
-from furbake.pelt.transport import hemisphere, sample
-from furbake.pelt.volume import Volume, coarsen, fine_shape, voxelise
+from furbake.pelt.texels.fill import fill
+from furbake.pelt.texels.fit import fit, relight
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
 
-LEAST = 0.1
-"""Of the factor."""
+MIN_FACTOR = 0.1
+"""Least factor of this law and of that of light and eye."""
 
-MOST = 2 / 3
+MAX_TIP = 2 / 3
 """Displacement of the tip, share of the length, from which on the factor no longer changes."""
 
 SIZE = 32
@@ -46,7 +45,7 @@ LIGHTS, LIGHTS_UNBENT = 16, 32
 """Lights of the fit, and of the small unbent pelt that it makes for larger ones."""
 
 RIDGE = 1e-3
-"""Of the diagonal: what a term does that the bends tell little about is left small."""
+"""Regularisation, share of the diagonal: terms that the bends hardly determine stay small."""
 
 MONOMIALS = np.array([[1.0, 0, 0], [-1, 2, 0], [1, -6, 6]])
 """Legendre polynomials in 2s − 1 as rows of weights of 1, s, s²."""
@@ -54,8 +53,8 @@ MONOMIALS = np.array([[1.0, 0, 0], [-1, 2, 0], [1, -6, 6]])
 
 def terms(lights: Array, tip: Array, lean: Array) -> Array:
     """[x·z, d·m, q·z, q, x, q·(l·m), q·(l·m)·z, x·(l·m)] with x = d·l and q = |d|², (n, 8)."""
-    d = tip * min(1.0, MOST / max(float(np.hypot(*tip)), 1e-9))
-    m, z, x, q = unit(lean), lights[:, 2], lights[:, :2] @ d, float(d @ d)
+    d = tip * min(1.0, MAX_TIP / max(float(np.hypot(*tip)), 1e-9))
+    m, z, x, q = lean_direction(lean), lights[:, 2], lights[:, :2] @ d, float(d @ d)
     along, even = lights[:, :2] @ m, np.ones(len(lights))
     return np.stack([x * z, d @ m * even, q * z, q * even, x, q * along, q * along * z, x * along], 1)
 
@@ -81,7 +80,7 @@ def sheared(lights: Array, tip: Array, s: float) -> Array:
 
 def factor(lights: Array, tip: Array, lean: Array, s: float, numbers: Array) -> Array:
     """The law's factors, (n,)."""
-    return np.maximum(1 + terms(lights, tip, lean) @ (np.array([1, s, s * s]) @ numbers), LEAST)
+    return np.maximum(1 + terms(lights, tip, lean) @ (np.array([1, s, s * s]) @ numbers), MIN_FACTOR)
 
 
 def bent(strands: Strands, height: float, tip: Array, opacity: float, layers: int, size: int) -> Volume:
@@ -95,7 +94,7 @@ def bent(strands: Strands, height: float, tip: Array, opacity: float, layers: in
     slabs, fine = fine_shape(layers, size, height)
     middle = (np.arange(slabs) + 0.5) / slabs
     aside = height * middle[:, None] ** 2 * tip
-    # Opacity is told for a share of the height, which has sunk.
+    # Opacity refers to a share of the height, which has sunk.
     return voxelise(replace(strands, points=points), height * rise, slabs, fine, opacity * rise, aside)
 
 
@@ -109,10 +108,10 @@ def fit_bends(
     lights = hemisphere(LIGHTS, turn=0.5)
 
     def under(volume: Volume, lights: Array) -> Single:
-        return sample(volume, layers, size, lights, albedo=coat.albedo, skin=coat.skin)
+        return sample(volume, layers, size, lights, Setting(coat.albedo, coat.skin))
 
     if size == pelt.size:
-        texels, alpha = dequantise(pelt.codes, pelt.scale, pelt.bias), pelt.alpha / 255
+        texels, alpha = pelt.values, pelt.alpha / 255
     else:
         fine = voxelise(strands, height, *fine_shape(layers, size, height), coat.opacity)
         seen, alpha = hemisphere(LIGHTS_UNBENT), coarsen(fine, layers, size).coverage
@@ -122,7 +121,7 @@ def fit_bends(
     over_s = np.polynomial.legendre.legvander(2 * middle - 1, 2)
     for number, (share, azimuth) in enumerate(BENDS):
         step((number + 1) / (len(BENDS) + 1))
-        turn = np.arctan2(*unit(lean)[::-1]) + np.radians(azimuth)
+        turn = np.arctan2(*lean_direction(lean)[::-1]) + np.radians(azimuth)
         tip = share * np.array([np.cos(turn), np.sin(turn)])
         truth = under(bent(strands, height, tip, coat.opacity, layers, size), lights)
         found = terms(lights, tip, lean)
@@ -130,8 +129,8 @@ def fit_bends(
             ways = sheared(lights, tip, s)
             mean = pelt.mean(ways)
             own = None if mean is None else mean[:, k : k + 1]
-            told = relight(texels[k : k + 1], basis, ways, own)[:, 0].astype(np.float64)
-            power, shared = ((alpha[k] * told * other).sum((1, 2)) / share for other in (told, truth[:, k]))
+            stored = relight(texels[k : k + 1], basis, ways, own)[:, 0].astype(np.float64)
+            power, shared = ((alpha[k] * stored * other).sum((1, 2)) / share for other in (stored, truth[:, k]))
             row = (over_s[k][:, None] * found[:, None]).reshape(len(lights), 24)
             matrix += (row * power[:, None]).T @ row
             right += (shared - power) @ row

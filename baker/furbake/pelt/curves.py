@@ -1,4 +1,4 @@
-"""Mean light of every slab over the direction of the light: what texels' polynomials are multiplied by.
+"""Mean light of every slab over the direction of the light, a factor of its texels' polynomials.
 
 The mean curve of slab k is m_k(l, β) = Σ_q w_kq · b_q(l, β): a few curves b_q for all slabs and states of a fur, and
 weights w of each slab. β is the radius of the body in lengths of its fur.
@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.pelt.basis import Functions, harmonics, held
-from furbake.pelt.paths import BODY_RADIUS, lowest
+from furbake.pelt.light.paths import BODY_RADIUS, lowest
+from furbake.pelt.texels.basis import Functions, harmonics, held
 
 Array = NDArray[np.float64]
 
@@ -20,16 +20,16 @@ RADII = (1.0, 4.0, 16.0)
 """β of the tables; other bodies are mixed from them in proportion to log β, and none is out of their range."""
 
 KNOTS = 17
-"""Of a table: at x = 0, 1 ... 16 of `abscissa`."""
+"""Knots of a table: x = 0, 1 ... 16 of `abscissa`."""
 
 HORIZON = 6
 """x of the horizon."""
 
 RING_POINTS, SPOKES = 4, 24
-"""Of the quadrature over the sphere: Gauss points between two knots, equal steps in azimuth."""
+"""Quadrature over the sphere: Gauss points between two knots, equal steps in azimuth."""
 
 
-def unit(lean: Array) -> Array:
+def lean_direction(lean: Array) -> Array:
     """Direction in which the fur leans; along v where it does not."""
     length = float(np.hypot(*lean))
     return lean / length if length > 1e-6 else np.array([0.0, 1.0])
@@ -86,7 +86,7 @@ class Curves:
         return np.asarray(self(lights, beta) @ weights.T)
 
     def of_fin(self) -> Curves:
-        """The curves of a fin, which stands along v: what light along u does has no sign there."""
+        """The curves of a fin, which stands along v: light from u and from −u does the same there."""
         return replace(self, lean=self.lean * [0.0, 1.0])
 
     def environment(self, phi: Functions, beta: float = BODY_RADIUS) -> Array:

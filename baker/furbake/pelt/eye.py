@@ -25,24 +25,21 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.pelt.basis import held
-from furbake.pelt.bent import MONOMIALS
-from furbake.pelt.curves import unit
-from furbake.pelt.depth import Depth, passing
-from furbake.pelt.fibre import ABOVE, THINNEST, across, around, cylinder, scattered
-from furbake.pelt.paths import BODY_RADIUS, thinned
-from furbake.pelt.scatter import between_hairs, sent
-from furbake.pelt.strands import Coat, Strands
-from furbake.pelt.transport import Beam
-from furbake.pelt.volume import SOLID_SLAB, Volume, average_down, coarsen, doubled, fine_shape, pool, voxelise
+from furbake.pelt.bent import MIN_FACTOR, MONOMIALS
+from furbake.pelt.curves import lean_direction
+from furbake.pelt.hairs.strands import Coat, Strands
+from furbake.pelt.hairs.volume import SOLID_SLAB, Volume, average_down, coarsen, doubled, fine_shape, pool, voxelise
+from furbake.pelt.light.depth import Depth, passing
+from furbake.pelt.light.fibre import ABOVE, THINNEST, across, around, cylinder, scattered
+from furbake.pelt.light.paths import BODY_RADIUS, thinned
+from furbake.pelt.light.scatter import Slabs, Unscattered, between_hairs, sent
+from furbake.pelt.light.transport import Beam
+from furbake.pelt.texels.basis import held
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
 
 TERMS = 12
-
-LEAST = 0.1
-"""Of the factor."""
 
 SIZE = 32
 """Texels a side for which numbers are found: larger tiles of the same hairs have much the same."""
@@ -54,25 +51,25 @@ SURGE_EYES, SURGE_ANGLES = (0.95, 0.6, 0.25), (0, 4, 9, 20)
 """v·n of the eyes beside which lights are put for the surge, and how far from them, degrees."""
 
 WIDTHS = np.geomspace(0.02, 0.4, 40)
-"""Of the surge, among which the best is taken."""
+"""Candidate widths of the surge."""
 
 SPOKES = 5
-"""Of each ring."""
+"""Directions in each ring."""
 
 LIGHT_HEIGHTS_FLAT = (0.9, 0.6, 0.3, 0.15)
-"""The same where fur is flat and has no end: light along it reaches nothing."""
+"""`LIGHT_HEIGHTS` of flat fur, which has no end: light along it reaches nothing."""
 
 DARK = 1e-6
-"""Least T that is told from none."""
+"""Least T that is distinguished from 0."""
 
 FAINT = 0.03
-"""Errors are told as shares of what is seen, and this share of the brightest besides."""
+"""Share of the greatest brightness that is added to the scale of relative errors."""
 
 EACH_SLAB = 0.3
 """Weight of a slab's own error beside that of the sum of them."""
 
 RIDGE = 1e-4
-"""Of the diagonal: terms that do much the same stay small."""
+"""Regularisation, share of the diagonal: terms that do much the same stay small."""
 
 
 def terms(lights: Array, eyes: Array, lean: Array) -> Array:
@@ -81,7 +78,7 @@ def terms(lights: Array, eyes: Array, lean: Array) -> Array:
     a = l_h·v_h of the level parts, b = l·m and p = v·m along the lean m, z = l_z, q = |v_h|². What is below the
     horizon is held on it.
     """
-    m = unit(lean)
+    m = lean_direction(lean)
     light, eye = np.broadcast_arrays(*(held(way.reshape(-1, 3)).reshape(way.shape) for way in (lights, eyes)))
     a, z = (light[..., :2] * eye[..., :2]).sum(-1), light[..., 2]
     b, p, q = light[..., :2] @ m, eye[..., :2] @ m, 1 - eye[..., 2] ** 2
@@ -92,7 +89,7 @@ def terms(lights: Array, eyes: Array, lean: Array) -> Array:
 def factor(lights: Array, eyes: Array, lean: Array, s: Array, numbers: Array) -> Array:
     """G of pairs of directions (n, 3) at heights s (K,), numbers as of `fit_eye`: (n, K)."""
     over_s = np.stack([np.ones_like(s), s, s * s], -1) @ numbers
-    return np.maximum(1 + terms(lights, eyes, lean) @ over_s.T, LEAST)
+    return np.maximum(1 + terms(lights, eyes, lean) @ over_s.T, MIN_FACTOR)
 
 
 def surge(lights: Array, eyes: Array, numbers: Array) -> Array:
@@ -114,7 +111,7 @@ def rings(heights: tuple[float, ...], spokes: int, turn: float = 0.4) -> Array:
 def seen_from(
     fine: Volume, layers: int, size: int, lights: Array, eyes: Array, coat: Coat, beta: float | None = BODY_RADIUS
 ) -> tuple[Array, Array]:
-    """What each slab adds to what eyes see under lights, per area of skin: by the hairs, and by stored texels.
+    """Light of each slab towards eyes, per area of skin: from the hairs, and from stored texels.
 
     fine : the oversampled volume of which `layers` slabs of `size` × `size` texels are stored
     lights, eyes : (n, 3), (m, 3); beta : as of `Beam`
@@ -126,17 +123,17 @@ def seen_from(
     if beta is not None:  # shells are not thinned as hairs are that diverge
         middle = (np.arange(layers) + 0.5) / layers
         page = replace(page, sigma=page.sigma / thinned(middle, beta)[:, None, None])
-    sigma, tangent = (even(part) for part in beam.medium())
+    stored = beam.slabs()
+    sigma, tangent = even(stored.sigma), even(stored.tangent)
     tangent /= np.linalg.norm(tangent, axis=-1, keepdims=True)
+    slabs = Slabs(sigma, stored.thick, tangent)
     filled = np.float32(fine.height * SOLID_SLAB / coat.opacity) * fine.sigma.mean((1, 2)).astype(np.float32)
     with ThreadPoolExecutor(os.cpu_count()) as workers:
         passed, floor = (np.stack(each) for each in zip(*workers.map(beam.reach, lights), strict=True))
         caught, reaching = (even(np.stack(each)) for each in zip(*map(beam.caught, passed, lights), strict=True))
         skin = 0.0 if beta is None else coat.skin
         floor = pool(floor, sigma.shape[-1])
-        arriving = between_hairs(
-            sigma, fine.height / layers, tangent, lights, caught, reaching, floor, albedo=coat.albedo, skin=skin
-        )
+        arriving = between_hairs(slabs, Unscattered(lights, caught, reaching, floor), albedo=coat.albedo, skin=skin)
 
         def onwards(eye: Array) -> Single:
             """M towards an eye, (n, K, N/2, N/2)."""
@@ -149,7 +146,7 @@ def seen_from(
         texels = doubled(onwards(ABOVE)) + np.stack([average_down(each, beam.shares, size) for each in single])
 
         def of_eye(eye: Array) -> tuple[Array, Array]:
-            clear = beam.passed(eye, eye[None])[0]
+            clear = beam.reach(eye)[0]
             depth = -np.log(np.maximum(clear, DARK))
             up = beam.tangent @ eye.astype(np.float32)
             view = across(up)
@@ -189,7 +186,7 @@ def shared_depth(depth: Single, cos_phi: Single, filled: Single) -> Single:
 
 
 def visible(stored: Volume, eye: Array, beta: float | None) -> Single:
-    """What an eye sees of each texel of the stored slabs as a page shows them, (K, N, N)."""
+    """Visible share of each texel of the stored slabs as a page shows them, (K, N, N)."""
     sigma = stored.sigma.astype(np.float32)
     depth = Depth(sigma, stored.slab, beta)
     return np.asarray(sigma * stored.slab * depth.through(eye)[0] * passing(depth.own(eye)))

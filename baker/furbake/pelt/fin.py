@@ -1,4 +1,4 @@
-"""The fur cut from the side: what a fin shows, lit from all around and fitted with a polynomial of its own.
+"""The fur cut from the side: a fin's texture, lit from all around and fitted with a polynomial of its own.
 
 A fin's frame is t (along the fin: the tile's v, along which hairs lean), n (out of the skin) and w = t × n (the tile's
 u), where the eye is. Its texels are a row of whole tufts, `THICKNESS` deep, projected along w onto the plane of t, n.
@@ -19,21 +19,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.pelt.basis import PTM, harmonics
 from furbake.pelt.curves import at_heights
-from furbake.pelt.depth import Depth
-from furbake.pelt.dirt import Crumbs, soiled
-from furbake.pelt.drawn import extinction, through_own
-from furbake.pelt.fibre import cylinder, sine
-from furbake.pelt.fill import fill
-from furbake.pelt.fit import fit
-from furbake.pelt.paths import BODY_RADIUS
+from furbake.pelt.hairs.dirt import Crumbs, soiled
+from furbake.pelt.hairs.drawn import extinction
+from furbake.pelt.hairs.strands import Coat, Strands
+from furbake.pelt.hairs.volume import Volume, pool, voxelise
+from furbake.pelt.light.fibre import cylinder, sine
+from furbake.pelt.light.paths import BODY_RADIUS
+from furbake.pelt.light.scatter import Slabs, Unscattered, scatter
+from furbake.pelt.light.transport import mean_direction, transmitted
 from furbake.pelt.pelt import FinPelt, Pelt
-from furbake.pelt.quantise import byte_range, gram, quantise, srgb_bytes, unit_bytes
-from furbake.pelt.scatter import scatter
-from furbake.pelt.strands import Coat, Strands
-from furbake.pelt.transport import mean_share
-from furbake.pelt.volume import Volume, pool, voxelise
+from furbake.pelt.texels.basis import PTM, harmonics
+from furbake.pelt.texels.fill import fill
+from furbake.pelt.texels.fit import fit
+from furbake.pelt.texels.quantise import byte_range, gram, quantise, srgb_bytes, unit_bytes
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
@@ -47,10 +46,10 @@ EYE = np.array([1.0, 0.0, 0.0])
 FIN_FRAME = [1, 2, 0]
 """Components of a vector of the tile's frame along t, n and w."""
 
-MOST_ROWS = 64
+MAX_ROWS = 64
 
-MOST_VOXELS = 2**22
-"""Of the tufts, where their voxels are half a texel wide; else they are as wide as a texel."""
+MAX_VOXELS = 2**22
+"""Voxels of the tufts up to which they are half a texel wide; beyond it they are a texel wide."""
 
 HIDDEN = 1e-3
 """Voxels of which the eye sees less are left out."""
@@ -80,7 +79,7 @@ def polynomial(lights: Array) -> Array:
 
 def fin_shape(size: int, height: float) -> tuple[int, int]:
     """Rows and columns of the texture: the tile's texels along the fin, about square ones, rows a power of two."""
-    return int(np.clip(2 ** round(np.log2(size * height)), 8, min(size, MOST_ROWS))), size
+    return int(np.clip(2 ** round(np.log2(size * height)), 8, min(size, MAX_ROWS))), size
 
 
 def side_view(
@@ -100,14 +99,14 @@ def side_view(
 
     fine : the oversampled volume; layers, size : slabs and texels per side of what is stored of it
     lights : (n, 3) in the tile's frame
-    coat : its opacity, albedo and skin count; flat, beta : as of `transport.sample`
+    coat : for its opacity, albedo and skin; flat, beta : as of `transport.Setting`
     height : of the fur for which the texture has its rows, tile widths: that of the dry fur in all of its states
     mud : on the strands; then `tint` is its share
     """
     rows, columns = fin_shape(size, height or fine.height)
-    medium = _Medium(fine, layers, size, coat, None if flat else beta)
+    medium = WholeFur(fine, layers, size, coat, None if flat else beta)
     slabs = medium.slabs * -(-rows // medium.slabs)
-    width = size * (2 if slabs * (2 * size) ** 2 <= MOST_VOXELS else 1)
+    width = size * (2 if slabs * (2 * size) ** 2 <= MAX_VOXELS else 1)
     row = in_the_row(strands)
     tufts = voxelise(strands.some(row), fine.height, slabs, width, coat.opacity)
     if mud is not None:
@@ -131,14 +130,14 @@ def in_the_row(strands: Strands) -> NDArray[np.bool_]:
 
 
 def seen_from_the_side(volume: Volume) -> Array:
-    """What the eye at w sees of every voxel through those before it, α·Π(1 − α), (K, N, N)."""
+    """Visible share of every voxel from w, through those before it: α·Π(1 − α), (K, N, N)."""
     size = volume.sigma.shape[2]
     coverage = -np.expm1(-volume.sigma * sine(volume.tangent, EYE) / size)
     clear = np.cumprod(1 - coverage[..., ::-1], axis=-1)[..., ::-1]
     return np.asarray(coverage * np.concatenate([clear[..., 1:], np.ones_like(clear[..., :1])], -1))
 
 
-class _Medium:
+class WholeFur:
     """The whole fur at half the fine resolution, and coarser where light is scattered again."""
 
     def __init__(self, fine: Volume, layers: int, size: int, coat: Coat, beta: float | None) -> None:
@@ -149,7 +148,7 @@ class _Medium:
         self.even = halved(halved(self.slabs) if self.slabs > layers else self.slabs), max(size // EVEN, 2)
         self.breadth, self.radius = self._coarse(fine.breadth), fine.radius.reshape(self.slabs, -1).mean(1)
         self.sigma = extinction(self.breadth, self.radius)
-        self.tangent = unit([self._coarse(fine.breadth * fine.tangent[..., axis]) for axis in range(3)])
+        self.tangent = mean_direction([self._coarse(fine.breadth * fine.tangent[..., axis]) for axis in range(3)])
 
     def light(self, tufts: Volume, shares: Array, lights: Array, rows: int) -> Array:
         """L of the tufts' texels, (n, rows, N): means over what is seen of them, by `shares` of their voxels."""
@@ -157,31 +156,30 @@ class _Medium:
         voxel = np.nonzero(weight > HIDDEN)
         slab, row, _ = voxel
         seen, count = weight[voxel], len(weight)
-        direction = unit([self._fine(shares * tufts.tangent[..., axis])[voxel] for axis in range(3)])
+        direction = mean_direction([self._fine(shares * tufts.tangent[..., axis])[voxel] for axis in range(3)])
         behind = slab * self.slabs // count, *voxel[1:]
         hair: Single = np.maximum(self._even(self.breadth), np.float32(1e-6))
 
         def beam(light: Array) -> tuple[Array, Single, Single, Single]:
             """T·D summed over what is seen, (K·N,), and what `scatter` takes: caught, reaching and the skin's light."""
             width = sine(self.tangent, light)
-            caught = self.sigma * width
-            clear, skin = Depth(caught, self.height / self.slabs, self.beta).through(light)
-            own = through_own(self.radius, self.size, self.height / self.slabs / 2, mean_share(caught, self.sigma))
-            clear /= own.astype(np.float32)[:, None, None]
+            thick = self.height / self.slabs
+            clear, skin = transmitted(self.sigma, width, self.radius, thick, light, self.beta)
             lambert = seen * clear[behind] * cylinder(direction, light)
             single = np.asarray(np.bincount(slab * self.size + row, lambert, count * self.size), np.float64)
             lit: Single = self.breadth * clear
-            floor: Single = pool(skin * np.float32(max(light[2], 0)), self.even[1])
-            return single, self._even(lit * width) / hair, self._even(lit) / hair, floor
+            return single, self._even(lit * width) / hair, self._even(lit) / hair, pool(skin, self.even[1])
 
         with ThreadPoolExecutor(os.cpu_count()) as workers:
             single, caught, reaching, floor = (np.stack(part) for part in zip(*workers.map(beam, lights), strict=True))
-        tangent = unit([self._even(self.breadth * self.tangent[..., axis]) for axis in range(3)])
-        sigma, thick = self._even(self.breadth), self.height / self.even[0]
+        tangent = mean_direction([self._even(self.breadth * self.tangent[..., axis]) for axis in range(3)])
         multiple = scatter(
-            sigma, thick, tangent, lights, caught, reaching, floor,
-            albedo=self.albedo, skin=self.skin, faint=self.beta is not None,
-        )  # fmt: skip
+            Slabs(self._even(self.breadth), self.height / self.even[0], tangent),
+            Unscattered(lights, caught, reaching, floor),
+            albedo=self.albedo,
+            skin=self.skin,
+            faint=self.beta is not None,
+        )
         where = self._even(weight) + np.float32(1e-6)
         multiple = (multiple * where).sum(3) / where.sum(2)
 
@@ -209,14 +207,6 @@ class _Medium:
 def halved(count: int) -> int:
     """Half of an even number, an odd one as it is."""
     return count // 2 if count % 2 == 0 else count
-
-
-def unit(parts: list[Single]) -> Single:
-    """Unit vectors, (..., 3), of three components; where all are 0, the third axis."""
-    vectors = np.stack(parts, -1)
-    vectors[..., 2] += 1e-9
-    vectors /= np.linalg.norm(vectors, axis=-1, keepdims=True)
-    return vectors
 
 
 def overlap(count: int, wanted: int) -> Array:

@@ -14,12 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.pelt.basis import held
 from furbake.pelt.curves import HORIZON, KNOTS, RADII, Curves, abscissa, elevation, hats
-from furbake.pelt.paths import BODY_RADIUS
-from furbake.pelt.strands import Coat
-from furbake.pelt.transport import sample_apart
-from furbake.pelt.volume import Volume, coarsen, fine_shape
+from furbake.pelt.hairs.strands import Coat
+from furbake.pelt.hairs.volume import Volume, coarsen, fine_shape
+from furbake.pelt.light.paths import BODY_RADIUS
+from furbake.pelt.light.transport import Setting, sample_apart
+from furbake.pelt.texels.basis import held
 
 Array = NDArray[np.float64]
 
@@ -33,19 +33,19 @@ COUNT = 3
 """Curves: with a fourth fits gain .03 dB at most."""
 
 SMOOTH, FEW = 0.02, 0.1
-"""What second differences of a table count beside the lights; what coarse lights count where finer ones are known."""
+"""Weight of a table's second differences beside the lights; weight of coarse lights where finer ones are known."""
 
-LEAST_COVER = 0.02
+MIN_COVER = 0.02
 """Mean coverage with which a slab counts at least where curves for all of them are chosen."""
 
 BELOW, ROUNDS = 30.0, 4
-"""What light below 0 counts where a slab's weights are chosen, and how often it is looked for."""
+"""Weight of light below 0 where a slab's weights are chosen, and rounds of the search for it."""
 
 LESS = 0.5
 """Share of the hairs' and the skin's albedo with which light is measured once more, to see how its orders shrink."""
 
 SPARSE = 4
-"""Of so many lights above the horizon that is measured under one."""
+"""One in this many lights above the horizon is measured with `LESS` of the albedo."""
 
 DIGITS = 4
 """Significant digits of tables and weights."""
@@ -102,9 +102,8 @@ def measure(
         lights = directions(beta)
         some = np.flatnonzero(lights[:, 2] > 0)[::SPARSE]
         darker = (LESS, some) if beta == BODY_RADIUS else None
-        single, multiple, less = sample_apart(
-            wide, layers, size, lights, albedo=coat.albedo, skin=coat.skin, beta=beta, darker=darker
-        )
+        setting = Setting(coat.albedo, coat.skin, beta=beta)
+        single, multiple, less = sample_apart(wide, layers, size, lights, setting, darker=darker)
         more, grown = mean_light(multiple, alpha), None
         if less is not None:
             grown = more[some].sum(0) / np.maximum(mean_light(less, alpha).sum(0), 1e-12)
@@ -127,8 +126,8 @@ def tables(own: Measured, bodies: Sequence[Measured], lean: Array) -> Array:
     design = _design(at_home.lights, at_home.beta, lean)
     design_own = _design(own.lights, own.beta, lean)
     rough = _solved(design, at_home.values, np.ones(len(design)), 0)
-    told = design_own @ rough.reshape(len(rough), -1).T
-    scale = (told * own.values).sum(0) / np.maximum((told**2).sum(0), 1e-12)
+    predicted = design_own @ rough.reshape(len(rough), -1).T
+    scale = (predicted * own.values).sum(0) / np.maximum((predicted**2).sum(0), 1e-12)
     for body in bodies:
         if body is at_home:
             counts = np.where(body.lights[:, 2] > own.lights[:, 2].min(), FEW, 1.0)
@@ -148,7 +147,7 @@ def _lit(found: Array, beta: float) -> Array:
 
 
 def _design(lights: Array, beta: float, lean: Array) -> Array:
-    """What the knots of a table count under lights, (n, 34): even, then along."""
+    """Weights of a table's knots under lights, (n, 34): even, then along."""
     knots = hats(abscissa(lights[:, 2], beta))
     return np.concatenate([knots, knots * (held(lights)[:, :2] @ lean)[:, None]], 1)
 
@@ -180,7 +179,7 @@ def shared(
     joined = np.concatenate(each)
     rows = np.concatenate([_spread_out(r, lean) for r in range(len(RADII))])
     values = rows @ joined.reshape(len(joined), -1).T
-    weights = np.sqrt(np.maximum(np.concatenate(cover), LEAST_COVER))
+    weights = np.sqrt(np.maximum(np.concatenate(cover), MIN_COVER))
     _, strength, found = np.linalg.svd(values * weights, full_matrices=False)
     count = min(count, max(int((strength > 1e-9 * max(strength[0], 1e-9)).sum()), 1))
     mixed = np.einsum("qk,ktrx->qtrx", found[:count] * weights, joined)
@@ -209,5 +208,5 @@ def _spread_out(body: int, lean: Array) -> Array:
 
 
 def rounded(values: Array) -> Array:
-    """To `DIGITS` significant digits."""
+    """Values rounded to `DIGITS` significant digits."""
     return np.array([float(f"{value:.{DIGITS}g}") + 0.0 for value in values.ravel()]).reshape(values.shape)

@@ -24,20 +24,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.pelt.curves import Curves, sphere
+from furbake.pelt.hairs.volume import Volume
+from furbake.pelt.light.paths import BODY_RADIUS
 from furbake.pelt.means import LESS, Measured, rounded
-from furbake.pelt.paths import BODY_RADIUS
-from furbake.pelt.volume import Volume
 
 if TYPE_CHECKING:
-    from furbake.pelt.pelt import Ramp
+    from furbake.pelt.hairs.ramp import Ramp
 
 Array = NDArray[np.float64]
 
-MOST_RATIO = 1.0
-"""Of ρ: beyond it hairs of colour 1 would send back more light than they get."""
+MAX_RATIO = 1.0
+"""Greatest ρ: beyond it hairs of colour 1 would send back more light than they get."""
 
-MOST_COLOUR = 0.98
-"""Of hairs, where light is counted that they send to each other."""
+MAX_COLOUR = 0.98
+"""Greatest colour of hairs in `gain`."""
 
 
 @dataclass(frozen=True)
@@ -64,13 +64,13 @@ class Multiple:
 
     def gain(self, colour: Array) -> Array:
         """g, for hairs of colours (..., K) or (..., 1)."""
-        held_colour = np.clip(colour, 0, MOST_COLOUR)
+        held_colour = np.clip(colour, 0, MAX_COLOUR)
         return np.asarray(held_colour / self.albedo * (1 - self.ratio * self.albedo) / (1 - self.ratio * held_colour))
 
     def tinges(self, curves: Curves, weights: Array, ramp: Ramp, base: Array, lights: Array) -> Array:
-        """What the light of n lamps, and last of an even sky, is multiplied by for the hairs' colour, (n + 1, K, 3).
+        """Factors of the light of n lamps, and last of an even sky, for the hairs' colour, (n + 1, K, 3).
 
-        ramp : of the hairs, where they have no colours of their own; base : (3,) what all of these are multiplied by
+        ramp : of the hairs, where they have no colours of their own; base : (3,) factor of all these colours
         """
         colour = ramp.colour(self.tint, np.zeros(len(self.tint))) if self.colour is None else self.colour
         shares = np.concatenate([self.share(lights), sky_share(self, curves, weights)[None]])
@@ -85,7 +85,7 @@ def sky_share(multiple: Multiple, curves: Curves, weights: Array, beta: float = 
 
 
 def terms(lights: Array, beta: float) -> Array:
-    """What the numbers of x multiply, (n, 3): 1, √lz (0 below the horizon), log₄ β."""
+    """Terms of x, (n, 3): 1, √lz (0 below the horizon), log₄ β."""
     steep = np.sqrt(np.maximum(lights[:, 2], 0))
     return np.stack([np.ones(len(lights)), steep, np.full(len(lights), np.log2(beta) / 2)], -1)
 
@@ -93,7 +93,7 @@ def terms(lights: Array, beta: float) -> Array:
 def multiple_of(
     bodies: Sequence[Measured], curves: Curves, weights: Array, volume: Volume, colour: Array | None
 ) -> Multiple | None:
-    """Of the slabs (K) of a state with these weights (K, Q) of the curves.
+    """Multiple scattering in the slabs (K) of a state with these weights (K, Q) of the curves.
 
     bodies : of `measure`, None without any; volume : the stored slabs
     colour : (K, N, N, 3) of the hairs in its texels, linear
@@ -134,5 +134,5 @@ def shrinking(bodies: Sequence[Measured]) -> Array:
     for body in bodies:
         if body.grown is not None:
             grown = body.grown * LESS
-            return np.asarray(np.clip((grown - 1) / (body.albedo * (grown - LESS)), 0, MOST_RATIO))
+            return np.asarray(np.clip((grown - 1) / (body.albedo * (grown - LESS)), 0, MAX_RATIO))
     raise ValueError("bodies: got none with darker hairs, expected one")

@@ -1,4 +1,4 @@
-"""What the shells stand on: a surface with texture coordinates, vertices repeated where patches overlap or end."""
+"""The shells' surface with texture coordinates, vertices repeated where patches overlap or end."""
 
 from __future__ import annotations
 

@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 import io
-import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from furbake.surface.limits import limits
 from furbake.surface.material import CLAMP, MIRROR, REPEAT, Material, Picture, Skin
 from furbake.surface.soup import Floats, Ints, Soup
 
 Bytes = NDArray[np.uint8]
+
+FORMATS = ("PNG", "JPEG", "WEBP", "BMP", "GIF", "TGA", "TIFF", "PPM")
+"""Formats that are decoded, of all that Pillow knows: one of the others starts a program."""
+
+STRIPE = 256
+"""Rows of a picture that are converted together."""
 
 STEPS = 6
 """Points along each side of a face at which its picture is read."""
@@ -25,7 +33,7 @@ def from_srgb(values: Floats) -> Floats:
 
 
 LINEAR: Floats = from_srgb(np.arange(256) / 255.0)
-"""Of every sRGB byte."""
+"""Linear value of every sRGB byte."""
 
 
 def base_colours(soup: Soup, materials: tuple[Material, ...]) -> tuple[Floats, set[int]]:
@@ -35,21 +43,14 @@ def base_colours(soup: Soup, materials: tuple[Material, ...]) -> tuple[Floats, s
     nearest to the vertex, so that one fine line in it does not colour a whole vertex.
     """
     total, share = np.zeros((len(soup.vertices), 3)), np.zeros(len(soup.vertices))
-    broken = set()
-    decoded: dict[Picture, Bytes | None] = {}
-    for i in np.unique(soup.part):
-        mine, material = soup.take(soup.part == i), materials[i]
+    seen, broken = _seen(soup, materials)
+    for i, mine in soup.pieces():
+        material = materials[i]
         colour = np.tile(np.array(material.factor[:3]), (len(mine.faces), 3, 1))
         if mine.paint is not None:
             colour = colour * mine.paint[..., :3]
-        if material.picture is not None and mine.uv is not None:
-            if material.picture not in decoded:
-                decoded[material.picture] = decode(material.picture)
-            pixels = decoded[material.picture]
-            if pixels is None:
-                broken.add(int(i))
-            else:
-                colour = colour * _corner_means(pixels, np.nan_to_num(mine.uv), material.wrap)
+        if i in seen:
+            colour = colour * seen[i]
         a, b, c = (mine.vertices[mine.faces[:, j]] for j in range(3))
         area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
         weight = np.repeat(np.maximum(area, area.max(initial=0.0) * 1e-9 + 1e-300), 3)
@@ -59,19 +60,56 @@ def base_colours(soup: Soup, materials: tuple[Material, ...]) -> tuple[Floats, s
     return np.clip(total / np.maximum(share, 1e-300)[:, None], 0.0, 1.0), broken
 
 
+def _seen(soup: Soup, materials: tuple[Material, ...]) -> tuple[dict[int, Floats], set[int]]:
+    """(F', 3, 3) linear colours that each material's picture gives to its corners; materials whose pictures are broken.
+
+    One picture is in memory at a time.
+    """
+    wanted: dict[Picture, list[tuple[int, Floats]]] = {}
+    for i, mine in soup.pieces():
+        picture = materials[i].picture
+        if picture is not None and mine.uv is not None:
+            wanted.setdefault(picture, []).append((i, np.nan_to_num(mine.uv)))
+    seen: dict[int, Floats] = {}
+    broken: set[int] = set()
+    for picture, parts in wanted.items():
+        pixels = decode(picture)
+        if pixels is None:
+            broken |= {i for i, _ in parts}
+        else:
+            seen |= {i: _corner_means(pixels, uv, materials[i].wrap) for i, uv in parts}
+    return seen, broken
+
+
 def decode(picture: Picture) -> Bytes | None:
-    """(height, width, 4) sRGB bytes, or None where the file is broken or of an unreasonable size."""
+    """(height, width, 4) sRGB bytes, or None where the file is broken or has more pixels than the bounds allow."""
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("error", Image.DecompressionBombWarning)
-            with Image.open(io.BytesIO(picture.data)) as image:
-                return np.asarray(image.convert("RGBA"), dtype=np.uint8)
+        with _any_size(), Image.open(io.BytesIO(picture.data), formats=FORMATS) as image:
+            width, height = image.size
+            if width * height > limits().pixels:
+                return None
+            pixels = np.empty((height, width, 4), dtype=np.uint8)
+            for top in range(0, height, STRIPE):
+                rows = image.crop((0, top, width, min(top + STRIPE, height)))
+                pixels[top : top + STRIPE] = np.asarray(rows.convert("RGBA"))
+            return pixels
     except Exception:  # noqa: BLE001 — image plug-ins raise anything on a broken file
         return None
 
 
+@contextmanager
+def _any_size() -> Iterator[None]:
+    """Switch off Pillow's own bound on pixels, so that ours can be higher."""
+    before = Image.MAX_IMAGE_PIXELS
+    Image.MAX_IMAGE_PIXELS = None
+    try:
+        yield
+    finally:
+        Image.MAX_IMAGE_PIXELS = before
+
+
 def translucent(piece: Skin) -> bool:
-    """Whether anything of a skin lets through what is behind it: its factor, its vertex colours or its picture."""
+    """True if some of a skin is transparent: by its factor, its vertex colours or its picture."""
     picture = piece.material.picture
     pixels = None if picture is None or piece.uv is None else decode(picture)
     return (
@@ -86,14 +124,19 @@ def portable(picture: Picture) -> Picture | None:
     if picture.kind != "image/webp":
         return picture
     pixels = decode(picture)
-    if pixels is None:
-        return None
+    return None if pixels is None else as_png(pixels)
+
+
+def as_png(pixels: Bytes) -> Picture:
+    """A picture of (height, width, 4) sRGB bytes."""
     stream = io.BytesIO()
     Image.fromarray(pixels).save(stream, "PNG")
     return Picture(stream.getvalue(), "image/png")
 
 
-def sample(pixels: Bytes, uv: Floats, wrap: tuple[int, int] = (REPEAT, REPEAT), table: Floats | None = None) -> Floats:
+def sample_picture(
+    pixels: Bytes, uv: Floats, wrap: tuple[int, int] = (REPEAT, REPEAT), table: Floats | None = None
+) -> Floats:
     """(..., channels) the picture at (..., 2) texture coordinates, bilinear, v down; each byte through `table` first.
 
     pixels : (height, width, channels) bytes
@@ -135,7 +178,7 @@ def _corner_means(pixels: Bytes, uv: Floats, wrap: tuple[int, int]) -> Floats:
     weight /= weight.sum(axis=0)
     colour = np.zeros((*uv.shape[:2], 3))
     for point, shares in zip(bary, weight, strict=True):
-        seen = sample(pixels[..., :3], np.einsum("k,fkd->fd", point, uv), wrap, LINEAR)
+        seen = sample_picture(pixels[..., :3], np.einsum("k,fkd->fd", point, uv), wrap, LINEAR)
         colour += shares[None, :, None] * seen[:, None, :]
     return colour
 

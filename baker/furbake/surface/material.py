@@ -1,4 +1,4 @@
-"""What a model wears under its fur: materials as glTF has them, and the pieces of skin that they cover."""
+"""Materials of the skin under the fur, as glTF has them, and the pieces that they cover."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from furbake.surface.seams import unique_rows
+from furbake.surface.repair.seams import unique_rows
 from furbake.surface.soup import Floats, Ints, Soup
 
 REPEAT, CLAMP, MIRROR = 10497, 33071, 33648
@@ -62,8 +62,8 @@ class Skin:
 def dress(soup: Soup, materials: tuple[Material, ...]) -> tuple[Skin, ...]:
     """The skin of a repaired soup, one piece per material that is in use."""
     pieces = []
-    for i in np.unique(soup.part):
-        mine, material = soup.take(soup.part == i), materials[i]
+    for i, mine in soup.pieces():
+        material = materials[i]
         textured = mine.uv is not None and material.picture is not None and bool(np.isfinite(mine.uv).any())
         uv = np.nan_to_num(mine.uv.reshape(-1, 2), posinf=0.0, neginf=0.0) if textured and mine.uv is not None else None
         painted = mine.paint is not None and bool((mine.paint != 1.0).any())

@@ -1,4 +1,4 @@
-"""Read a mesh, repair it, dress it: whatever comes in, a `Surface` or a `MeshError` of one sentence goes out.
+"""Read and repair a mesh, and attach its materials: the result is a `Surface`, or a `MeshError` of one sentence.
 
 The surface is welded by position: seams of texture or normal would otherwise split patches and grow fins.
 """
@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from furbake.surface.colours import base_colours, portable
 from furbake.surface.material import Material, Skin, dress
-from furbake.surface.reading import read
-from furbake.surface.repair import LARGEST, SMALLEST, check, count, straighten, tidy
-from furbake.surface.simplify import decimate
+from furbake.surface.read.reading import read
+from furbake.surface.repair.repair import LARGEST, SMALLEST, check, count, straighten, tidy
+from furbake.surface.repair.simplify import decimate
+from furbake.surface.repair.topology import angle_normals
 from furbake.surface.soup import MeshError, Soup, plain
-from furbake.surface.topology import angle_normals
 
 if TYPE_CHECKING:
     from furbake.surface.charts import Natural
@@ -33,7 +33,7 @@ WHITE: RGB = (1.0, 1.0, 1.0)
 MAX_FACES = 60_000
 """Faces of a model that are kept, unless more are asked for."""
 
-FEWEST = 4
+MIN_FACES = 4
 """Faces that a model may be decimated to."""
 
 RAGGED = 1.05
@@ -62,7 +62,7 @@ class Surface:
     uv : (F, 3, 2) float, the model's own texture coordinates at the corners of its faces, v down the image as in glTF;
         NaN on faces that have none
     attributes : (V, n) further numbers that the file gives its vertices, by lower-case name without underscore
-    skin : what the model wears under its fur, one piece per material; () where the file has none
+    skin : the visible skin under the fur, one piece per material; () where the file has none
     notices : what was repaired, one sentence each, beginning with the model's name
     """
 
@@ -129,15 +129,15 @@ def simplify(surface: Surface, faces: int) -> Surface:
 
 def _finish(name: str, soup: Soup, materials: tuple[Material, ...], max_faces: int, missing: int = 0) -> Surface:
     check(name, soup)
-    soup, told = tidy(name, soup)
+    soup, notices = tidy(name, soup)
     if len(soup.faces) > max_faces:
-        soup = _fewer(name, soup, max(max_faces, FEWEST), told)
+        soup = _fewer(name, soup, max(max_faces, MIN_FACES), notices)
     soup, repaired = straighten(soup)
-    told += repaired
+    notices += repaired
     colours, broken = base_colours(soup, materials)
     materials = tuple(_wearable(material, i in broken) for i, material in enumerate(materials))
     if missing + len(broken):
-        told.append(f"{count(missing + len(broken), 'picture')} left out that cannot be read")
+        notices.append(f"{count(missing + len(broken), 'picture')} left out that cannot be read")
     same = bool((np.ptp(colours, axis=0) < ALIKE).all())
     return Surface(
         vertices=soup.vertices,
@@ -148,25 +148,25 @@ def _finish(name: str, soup: Soup, materials: tuple[Material, ...], max_faces: i
         uv=soup.uv if soup.uv is not None and bool(np.isfinite(soup.uv).any()) else None,
         attributes=_at_vertices(soup),
         skin=dress(soup, materials) if soup.paint is not None or any(m != Material() for m in materials) else (),
-        notices=tuple(f"{name}: {line}" for line in told),
+        notices=tuple(f"{name}: {line}" for line in notices),
     )
 
 
 def _wearable(material: Material, broken: bool) -> Material:
-    """A material as the skin can wear it."""
+    """A material as it is stored on the skin."""
     if material.picture is None:
         return material
     return replace(material, picture=None if broken else portable(material.picture))
 
 
-def _fewer(name: str, soup: Soup, max_faces: int, told: list[str]) -> Soup:
+def _fewer(name: str, soup: Soup, max_faces: int, notices: list[str]) -> Soup:
     before = len(soup.faces)
     fewer, _ = tidy(name, decimate(soup, max_faces))
     if len(fewer.faces) > RAGGED * max_faces:
         raise MeshError(
             f"{name}: {before} faces in pieces too small to simplify, expected at most {max_faces} or larger pieces"
         )
-    told.append(f"{before} faces decimated to {len(fewer.faces)}")
+    notices.append(f"{before} faces decimated to {len(fewer.faces)}")
     return fewer
 
 

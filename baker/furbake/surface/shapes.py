@@ -9,14 +9,14 @@ import trimesh
 
 from furbake.surface.charts import Floats, Ints, Natural
 from furbake.surface.mesh import MeshError, Surface
-from furbake.surface.topology import unit
+from furbake.surface.repair.topology import unit
 
 NAMES = ("sphere", "plane", "torus")
-FEWEST, MOST = {"plane": 1, "torus": 3}, 1024
-"""Rows and columns."""
+MIN_CELLS, MAX_CELLS = {"plane": 1, "torus": 3}, 1024
+"""Least and most rows and columns."""
 
 SUBDIVISIONS = 4
-"""Of the sphere's icosahedron: 20·4⁴ = 5 120 triangles."""
+"""Subdivisions of the sphere's icosahedron: 20·4⁴ = 5 120 triangles."""
 
 CELLS = 16
 """Squares along each side of the default plane: 512 triangles."""
@@ -25,11 +25,11 @@ RING, TUBE = 0.7, 0.3
 """Radii of the torus, model units; its largest side is 2."""
 
 ROWS, COLUMNS = 48, 96
-"""Of the default torus: 9 216 triangles."""
+"""Rows and columns of the default torus: 9 216 triangles."""
 
 
 def is_builtin(name: str) -> bool:
-    """Whether `name` means a built-in shape (well formed or not), not a file."""
+    """True if `name` means a built-in shape (well formed or not), not a file."""
     return name in NAMES or name.startswith(("plane:", "torus:"))
 
 
@@ -45,9 +45,9 @@ def builtin(name: str) -> Surface:
     if not size:
         raise MeshError(f"{name}: no such built-in, expected sphere, plane, torus, plane:RxC or torus:RxC")
     shape, rows, columns = size[1], int(size[2]), int(size[3])
-    fewest = FEWEST[shape]
-    if not (fewest <= rows <= MOST and fewest <= columns <= MOST):
-        raise MeshError(f"{name}: {rows} rows and {columns} columns, expected {fewest} to {MOST} of each")
+    fewest = MIN_CELLS[shape]
+    if not (fewest <= rows <= MAX_CELLS and fewest <= columns <= MAX_CELLS):
+        raise MeshError(f"{name}: {rows} rows and {columns} columns, expected {fewest} to {MAX_CELLS} of each")
     return (plane if shape == "plane" else torus)(rows, columns)
 
 
@@ -96,7 +96,7 @@ def torus(rows: int, columns: int) -> Surface:
 
 
 def _lattice(rows: int, columns: int) -> tuple[Floats, Floats]:
-    """Return u and v, 0..1, of (rows + 1)·(columns + 1) points, v fastest."""
+    """u and v, 0..1, of (rows + 1)·(columns + 1) points, v fastest."""
     u, v = np.meshgrid(np.arange(rows + 1) / rows, np.arange(columns + 1) / columns, indexing="ij")
     return u.reshape(-1), v.reshape(-1)
 

@@ -1,5 +1,5 @@
-import type { Part } from '../../measure/plan.ts';
-import type { CostName, Method } from '../../measure/results.ts';
+import type { Part } from '../../measure/bench/plan.ts';
+import type { CostName, Method } from '../../measure/bench/results.ts';
 
 const duration = (seconds: number) => (seconds < 90 ? `${Math.ceil(seconds)} s` : `${Math.round(seconds / 60)} min`);
 
@@ -69,10 +69,10 @@ export const en = {
 	},
 
 	methods,
-	/** What a row of the table is called. */
-	rival: (method: Method, still: boolean, fins: boolean) =>
+	/** Title of a row of the table. */
+	subject: (method: Method, still: boolean, fins: boolean) =>
 		[methods[method], ...(still ? ['still light'] : []), ...(fins ? ['fins'] : [])].join(', '),
-	portrait: (rival: string) => `A furry torus, ${rival}`,
+	picture: (subject: string) => `A furry torus, ${subject}`,
 	costs,
 
 	tables: {

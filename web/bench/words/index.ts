@@ -1,4 +1,4 @@
-/** What the page says, in either language. */
+/** Words of the page, in either language. */
 
 import type { Language } from '../../page/language.ts';
 import { en, type Words } from './en.ts';

@@ -1,5 +1,5 @@
-import type { Part } from '../../measure/plan.ts';
-import type { Method } from '../../measure/results.ts';
+import type { Part } from '../../measure/bench/plan.ts';
+import type { Method } from '../../measure/bench/results.ts';
 import type { Words } from './en.ts';
 
 const duration = (seconds: number) => (seconds < 90 ? `${Math.ceil(seconds)} 秒` : `${Math.round(seconds / 60)} 分钟`);
@@ -53,9 +53,9 @@ export const zh: Words = {
 	},
 
 	methods,
-	rival: (method, still, fins) =>
+	subject: (method, still, fins) =>
 		[methods[method], ...(still ? ['光源静止'] : []), ...(fins ? ['带鳍片'] : [])].join('，'),
-	portrait: (rival) => `毛茸茸的圆环：${rival}`,
+	picture: (subject) => `毛茸茸的圆环：${subject}`,
 	costs: {
 		plain: '基准',
 		highlight: '高光',

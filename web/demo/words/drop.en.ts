@@ -1,4 +1,4 @@
-/** Words of what is opened from the visitor's own machine. */
+/** Words for models from the visitor's machine. */
 
 export const en = {
 	drop: 'Drop a baked folder, its zip, or a .glb',
@@ -6,7 +6,7 @@ export const en = {
 	openTip: 'A zip of a baked folder, or a .glb, from this device; or drop it on the picture. Nothing is uploaded.',
 	openFolder: 'Open folder …',
 	openFolderTip: 'A baked folder from this device; or drop it on the picture. Nothing is uploaded.',
-	/** In the place of the name, where several files come without a folder. */
+	/** Name of several files without a folder. */
 	files: (count: number) => `${count} files`,
 	bakeIt: (name: string, command: string) => `${name} has no fur yet, so its skin is shown. To grow some:\n${command}`,
 	newer: (name: string, version: string, known: string) =>

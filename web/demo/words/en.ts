@@ -1,4 +1,4 @@
-/** The words of the demo page. The other language has the same ones, or the compiler says what is missing. */
+/** Words of the demo page; the type makes the other language complete. */
 
 export const en = {
 	title: 'furbake · fur that you relight by dragging',
@@ -7,7 +7,7 @@ export const en = {
 
 	picture:
 		'A furry model in three dimensions. Drag or use the arrow keys to move the light, plus and minus to come nearer or go away. With a brush the arrow keys move its ring, Enter strokes or paints there.',
-	/** After what a drag does. */
+	/** Added to a tool's hint. */
 	hintMouse: 'right drag turns the camera · scroll to zoom',
 	hintTouch: 'two fingers turn and zoom',
 	orbit: 'Turn camera',
@@ -18,7 +18,7 @@ export const en = {
 	toolRain: 'Rain',
 	toolMud: 'Mud',
 	toolMove: 'Grab and shake',
-	/** Of each tool: what to do with it. */
+	/** Hint of each tool. */
 	hints: {
 		light: 'Drag to move the light',
 		camera: 'Drag to turn the camera',
@@ -42,9 +42,9 @@ export const en = {
 	crowd: 'Crowd',
 	method: 'Method',
 	split: 'Split with',
-	none: 'None',
 	lights: 'Lights',
 	environment: 'Environment',
+	exposure: 'Exposure',
 	automatic: 'Auto shells',
 	shells: 'Shells',
 	fins: 'Fins',
@@ -63,6 +63,7 @@ export const en = {
 	save: 'Save picture',
 	reset: 'Reset',
 	methods: {
+		none: 'None',
 		ptm: 'PTM',
 		eigen: 'Eigen',
 		lengyel: 'Lengyel',
@@ -81,13 +82,13 @@ export const en = {
 		noFur: 'This model has no fur.',
 		noEigen: 'This fur was baked without eigen curves.',
 		crowd: 'A crowd is lit by PTM or eigen, in one picture.',
-		colourPlane: 'Every hair has its own colour here: the tip’s tints them all.',
-		noStates: 'This fur was baked dry and clean: there is no other state to show.',
-		noEigenStates: 'Eigen curves were found for dry fur: it gets wet and dirty under PTM.',
+		colourPlane: 'Each hair has its own colour; the tip colour tints all of them.',
+		noStates: 'This fur was baked without wet or dirty states.',
+		noEigenStates: 'Eigen curves hold for dry fur only; choose PTM for wet and dirty fur.',
 		noDirt: 'This fur was baked without a dirty state.',
-		calm: 'Nothing moves by itself here, as the link or the system asks: wind bends the fur and stays.',
+		calm: 'Animation is off, as the link or the system asks: wind bends the fur, without gusts.',
 	},
-	/** Of models and pelts, by name; others are called what they are called in models.json. */
+	/** Titles of models and pelts by name, in the place of those in models.json. */
 	titles: {} as Record<string, string>,
 	separator: (left: string, right: string) => `Line between ${left} and ${right}`,
 
@@ -106,7 +107,7 @@ export const en = {
 	notSaved: (reason: string) => `The picture cannot be saved: ${reason}`,
 	noLink: 'A model from your own files has no address: this link shows the rest of the view.',
 	notInLink: 'What was painted on the fur is not in the link.',
-	crowdWears: 'A crowd is lit by PTM or eigen, in one picture: the other method is left out.',
+	rivalLeftOut: 'A crowd is lit by PTM or eigen, in one picture: the other method is left out.',
 	noEigenHere: 'This fur was baked without eigen curves: showing PTM.',
 	inAddress: (problems: string) => `In the address:\n${problems}`,
 	unknownParameter: (name: string) => `${name}: no such parameter, ignored`,
@@ -114,34 +115,28 @@ export const en = {
 	expected: {
 		model: 'the name or the folder of a model',
 		preset: 'the name of a preset',
-		method: (names: string) => `one of ${names}`,
+		choice: (names: string) => `one of ${names}`,
 		split: (names: string) => `METHOD,SHARE: one of ${names}, and 0 to 1`,
 		light: 'a direction x,y,z',
-		lights: 'a whole number from 1 to 8',
-		camera: 'azimuth,elevation,distance: degrees, degrees within ±90, 0.1 to 10',
-		shells: 'a whole number from 1 to 256',
+		camera: 'azimuth,elevation,distance: degrees, degrees within ±90, 0.001 to 10',
+		whole: (min: string, max: string) => `a whole number from ${min} to ${max}`,
+		number: (min: string, max: string) => `a number from ${min} to ${max}`,
 		flag: '0 or 1',
-		length: 'a number from 0.2 to 1.5',
-		density: 'a number from 0.2 to 2',
 		colour: 'RRGGBB,RRGGBB: colours of root and tip',
 		planes: '64, 128 or auto',
-		env: (names: string) => `one of ${names}`,
-		crowd: 'a whole number from 1 to 400',
 		wind: 'STRENGTH,DIRECTION: 0 to 1, and degrees',
-		wet: 'a number from 0 to 1',
-		dirt: 'a number from 0 to 1',
 		lang: 'en or zh',
 	},
 	wrongModel: (name: string, names: string, shown: string) =>
 		`model=${name}: expected ${names} or a folder; showing ${shown}`,
 	wrongPreset: (name: string, names: string) => `preset=${name}: expected ${names}; ignored`,
 	notShown: (name: string, reason: string) => `${name} cannot be shown: ${reason}`,
-	notAFolder: 'it is neither a model of the menu nor the address of a folder',
+	notAFolder: 'expected a model of the menu, or the address of a folder',
 	noFur: (title: string) => `${title}: this model has no fur that this page can grow`,
 	placeNotShown: (name: string, reason: string) => `The environment ${name} cannot be shown: ${reason}`,
 	statesNotShown: (reason: string) => `The fur cannot get wet or dirty: ${reason}`,
 	planesNotShown: (reason: string) => `The finer planes cannot be shown: ${reason}`,
-	presetNotShown: (name: string, reason: string) => `The preset ${name} cannot be worn: ${reason}`,
+	presetNotShown: (name: string, reason: string) => `The preset ${name} cannot be shown: ${reason}`,
 
 	fallbackTitle: 'This page needs WebGL2',
 	fallback:

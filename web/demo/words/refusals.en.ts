@@ -1,14 +1,14 @@
-/** Why something that was opened is not shown; each stands behind "NAME cannot be shown: ". */
+/** Reasons for refusal; each follows "NAME cannot be shown: ". */
 
 const EXPECTED = 'a baked folder, its zip, or a .glb';
 
-/** Of 10⁶ bytes, as file managers count. */
+/** Megabytes of 10⁶ bytes, as file managers count. */
 const megabytes = (bytes: number) => `${Number((bytes / 1e6).toFixed(1))} MB`;
 
 export const en = {
-	// What it is.
+	// Kind of file.
 	emptyFile: `it is an empty file; expected ${EXPECTED}`,
-	emptyFolder: 'there is no file in it; expected a baked folder with model.gltf',
+	emptyFolder: 'the folder is empty; expected a baked folder with model.gltf',
 	mesh: (extension: string, command: string) =>
 		`it is a mesh without fur (.${extension}). The baker reads it:\n${command}`,
 	picture: (extension: string) => `it is a picture (.${extension}); expected ${EXPECTED}`,
@@ -20,13 +20,11 @@ export const en = {
 	unreadable: (why: string) => `the browser could not read it (${why})`,
 
 	// The zip.
-	noZip: 'it is no zip, whatever its name says',
-	cutOff: 'the end is missing, so it was not copied or downloaded whole',
+	noZip: 'it is not a zip file, despite its name',
+	cutOff: 'the end is missing: it was not copied or downloaded completely',
 	emptyZip: 'the zip is empty; expected a baked folder with model.gltf',
-	zipTooLarge: (bytes: number, most: number) =>
-		`the zip has ${megabytes(bytes)}; at most ${megabytes(most)} are opened`,
-	tooLarge: (bytes: number, most: number) =>
-		`its files have ${megabytes(bytes)}; at most ${megabytes(most)} are opened`,
+	zipTooLarge: (bytes: number, most: number) => `the zip is ${megabytes(bytes)}; at most ${megabytes(most)} are opened`,
+	tooLarge: (bytes: number, most: number) => `its files are ${megabytes(bytes)}; at most ${megabytes(most)} are opened`,
 	tooMany: (most: number) => `there are more than ${most} files in it; a baked folder has about ten`,
 	badPath: (path: string) => `“${path}” leads out of the zip; such a zip is not opened`,
 	backslash: (path: string) =>
@@ -35,11 +33,11 @@ export const en = {
 	encrypted: (path: string) => `${path}: it is encrypted; expected a zip without a password`,
 	method: (path: string, method: number) =>
 		`${path}: it is packed by method ${method}; expected deflate (8) or none (0), as any system packs`,
-	zip64: 'the zip is in the form for very large ones (ZIP64); expected an ordinary one',
+	zip64: 'the zip is in the ZIP64 format; expected an ordinary zip',
 	badDirectory: "the zip's list of its files is damaged",
 	damaged: (path: string) => `${path}: it is damaged in the zip`,
 	swollen: (path: string, bytes: number) =>
-		`${path}: it unpacks to more than the ${bytes} bytes that the zip tells; such a zip is not opened`,
+		`${path}: it unpacks to more than the ${bytes} bytes that the zip states; such a zip is not opened`,
 
 	// The model.
 	noModel: (files: string) => `there is no model.gltf in it, only ${files}`,
@@ -48,16 +46,16 @@ export const en = {
 	severalModels: (paths: string) => `there are several models in it (${paths}); expected one`,
 	notInZip: (path: string) => `${path}: it is not in the zip`,
 	notInFolder: (path: string) => `${path}: it is not in the folder`,
-	notBeside: (path: string) => `${path}: it did not come along; drop the whole folder, or its zip`,
-	elsewhere: (address: string) => `${address}: it lies elsewhere, and nothing is fetched for a model that was dropped`,
-	noGltf: (path: string) => `${path}: it is no glTF`,
-	shortGlb: (path: string) => `${path}: the end is missing, so it was not copied or downloaded whole`,
+	notBeside: (path: string) => `${path}: it was not dropped with the model; drop the whole folder, or its zip`,
+	elsewhere: (address: string) => `${address}: it is on another site; nothing is fetched for a dropped model`,
+	noGltf: (path: string) => `${path}: it is not a glTF file`,
+	shortGlb: (path: string) => `${path}: the end is missing: it was not copied or downloaded completely`,
 	oldGltf: (path: string, version: string) => `${path}: it is glTF ${version}; expected 2.0`,
-	loop: (path: string) => `${path}: its nodes are no tree`,
+	loop: (path: string) => `${path}: its nodes form a loop; expected a tree`,
 	draco: (command: string) =>
 		`its mesh is packed by Draco, which this page does not unpack. The baker does:\n${command}`,
 	requires: (extensions: string) => `it requires ${extensions}, which this page does not know; export it without`,
-	badPicture: (path: string) => `${path}: it is no picture that this browser can read`,
+	badPicture: (path: string) => `${path}: it is not a picture that this browser can read`,
 };
 
 export type Refusals = typeof en;

@@ -13,6 +13,7 @@ import {
 	Matrix4,
 	Mesh,
 	MinEquation,
+	type Object3D,
 	OneFactor,
 	OrthographicCamera,
 	RGBAFormat,
@@ -25,29 +26,42 @@ import {
 	type WebGLRenderer,
 	WebGLRenderTarget,
 } from 'three';
-import type { Fur } from '../Fur.ts';
-import type { FurMaterial } from '../FurMaterial.ts';
-import { HullMaterial } from '../HullMaterial.ts';
-import deepOpacity from './deepOpacity.glsl?raw';
-import hullFragment from './lightHull.frag.glsl?raw';
-import hullVertex from './lightHull.vert.glsl?raw';
-import shellsFragment from './lightShells.frag.glsl?raw';
-import shellsVertex from './lightShells.vert.glsl?raw';
-import skinFragment from './lightSkin.frag.glsl?raw';
-import skinVertex from './lightSkin.vert.glsl?raw';
-import { RivalMaterial } from './RivalMaterial.ts';
+import type { FurMaterial } from '../shells/FurMaterial.ts';
+import type { FurShells } from '../shells/FurShells.ts';
+import { HullMaterial } from '../shells/HullMaterial.ts';
+import { BaselineMaterial } from './BaselineMaterial.ts';
+import { firstLamp } from './firstLamp.ts';
+import deepOpacity from './shaders/deep/deepOpacity.glsl?raw';
+import hullFragment from './shaders/deep/lightHull.frag.glsl?raw';
+import hullVertex from './shaders/deep/lightHull.vert.glsl?raw';
+import shellsFragment from './shaders/deep/lightShells.frag.glsl?raw';
+import shellsVertex from './shaders/deep/lightShells.vert.glsl?raw';
+import skinFragment from './shaders/deep/lightSkin.frag.glsl?raw';
+import skinVertex from './shaders/deep/lightSkin.vert.glsl?raw';
 
 export interface MapOptions {
-	/** Texels per side of the light's maps. */
+	/** Renderer that draws the maps; `shadow-layers` needs it. */
+	renderer?: WebGLRenderer | undefined;
+	/** Lamp of the maps; the first visible directional light of the fur's scene by default. */
+	light?: DirectionalLight | undefined;
+	/** Texels per side of the maps. */
 	size?: number;
-	/** false: bytes even where half floats can be drawn to. */
+	/** Half floats where the GPU can draw to them; false forces bytes. */
 	halfFloat?: boolean;
 }
 
-/** What a byte has to hold of opacity; more than this many e-foldings no one sees. */
+/** Fur to map. */
+export interface MappedFur {
+	/** Shells to light. */
+	readonly shells: FurShells;
+	/** Body, which shades its far side. */
+	readonly skin: Object3D;
+}
+
+/** Largest opacity in a byte, e-foldings; more is invisible. */
 const BYTE_OPACITY = 8;
 
-/** What the maps depend on, beside the light's direction and the fur's transform: uniforms, textures, attributes. */
+/** Uniforms that the maps depend on, beside the light's direction and the fur's transform. */
 const WATCHED = ['furLength', 'furTrim', 'shellCount', 'firstShell', 'tiles', 'density'] as const;
 const TEXTURES = ['plane0', 'plane1', 'swing', 'stains'] as const;
 const MOVING = ['position', '_fur', '_comb'] as const;
@@ -56,11 +70,11 @@ const AXES = ['x', 'y', 'z'] as const;
 const UNIT_FROM_CLIP = new Matrix4().makeTranslation(0.5, 0.5, 0.5).scale(new Vector3(0.5, 0.5, 0.5));
 
 /**
- * The light's view of one fur: depths of its outside and of the skin in one texture, then the opacity of all shells in four
- * layers below that outside (Yuksel and Keyser 2008). Drawn anew when light, fur or its shells have changed, else kept.
+ * Deep opacity maps of one fur (Yuksel and Keyser 2008): depths of its outside and of the skin in one texture, then the
+ * opacity of all shells in four layers below that outside. Redrawn only when light, fur or shells have changed.
  */
 export class DeepOpacityMaps {
-	/** Of those that look something up. */
+	/** Uniforms for the lookup. */
 	readonly uniforms: Record<'lightDepths' | 'lightOpacity' | 'mapDepth' | 'opacityUnit', IUniform> = {
 		lightDepths: { value: null },
 		lightOpacity: { value: null },
@@ -69,18 +83,19 @@ export class DeepOpacityMaps {
 	};
 	/** World space → XY of the maps, Z = depth in them, all 0..1. */
 	readonly mapFromWorld = new Matrix4();
-	readonly #fur: Pick<Fur, 'shells' | 'skin'>;
+	readonly #fur: MappedFur;
 	readonly #shells: FurMaterial;
-	readonly #options: Required<MapOptions>;
+	readonly #renderer: WebGLRenderer;
+	readonly #options: MapOptions & Required<Pick<MapOptions, 'size' | 'halfFloat'>>;
 	readonly #camera = new OrthographicCamera();
 	readonly #depthScene = new Scene();
 	readonly #opacityScene = new Scene();
-	/** What is drawn for the light, and what it stands for. */
+	/** Meshes drawn for the light, with their originals. */
 	readonly #doubles: { double: Mesh; of: Mesh }[] = [];
 	readonly #materials: ShaderMaterial[];
 	#drawnTo: readonly [depths: WebGLRenderTarget, opacity: WebGLRenderTarget] | undefined;
 	#depthBuffer: DepthTexture | undefined;
-	/** What the maps depend on, as it was when they were drawn. */
+	/** Values of all dependencies at the last draw. */
 	readonly #drawnFor: number[] = [];
 	#cursor = 0;
 	#differs = false;
@@ -89,14 +104,12 @@ export class DeepOpacityMaps {
 	readonly #from = new Vector3();
 	readonly #clear = new Color();
 
-	constructor(
-		fur: Pick<Fur, 'shells' | 'skin'>,
-		shells: FurMaterial,
-		{ size = 512, halfFloat = true }: MapOptions = {},
-	) {
+	constructor(fur: MappedFur, shells: FurMaterial, { renderer, light, size = 512, halfFloat = true }: MapOptions = {}) {
+		if (!renderer) throw new Error('furMethod: got shadow-layers without a renderer, expected the option renderer');
+		this.#renderer = renderer;
 		this.#fur = fur;
 		this.#shells = shells;
-		this.#options = { size, halfFloat };
+		this.#options = { light, size, halfFloat };
 		const nearest = {
 			blending: CustomBlending,
 			blendEquation: MinEquation,
@@ -118,14 +131,14 @@ export class DeepOpacityMaps {
 			fragmentShader: hullFragment,
 			depthWrite: false,
 		});
-		const layers = new RivalMaterial(shells, {
+		const layers = new BaselineMaterial(shells, {
 			name: 'LightShells',
 			vertexShader: shellsVertex,
 			fragmentShader: `${deepOpacity}\n${shellsFragment}`,
 			uniforms: this.uniforms,
 			blendSrc: OneFactor,
 			blendDst: OneFactor,
-			// Whatever the shells of the picture do.
+			// Independent of the picture's blending.
 			blendSrcAlpha: null,
 			blendDstAlpha: null,
 			alphaToCoverage: false,
@@ -137,7 +150,7 @@ export class DeepOpacityMaps {
 			if (piece instanceof Mesh) this.#double(piece, skin, this.#depthScene);
 		});
 		const outside = this.#double(fur.shells, hull, this.#depthScene);
-		// One hull, the outside of all shells; after the skin, behind which nothing of it is wanted.
+		// One hull, the outside of all shells; after the skin, which hides its far part.
 		outside.renderOrder = 1;
 		outside.onBeforeRender = () => {
 			hull.follow();
@@ -157,11 +170,14 @@ export class DeepOpacityMaps {
 		return double;
 	}
 
-	/** @returns whether something had changed and the maps were drawn */
-	update(renderer: WebGLRenderer, light: DirectionalLight): boolean {
+	/** Redraws the maps if outdated. @returns whether they were */
+	update(): boolean {
+		const renderer = this.#renderer;
+		const light = this.#options.light ?? firstLamp(this.#fur.shells);
+		if (!light || renderer.getContext().isContextLost()) return false;
 		this.#aim(light);
 		const [depths, opacity] = this.#targets(renderer);
-		// They are gone with a lost context.
+		// False after a lost context.
 		const kept = renderer.properties.has(opacity.texture);
 		if (!this.#changed() && kept) return false;
 		this.#fit();
@@ -184,7 +200,7 @@ export class DeepOpacityMaps {
 		return true;
 	}
 
-	/** Brings the doubles where the fur is, and finds where the light comes from. */
+	/** Move the doubles to the fur, and find the light's direction. */
 	#aim(light: DirectionalLight): void {
 		for (const { double, of } of this.#doubles) {
 			of.updateWorldMatrix(true, false);
@@ -196,7 +212,7 @@ export class DeepOpacityMaps {
 		this.#towards.setFromMatrixPosition(light.matrixWorld).sub(this.#from).normalize();
 	}
 
-	/** Compares all that the maps depend on with what they were drawn for, and keeps it. */
+	/** Compare all dependencies with those of the last draw, and keep them. */
 	#changed(): boolean {
 		this.#cursor = 0;
 		this.#differs = false;
@@ -217,7 +233,7 @@ export class DeepOpacityMaps {
 		this.#drawnFor[this.#cursor++] = value;
 	}
 
-	/** Puts the light's camera around the fur as tightly as a sphere allows. */
+	/** Fit the light's camera to the fur's bounding sphere. */
 	#fit(): void {
 		const { shells } = this.#fur;
 		const { center, radius } = this.#sphere.copy(shells.geometry.boundingSphere ?? this.#sphere.makeEmpty());
@@ -229,7 +245,7 @@ export class DeepOpacityMaps {
 		camera.near = this.#sphere.radius;
 		camera.far = 3 * this.#sphere.radius;
 		camera.position.copy(center).addScaledVector(this.#towards, 2 * this.#sphere.radius);
-		// Any upright will do that the light does not come along.
+		// Any up vector not along the light.
 		camera.up.set(0, 1, 0);
 		if (Math.abs(this.#towards.y) > 0.9) camera.up.set(1, 0, 0);
 		camera.lookAt(center);
@@ -239,7 +255,7 @@ export class DeepOpacityMaps {
 		this.uniforms.mapDepth.value = (2 * this.#sphere.radius) / (this.#shells.furLength * scale);
 	}
 
-	/** What is drawn to, made when it is wanted first: only then is the renderer known. */
+	/** Targets, made on first use, when the renderer is known. */
 	#targets(renderer: WebGLRenderer): readonly [depths: WebGLRenderTarget, opacity: WebGLRenderTarget] {
 		if (this.#drawnTo) return this.#drawnTo;
 		const { extensions, capabilities } = renderer;
@@ -249,7 +265,7 @@ export class DeepOpacityMaps {
 			(extensions.has('EXT_color_buffer_float') || extensions.has('EXT_color_buffer_half_float'));
 		const type = half ? HalfFloatType : UnsignedByteType;
 		const options = { type, minFilter: LinearFilter, magFilter: LinearFilter, depthBuffer: true } as const;
-		// One depth buffer for both: what is behind the skin is in no light.
+		// One depth buffer for both: nothing behind the skin is lit.
 		this.#depthBuffer = new DepthTexture(size, size);
 		const depths = new WebGLRenderTarget(size, size, {
 			...options,

@@ -1,11 +1,11 @@
 import { type IUniform, type Texture, Vector2 } from 'three';
-import type { FurMaterial } from '../FurMaterial.ts';
-import kajiyaKay from './kajiya-kay.glsl?raw';
-import fragmentShader from './lengyel.frag.glsl?raw';
-import vertexShader from './lengyel.vert.glsl?raw';
-import localIn from './local.frag.glsl?raw';
-import localOut from './local.vert.glsl?raw';
-import { RivalMaterial } from './RivalMaterial.ts';
+import type { FurMaterial } from '../shells/FurMaterial.ts';
+import { BaselineMaterial } from './BaselineMaterial.ts';
+import kajiyaKay from './shaders/kajiya-kay.glsl?raw';
+import fragmentShader from './shaders/lengyel.frag.glsl?raw';
+import vertexShader from './shaders/lengyel.vert.glsl?raw';
+import localIn from './shaders/local.frag.glsl?raw';
+import localOut from './shaders/local.vert.glsl?raw';
 
 /** Options of local light. */
 export interface LocalLight {
@@ -17,14 +17,14 @@ export interface LocalLight {
 	sharpness?: number;
 }
 
-/** What a mean direction has to be brightened by: of many hairs some always lie more across the light than their mean. */
+/** Correction of the diffuse light on a mean direction: some hairs always lie more across the light than their mean. */
 const MEAN_DIFFUSE = 1.12;
 
 /**
- * Of lamps and of the sky, 4π·radiance / (albedo·irradiance), and what of either is missing at the roots.
+ * Brightness under lamps and sky, 4π·radiance / (albedo·irradiance), and the share of either missing at the roots.
  *
- * Set so that bunny and tori are as bright on the whole as with polynomial texture maps. Of one picture it may be a fifth
- * more or less: where one part of the body shades another, where hairs point at the lamp.
+ * Chosen so that bunny and tori are as bright on the whole as with polynomial texture maps. Single pictures differ by up
+ * to a fifth: where one part of the body shades another, where hairs point at the lamp.
  */
 export interface Brightness {
 	diffuse: number;
@@ -58,10 +58,10 @@ export function localLight(
  * Shells in local light, darkened from the tips to the roots. J. Lengyel, E. Praun, A. Finkelstein, H. Hoppe: Real-Time Fur
  * over Arbitrary Surfaces, Symposium on Interactive 3D Graphics 2001.
  *
- * Light is found per fragment from the hair's direction, as Banks and as Kajiya and Kay have it; that hairs stand in each
- * other's shadow is in nothing but the darkness of the roots.
+ * Light follows per fragment from the hair's direction by Banks and by Kajiya and Kay; the darkness of the roots alone
+ * stands for the shadows between hairs.
  */
-export class LengyelMaterial extends RivalMaterial {
+export class LengyelMaterial extends BaselineMaterial {
 	constructor(shells: FurMaterial, options: LocalLight = {}) {
 		const { vertex, fragment, uniforms, defines } = localLight(shells, options, {
 			diffuse: 2.75,

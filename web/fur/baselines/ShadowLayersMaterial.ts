@@ -1,21 +1,21 @@
 import { type Camera, Matrix4, type Scene, Vector2, type WebGLRenderer } from 'three';
-import type { FurMaterial } from '../FurMaterial.ts';
+import type { FurMaterial } from '../shells/FurMaterial.ts';
+import { BaselineMaterial } from './BaselineMaterial.ts';
 import type { DeepOpacityMaps } from './DeepOpacityMaps.ts';
-import deepLookup from './deepLookup.glsl?raw';
-import deepOpacity from './deepOpacity.glsl?raw';
 import { type LocalLight, localLight } from './LengyelMaterial.ts';
-import { RivalMaterial } from './RivalMaterial.ts';
-import fragmentShader from './shadowLayers.frag.glsl?raw';
-import vertexShader from './shadowLayers.vert.glsl?raw';
+import deepLookup from './shaders/deep/deepLookup.glsl?raw';
+import deepOpacity from './shaders/deep/deepOpacity.glsl?raw';
+import fragmentShader from './shaders/deep/shadowLayers.frag.glsl?raw';
+import vertexShader from './shaders/deep/shadowLayers.vert.glsl?raw';
 
-/** κ: hairs hide that much of the light that their coverage would; what they scatter forwards is not lost. */
+/** κ: extinction over coverage; forward-scattered light is not lost. */
 const EXTINCTION = 0.2;
 
 /**
- * Shells in the local light of Kajiya and Kay, of which deep opacity maps say how much comes through to a hair. The first
- * directional light is the one with the maps; all others are lit as LengyelMaterial has it.
+ * Shells in the local light of Kajiya and Kay, with deep opacity maps for its transmittance to each hair. The first
+ * directional light has the maps; all others are as in LengyelMaterial.
  */
-export class ShadowLayersMaterial extends RivalMaterial {
+export class ShadowLayersMaterial extends BaselineMaterial {
 	readonly #maps: DeepOpacityMaps;
 	readonly #mapFromView = new Matrix4();
 

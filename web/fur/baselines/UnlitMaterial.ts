@@ -1,10 +1,10 @@
-import type { FurMaterial } from '../FurMaterial.ts';
-import { RivalMaterial } from './RivalMaterial.ts';
-import fragmentShader from './unlit.frag.glsl?raw';
-import vertexShader from './unlit.vert.glsl?raw';
+import type { FurMaterial } from '../shells/FurMaterial.ts';
+import { BaselineMaterial } from './BaselineMaterial.ts';
+import fragmentShader from './shaders/unlit.frag.glsl?raw';
+import vertexShader from './shaders/unlit.vert.glsl?raw';
 
-/** Shells with their colour alone, one fetch a fragment: the limit of what any light can cost. */
-export class UnlitMaterial extends RivalMaterial {
+/** Shells with their colour alone, one fetch a fragment: the lower limit of the cost of any light. */
+export class UnlitMaterial extends BaselineMaterial {
 	/** @param brightness radiance of a white hair */
 	constructor(shells: FurMaterial, { brightness = 1 } = {}) {
 		super(shells, {

@@ -1,27 +1,27 @@
 import { DataTexture, FloatType, RGBAFormat } from 'three';
-import { FOLLICLES_PER_ROW } from '../follicles.ts';
+import { FOLLICLES_PER_ROW } from '../body/FurFollicles.ts';
 import { type Drive, GUST, LEE, STRENGTHS, VEER } from './drive.ts';
 import type { Roots } from './roots.ts';
 import type { Strokes } from './Strokes.ts';
-import { type Solver, STATE, type States } from './solver.ts';
+import { type Solver, type SpringStates, STATE } from './solver.ts';
 import { LIMIT, type Spring } from './spring.ts';
 
 /**
  * A damped spring for every follicle, on the CPU.
  *
- * A sub-step is: what neighbours give each other; the spring's exact step about where the forces lead; the limit. The first
- * takes displacement and velocity towards the neighbours' by symmetric weights and back into the tangent plane. Its matrix
- * P(1 − L)P, with P an orthogonal projection and 0 ≤ L < 1, lengthens no vector, so energy does not grow by it; nor does it
- * by the damped spring, nor by the limit, the nearest point of a convex set that has the rest inside. And since it does the
- * same to displacement and velocity, it commutes with springs that are all alike.
+ * A sub-step is coupling, spring, limit. Coupling moves displacement and velocity towards the neighbours' by symmetric
+ * weights and back into the tangent plane; its matrix P(1 − L)P, with P an orthogonal projection and 0 ≤ L < 1, lengthens
+ * no vector, so it adds no energy. Neither does the damped spring, stepped exactly about the equilibrium of the forces, nor
+ * the limit, the nearest point of a convex set around the rest. Acting alike on displacement and velocity, coupling
+ * commutes with the equal springs.
  */
-export class CpuSprings implements Solver, States {
+export class CpuSprings implements Solver, SpringStates {
 	readonly swing: DataTexture;
 	readonly #roots: Roots;
 	readonly #spring: Spring;
 	readonly #strokes: Strokes;
 	readonly #texels: Float32Array;
-	/** States at the beginning and at the end of the last sub-step. */
+	/** SpringStates at the beginning and the end of the last sub-step. */
 	#before: Float32Array;
 	#after: Float32Array;
 
@@ -43,12 +43,12 @@ export class CpuSprings implements Solver, States {
 		return this.#before;
 	}
 
-	/** The same at its end. */
+	/** Six numbers of each follicle at its end. */
 	get after(): Float32Array {
 		return this.#after;
 	}
 
-	/** All of it in one pass over the follicles: each one's own numbers are read once, which is a quarter of the time. */
+	// Long: one pass over the follicles reads each one's numbers once, which saves a quarter of the time.
 	step({ sag, gale, blow, gusts, waves, kick, kicks, fade }: Drive): void {
 		const old = this.#after;
 		const states = this.#before;
@@ -73,7 +73,7 @@ export class CpuSprings implements Solver, States {
 			const py = position[at + 1] as number;
 			const pz = position[at + 2] as number;
 
-			// Where the forces lead: xₑ.
+			// Equilibrium of the forces: xₑ.
 			let leadX = sagX;
 			let leadY = sagY;
 			let leadZ = sagZ;
@@ -115,7 +115,7 @@ export class CpuSprings implements Solver, States {
 				leadZ -= over * tipZ;
 			}
 
-			// What neighbours give each other of the last states, back in the tangent plane.
+			// Coupling with the neighbours' last states, projected to the tangent plane.
 			const end = first[i + 1] as number;
 			let own = 1;
 			let x = 0;
@@ -150,7 +150,7 @@ export class CpuSprings implements Solver, States {
 			vy -= away * ny;
 			vz -= away * nz;
 
-			// The spring's step, with half of the kick before it and half of it after.
+			// Step of the spring, with half of the kick before it and half after.
 			let kickX = 0;
 			let kickY = 0;
 			let kickZ = 0;
@@ -179,7 +179,7 @@ export class CpuSprings implements Solver, States {
 				tipX *= share;
 				tipY *= share;
 				tipZ *= share;
-				// What would take it farther out.
+				// Outward part of the velocity.
 				const outward = Math.max((vx * tipX + vy * tipY + vz * tipZ) / (LIMIT * LIMIT), 0);
 				vx -= outward * tipX;
 				vy -= outward * tipY;
@@ -220,7 +220,7 @@ export class CpuSprings implements Solver, States {
 	}
 }
 
-/** A wave of parabolas, −1..1, that is as cheap as it looks; a sine would be told from it by nobody. */
+/** Wave of parabolas, −1..1: a cheap sine. */
 function wave(waves: Float32Array, at: number, x: number, y: number, z: number): number {
 	const turns =
 		(waves[at] as number) * x +
@@ -231,7 +231,7 @@ function wave(waves: Float32Array, at: number, x: number, y: number, z: number):
 	return phase * (8 - 16 * Math.abs(phase));
 }
 
-/** A row of a matrix with four columns times (position, 1). */
+/** Row of a matrix with four columns times (position, 1). */
 function row(matrix: Float32Array, at: number, x: number, y: number, z: number): number {
 	return (
 		(matrix[at] as number) * x +

@@ -1,51 +1,64 @@
-import { Matrix4, type Texture, type Vector3, type WebGLRenderer } from 'three';
-import type { Fur } from '../Fur.ts';
-import { Carriage } from './Carriage.ts';
+import { Matrix4, type Mesh, type Texture, type Vector3, type WebGLRenderer } from 'three';
+import { FurAttachment } from '../body/FurAttachment.ts';
+import type { FurFollicles } from '../body/FurFollicles.ts';
+import type { FurAsset } from '../format.ts';
+import { BodyMotion } from './BodyMotion.ts';
 import { CpuSprings } from './CpuSprings.ts';
 import { calm } from './drive.ts';
 import { GpuSprings } from './GpuSprings.ts';
-import { completed, type MotionOptions } from './options.ts';
+import { completed, type FurMotionOptions } from './options.ts';
 import { type Roots, rootsOf } from './roots.ts';
 import { Stopwatch } from './Stopwatch.ts';
 import { Strokes } from './Strokes.ts';
 import type { Solver } from './solver.ts';
 import { type Spring, STEP, springOf } from './spring.ts';
-import { Wind, type WindSettings } from './Wind.ts';
+import { type FurWind, Wind } from './Wind.ts';
 
-/** Seconds of a frame that count: of more, a hidden tab's say, the rest is dropped. */
-const LONGEST = 0.5;
-/** Milliseconds a frame that springs may take on the CPU. */
+/** Longest frame, seconds; the rest (of a hidden tab, say) is dropped. */
+const MAX_FRAME = 0.5;
+/** Budget of the springs on the CPU, milliseconds a frame. */
 const BUDGET = 2;
-/** What is left of a swing when it counts as none, shares of the length. */
-const NOTHING = 1e-3;
+/** Swing that counts as none, shares of the length. */
+const MIN_SWING = 1e-3;
 
-/** Gravities that count. */
-const MOST_GRAVITY = 100;
+/** Largest gravity, in baked ones. */
+const MAX_GRAVITY = 100;
+
+/** Body in motion: a `Fur`. */
+export interface FurMotionBody {
+	/** Points of the skin, in the axes of the shells. */
+	readonly follicles: FurFollicles;
+	/** Shells, whose placement is the body's. */
+	readonly shells: Mesh;
+	/** Longest fur as baked, model units. */
+	readonly asset: Pick<FurAsset, 'length'>;
+	/** Attached motion, if any. */
+	motion: FurMotion | undefined;
+}
 
 /**
- * Fur that moves: hairs are damped springs which gravity, wind, their body's motion and fingers pull at.
+ * Motion of fur: hairs are damped springs under gravity, wind, their body's motion and fingers.
  *
- *     const motion = new FurMotion(fur, { renderer });
+ *     const motion = new FurMotion(fur, { renderer }); // is fur.motion
  *     motion.wind.strength = 0.4;
  *     // each frame, before it is drawn
- *     if (motion.update(seconds)) for (const other of dressed) other.swing = motion.swing;
- *     renderer.render(scene, camera);
+ *     fur.update(seconds);
  *
- * The body's node may be moved by whatever moves it: `update` looks where it is. Time goes in sub-steps of a thirtieth of a
- * second, whatever the frame rate is, and what is seen is one of them behind. Without anything that pulls at it the fur falls
- * asleep, as it was baked, and costs nothing.
+ * The body's node may be moved freely: `Fur.update` reads its placement. Other furs of the same body share it by
+ * `dressed.motion = motion`. Time advances in sub-steps of a thirtieth of a second at
+ * any frame rate, shown one sub-step late. Without forces the fur falls asleep as it was baked, and costs nothing.
  */
-export class FurMotion {
-	/** What blows at it, to be set. */
-	readonly wind: WindSettings;
-	/** Gravities: 1 is what it was baked under, 0 weightless. */
+export class FurMotion extends FurAttachment {
+	/** Wind; set its properties. */
+	readonly wind: FurWind;
+	/** Gravity over the baked one: 0 is weightless. */
 	gravity: number;
-	readonly #body: Fur;
+	readonly #body: FurMotionBody;
 	readonly #renderer: WebGLRenderer | undefined;
 	readonly #roots: Roots;
 	readonly #spring: Spring;
 	readonly #wind: Wind;
-	readonly #carriage: Carriage;
+	readonly #bodyMotion: BodyMotion;
 	readonly #strokes: Strokes;
 	readonly #stopwatch: Stopwatch;
 	readonly #drive = calm();
@@ -53,18 +66,19 @@ export class FurMotion {
 	#solver: Solver;
 	/** Seconds since the end of the last sub-step. */
 	#behind = 0;
-	/** An upper bound of how far hairs swing about where they are pulled to, in the norm of `Spring.decay`. */
+	/** Upper bound of all swings about the equilibrium, in the norm of `Spring.decay`. */
 	#unrest = 0;
-	/** Gravity as it was; NaN before anything was. */
+	/** Last gravity; NaN before the first frame. */
 	#weight = Number.NaN;
-	/** Whether hairs are bent although they are still. */
+	/** Whether hairs at rest are bent. */
 	#bent = false;
 	#asleep = true;
-	/** Whether CPU and GPU have been compared: a software renderer's GPU is the CPU, and slower. */
+	/** Whether CPU and GPU have been compared; a software renderer's GPU is slower. */
 	#compared = false;
 
-	/** @param body whose shells move, and whose axes its hairs move in; not one that `dress` made */
-	constructor(body: Fur, options: MotionOptions = {}) {
+	/** @param body fur to attach to, in place of its motion before; not one made by `dressFur` */
+	constructor(body: FurMotionBody, options: FurMotionOptions = {}) {
+		super();
 		const { frequency, damping, coupling, relaxation, gravity, seed, clock } = completed(options);
 		const { shells, asset, follicles } = body;
 		this.#body = body;
@@ -75,54 +89,56 @@ export class FurMotion {
 		this.wind = this.#wind = new Wind(seed);
 		this.#strokes = new Strokes(follicles, relaxation);
 		const furLength = asset.length / shells.scale.x;
-		this.#carriage = new Carriage(shells, follicles.position, furLength, this.#spring.pace);
+		this.#bodyMotion = new BodyMotion(shells, follicles.position, furLength, this.#spring.pace);
 		this.#stopwatch = new Stopwatch(BUDGET, clock);
 		this.#solver = new CpuSprings(this.#roots, this.#spring, this.#strokes);
+		body.motion = this;
 	}
 
-	/** Where the hairs are, as `Fur.swing` takes it: of the body and of all that is dressed on it. Undefined as it was baked. */
+	/** Present displacements, as in `Fur.swing`. Undefined means as baked. */
 	get swing(): Texture | undefined {
 		return this.#asleep && !this.#bent ? undefined : this.#solver.swing;
 	}
 
-	/** Whether nothing moves, nor will before something pulls at it. */
+	/** Whether nothing moves until a force changes. */
 	get asleep(): boolean {
 		return this.#asleep;
 	}
 
 	/**
-	 * Which of them moves the hairs. It begins on the CPU; when that takes more than 2 ms a frame, the GPU is tried once, and
-	 * goes on if it takes less.
+	 * Processor that moves the hairs: first the CPU; when that takes more than 2 ms a frame, the GPU is tried once and kept if
+	 * faster.
 	 */
 	get processor(): 'cpu' | 'gpu' {
 		return this.#solver instanceof GpuSprings ? 'gpu' : 'cpu';
 	}
 
 	/**
-	 * Goes on by a frame; once before it is drawn.
+	 * Advances by a frame.
 	 *
-	 * @param seconds since the last frame; of more than half a second the rest is dropped
+	 * @param seconds since the last frame; more than half a second counts as half a second
 	 * @returns whether the picture changes
+	 * @internal
 	 */
-	update(seconds: number): boolean {
+	override update(seconds: number): boolean {
 		if (!(seconds > 0)) return !this.#asleep;
-		const moved = this.#carriage.look(seconds);
+		const moved = this.#bodyMotion.look(seconds);
 		if (this.#driven(moved)) this.#wake();
 		if (this.#asleep) return false;
 		this.#stopwatch.start();
-		const steps = this.#advance(Math.min(seconds, LONGEST));
+		const steps = this.#advance(Math.min(seconds, MAX_FRAME));
 		this.#solver.show(this.#behind / STEP);
 		if (steps > 0 && this.#renderer) this.#compare(this.#renderer, steps);
-		if (this.#unrest < NOTHING && this.#strokes.widest === 0) this.#sleep();
-		this.#body.swing = this.swing;
+		if (this.#unrest < MIN_SWING && this.#strokes.widest === 0) this.#sleep();
+		this.show();
 		return true;
 	}
 
 	/**
-	 * A finger has gone over the fur since the last frame, and leaves a lane that fades over seconds.
+	 * Strokes the fur along a finger's path since the last frame; the lane fades over seconds.
 	 *
-	 * @param from where it was on the skin, in the world
-	 * @param to where it is now
+	 * @param from start on the skin, world axes
+	 * @param to end, world axes
 	 * @param radius of the lane, world units
 	 */
 	stroke(from: Vector3, to: Vector3, radius: number): void {
@@ -134,9 +150,9 @@ export class FurMotion {
 		this.#strokes.add(from, to, this.#meshFromWorld, own);
 	}
 
-	/** Goes at once where gravity, lanes and a wind without gusts lead: for pictures in which nothing moves. */
+	/** Jumps to the equilibrium of gravity, lanes and a wind without gusts: for still pictures. */
 	settle(): void {
-		this.#carriage.place();
+		this.#bodyMotion.place();
 		this.#strokes.finish();
 		this.#wind.stirs();
 		this.#weight = this.#gravity;
@@ -148,40 +164,40 @@ export class FurMotion {
 		this.#unrest = 0;
 		this.#asleep = this.#strokes.widest === 0;
 		if (steps > 0) this.#solver.show(1);
-		this.#body.swing = this.swing;
+		this.show();
 	}
 
-	/** As it was baked, without lanes; wind and gravity pull on from there. */
+	/** Resets to the baked pose without lanes; wind and gravity act from there. */
 	reset(): void {
-		this.#carriage.place();
+		this.#bodyMotion.place();
 		this.#strokes.reset();
 		this.#wind.reset();
 		this.#weight = Number.NaN;
 		this.#bent = false;
 		this.#unrest = 0;
 		this.#sleep();
-		this.#body.swing = undefined;
+		this.show();
 	}
 
-	/** Frees what it has, and leaves all fur that it moved as it was baked, the body's and what is dressed on it. */
-	dispose(): void {
-		this.#body.swing = undefined;
+	/** Frees its resources and leaves all furs that it moved as baked. */
+	override dispose(): void {
+		super.dispose();
 		this.#solver.dispose();
 	}
 
-	/** Whether anything pulls otherwise than it did in the last frame. */
+	/** Whether any force has changed since the last frame. */
 	#driven(moved: boolean): boolean {
 		const weight = this.#gravity;
 		const first = Number.isNaN(this.#weight);
-		const heavier = first ? this.#carriage.sag(weight).lengthSq() > 0 : weight !== this.#weight;
+		const heavier = first ? this.#bodyMotion.sag(weight).lengthSq() > 0 : weight !== this.#weight;
 		this.#weight = weight;
 		const stirs = this.#wind.stirs();
-		return moved || heavier || stirs || this.#strokes.pending || !this.#carriage.settles() || this.#lost;
+		return moved || heavier || stirs || this.#strokes.pending || !this.#bodyMotion.caughtUp() || this.#lost;
 	}
 
-	/** As it is used. */
+	/** Bounded gravity. */
 	get #gravity(): number {
-		return Math.min(Math.max(this.gravity, -MOST_GRAVITY), MOST_GRAVITY) || 0;
+		return Math.min(Math.max(this.gravity, -MAX_GRAVITY), MAX_GRAVITY) || 0;
 	}
 
 	get #lost(): boolean {
@@ -200,7 +216,7 @@ export class FurMotion {
 		if (!this.#bent) this.#solver.rest();
 	}
 
-	/** @returns how many sub-steps there were */
+	/** @returns number of sub-steps */
 	#advance(frame: number): number {
 		let steps = 0;
 		let left = frame;
@@ -208,11 +224,11 @@ export class FurMotion {
 		while (this.#behind + left >= STEP) {
 			left -= STEP - this.#behind;
 			const now = 1 - left / frame;
-			this.#carriage.advance(STEP - this.#behind);
+			this.#bodyMotion.advance(STEP - this.#behind);
 			this.#behind = 0;
 			const { widest } = this.#strokes;
 			this.#strokes.advance(before, now);
-			// What is left of lanes that have just come to their end swings out.
+			// Rests of lanes that have just ended swing out.
 			if (this.#strokes.widest === 0) this.#unrest += this.#spring.widest * widest;
 			this.#wind.advance(STEP / 2);
 			this.#pull(now, false);
@@ -222,27 +238,27 @@ export class FurMotion {
 			before = now;
 			steps++;
 		}
-		this.#carriage.advance(left);
+		this.#bodyMotion.advance(left);
 		this.#behind += left;
 		this.#strokes.endFrame();
 		return steps;
 	}
 
-	/** Writes what pulls in a sub-step. @param share of the frame at its end */
+	/** Writes the forces of a sub-step. @param share of the frame at its end */
 	#pull(share: number, steady: boolean): void {
 		const drive = this.#drive;
-		const { center, radius } = this.#carriage.sphere;
-		this.#carriage.write(drive, share, this.#gravity);
-		this.#wind.write(drive, this.#carriage.turn, center, radius, steady);
+		const { center, radius } = this.#bodyMotion.sphere;
+		this.#bodyMotion.write(drive, share, this.#gravity);
+		this.#wind.write(drive, this.#bodyMotion.turn, center, radius, steady);
 		drive.fade = this.#strokes.fade;
 		this.#bent = drive.gale > 0 || drive.sag[0] !== 0 || drive.sag[1] !== 0 || drive.sag[2] !== 0;
 	}
 
 	#stepsToRest(): number {
-		return Math.ceil(Math.log(NOTHING / this.#spring.widest) / Math.log(this.#spring.decay));
+		return Math.ceil(Math.log(MIN_SWING / this.#spring.widest) / Math.log(this.#spring.decay));
 	}
 
-	/** Where the CPU takes too long, and the GPU less, the GPU goes on. @param steps of this frame */
+	/** Moves to the GPU if the CPU is too slow and the GPU faster. @param steps sub-steps of this frame */
 	#compare(renderer: WebGLRenderer, steps: number): void {
 		const solver = this.#solver;
 		if (this.#compared || !(solver instanceof CpuSprings)) return;
@@ -251,7 +267,7 @@ export class FurMotion {
 		this.#compared = true;
 		if (!GpuSprings.suits(renderer, this.#roots)) return;
 		const other = new GpuSprings(renderer, this.#roots, this.#spring, this.#strokes, solver);
-		// What is compiled for it does not count.
+		// Compile first, untimed.
 		other.rehearse(this.#drive, 1);
 		this.#stopwatch.start();
 		other.rehearse(this.#drive, steps);

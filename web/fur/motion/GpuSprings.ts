@@ -11,14 +11,14 @@ import {
 	type WebGLRenderer,
 	WebGLRenderTarget,
 } from 'three';
-import { FOLLICLES_PER_ROW } from '../follicles.ts';
+import { FOLLICLES_PER_ROW } from '../body/FurFollicles.ts';
 import { type Drive, GUST, LEE, STRENGTHS, VEER, WAVES } from './drive.ts';
 import type { Roots } from './roots.ts';
 import type { Strokes } from './Strokes.ts';
-import showFragment from './show.frag.glsl?raw';
-import { type Solver, STATE, type States } from './solver.ts';
+import showFragment from './shaders/show.frag.glsl?raw';
+import stepFragment from './shaders/springs.frag.glsl?raw';
+import { type Solver, type SpringStates, STATE } from './solver.ts';
 import { LIMIT, type Spring } from './spring.ts';
-import stepFragment from './springs.frag.glsl?raw';
 import { TexelPass } from './TexelPass.ts';
 
 const float = (value: number) => value.toFixed(6);
@@ -36,8 +36,8 @@ const DEFINES = {
 const options = { type: FloatType, depthBuffer: false, magFilter: NearestFilter, minFilter: NearestFilter } as const;
 
 /**
- * The springs of `CpuSprings` on the GPU, a texel for each follicle. States lie in two targets in turn, a sub-step is one
- * pass over their texels. After a lost context all hairs are at rest.
+ * Springs of `CpuSprings` on the GPU, a texel per follicle. Two targets hold the states in turn; a sub-step is one pass over
+ * their texels. After a lost context all hairs are at rest.
  */
 export class GpuSprings implements Solver {
 	readonly #renderer: WebGLRenderer;
@@ -46,29 +46,29 @@ export class GpuSprings implements Solver {
 	readonly #show: TexelPass;
 	readonly #targets: readonly [WebGLRenderTarget, WebGLRenderTarget];
 	readonly #shown: WebGLRenderTarget;
-	/** Displacements before, displacements and velocities after the last sub-step, as they came from the CPU. */
+	/** SpringStates from the CPU: displacements before, displacements and velocities after the last sub-step. */
 	readonly #given: readonly [DataTexture, DataTexture, DataTexture];
 	readonly #offsets: DataTexture;
 	readonly #tables: DataTexture[];
-	/** Version of the strokes that the offsets are. */
+	/** Version of the uploaded stroke offsets. */
 	#version = -1;
-	/** Which of the targets is drawn to next. */
+	/** Next target to draw to. */
 	#next: 0 | 1 = 0;
 	#lost = false;
-	/** What belongs to a lost context is let go of while it is lost: three would ask the next one to delete it. */
+	/** Free objects of a lost context while it is lost: later three would ask the next context to delete them. */
 	readonly #lose = () => {
 		this.#free();
 		this.#lost = true;
 	};
 
-	/** Whether a GPU can draw to such targets, and has room for all. */
+	/** Whether a GPU can draw to such targets and fits all follicles. */
 	static suits({ extensions, capabilities }: WebGLRenderer, { follicles }: Roots): boolean {
 		const rows = Math.ceil(Math.max(follicles.count, follicles.links.length) / FOLLICLES_PER_ROW);
 		return extensions.has('EXT_color_buffer_float') && rows <= capabilities.maxTextureSize;
 	}
 
-	/** @param states to go on with */
-	constructor(renderer: WebGLRenderer, roots: Roots, spring: Spring, strokes: Strokes, states: States) {
+	/** @param states initial states */
+	constructor(renderer: WebGLRenderer, roots: Roots, spring: Spring, strokes: Strokes, states: SpringStates) {
 		const { follicles, comb, weights } = roots;
 		const { count, position, normal, length, first, links } = follicles;
 		const rows = Math.ceil(count / FOLLICLES_PER_ROW);
@@ -126,7 +126,7 @@ export class GpuSprings implements Solver {
 		return this.#shown.texture;
 	}
 
-	/** Whether the states have gone with their context. */
+	/** Whether the states were lost with their context. */
 	get lost(): boolean {
 		return this.#lost;
 	}
@@ -145,7 +145,7 @@ export class GpuSprings implements Solver {
 		this.#next = this.#next === 0 ? 1 : 0;
 	}
 
-	/** Makes these the states that are read. */
+	/** Set the states to read. */
 	#read(before: Texture, after: Texture, velocities: Texture): void {
 		const { uniforms } = this.#step;
 		(uniforms.displacements as IUniform).value = after;
@@ -157,11 +157,11 @@ export class GpuSprings implements Solver {
 	show(share: number): void {
 		(this.#show.uniforms.share as IUniform).value = share;
 		this.#show.draw(this.#renderer, this.#shown);
-		// For what has to be drawn anew when it changes.
+		// Signals a change to listeners on the version.
 		this.swing.version++;
 	}
 
-	/** Makes sub-steps from the states as they were given, waits for them, and forgets them. */
+	/** Runs sub-steps from the given states, waits for them and discards the result. */
 	rehearse(drive: Drive, steps: number): void {
 		for (let i = 0; i < steps; i++) this.step(drive);
 		this.show(1);
@@ -181,7 +181,7 @@ export class GpuSprings implements Solver {
 	dispose(): void {
 		this.#renderer.domElement.removeEventListener('webglcontextlost', this.#lose);
 		this.#free();
-		// Tells the furs that have it.
+		// Notifies furs that use it.
 		this.swing.dispose();
 	}
 
@@ -192,10 +192,10 @@ export class GpuSprings implements Solver {
 	}
 }
 
-/** What a pass takes from the drive as it is. */
+/** Uniforms copied from the drive. */
 const NAMES = ['sag', 'blow', 'gale', 'gusts', 'waves', 'kick', 'fade'] as const satisfies (keyof Drive)[];
 
-/** Numbers in rows as follicles are, a texel each. */
+/** Texture with a texel of numbers per follicle. */
 function table(count: number, size: 2 | 4, value: (i: number, channel: number) => number): DataTexture {
 	const values = new Float32Array(size * FOLLICLES_PER_ROW * Math.ceil(count / FOLLICLES_PER_ROW));
 	for (let i = 0; i < count; i++) for (let c = 0; c < size; c++) values[size * i + c] = value(i, c);

@@ -1,7 +1,7 @@
-/** Frames that are judged together, by their median: single hiccups don't count. */
+/** Frames judged together, by their median: single hiccups don't count. */
 const FRAMES = 15;
 
-/** Tells whether some work takes longer than it may, frame after frame. */
+/** Watch on work that may take longer than its budget, frame after frame. */
 export class Stopwatch {
 	readonly #clock: () => number;
 	readonly #budget: number;
@@ -10,20 +10,20 @@ export class Stopwatch {
 	#started = 0;
 
 	/**
-	 * @param budget of a frame, milliseconds
-	 * @param clock milliseconds
+	 * @param budget time per frame, milliseconds
+	 * @param clock present time, milliseconds
 	 */
 	constructor(budget: number, clock: () => number) {
 		this.#budget = budget;
 		this.#clock = clock;
 	}
 
-	/** The work of a frame begins. */
+	/** Starts a frame's work. */
 	start(): void {
 		this.#started = this.#clock();
 	}
 
-	/** It has ended. @returns milliseconds that it takes where that is too long, told once for many frames; else 0 */
+	/** Ends a frame's work. @returns median milliseconds if over the budget, once per many frames; else 0 */
 	stop(): number {
 		this.#times[this.#count++] = this.lap();
 		if (this.#count < FRAMES) return 0;
@@ -33,7 +33,7 @@ export class Stopwatch {
 		return median > this.#budget ? median : 0;
 	}
 
-	/** Milliseconds since it was started. */
+	/** Milliseconds since the start. */
 	lap(): number {
 		return this.#clock() - this.#started;
 	}

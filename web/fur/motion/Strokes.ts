@@ -1,71 +1,71 @@
 import { type Matrix4, Vector3 } from 'three';
-import { FOLLICLES_PER_ROW, type Follicles } from '../follicles.ts';
+import { FOLLICLES_PER_ROW, type FurFollicles } from '../body/FurFollicles.ts';
 import { LIMIT, STEP } from './spring.ts';
 
-/** How far a finger lays hairs, share of their length: farther than they go, so that a lane stays a while before it fades. */
+/** Displacement by a finger, share of the length: beyond the limit, so that a lane stays a while before it fades. */
 const LAY = 1.6;
-/** How far aside it sweeps those at its rim, sine of the angle to its way: there the fur is parted. */
+/** Sideways sweep at the finger's rim, sine of the angle to its path: parts the fur there. */
 const PART = 0.85;
-/** A hair in the middle of a lane is laid but for e^(−4/3·FIRMNESS) when the finger has passed. */
+/** Firmness of a finger: e^(−4/3·FIRMNESS) of the way is left for a hair in the middle of a lane. */
 const FIRMNESS = 2.2;
-/** Strokes at a time that have not come to their end; the oldest of more is there at once. */
-const MOST = 64;
-/** Numbers of one: from, to, radius, 1 where its frame is over. */
+/** Most pending strokes; the oldest of more is finished at once. */
+const MAX_STROKES = 64;
+/** Numbers per stroke: from, to, radius, 1 if its frame is over. */
 const STRIDE = 8;
-/** Of what is less the springs take hairs back by themselves, and nobody sees it. */
-const NOTHING = 0.02;
-/** When the common factor is smaller, offsets are multiplied by it. */
-const SMALL = 0.1;
+/** Offset below which hairs spring back unnoticed. */
+const MIN_OFFSET = 0.02;
+/** Common factor below which it is multiplied into the offsets. */
+const MIN_FADE = 0.1;
 
 /**
- * The lanes that fingers leave: of each follicle the offset of its spring's rest, which fades over seconds.
+ * Lanes left by fingers: an offset of each follicle's rest, which fades over seconds.
  *
- * A stroke takes as long as the frame in which it is reported, so that the same finger lays the same lane at any frame rate:
- * what it does to a hair grows with the way that it goes near it, however that is cut into strokes.
+ * A stroke lasts as long as the frame that reports it, and its effect on a hair grows with the length of its path near it.
+ * So the same finger lays the same lane at any frame rate.
  */
 export class Strokes {
-	/** A texel each, RGBA: the offset, before it is multiplied by `fade`. */
+	/** Offsets before the factor `fade`, an RGBA texel each. */
 	readonly offsets: Float32Array;
-	/** Grows whenever offsets change otherwise than by fading. */
+	/** Incremented when offsets change other than by fading. */
 	version = 0;
-	readonly #follicles: Follicles;
+	readonly #follicles: FurFollicles;
 	readonly #kept: number;
-	readonly #pending = new Float64Array(MOST * STRIDE);
+	readonly #pending = new Float64Array(MAX_STROKES * STRIDE);
 	#count = 0;
 	#fade = 1;
 	#widest = 0;
 	readonly #point = new Vector3();
 
-	/** @param relaxation seconds in which all but 1/e of a lane is gone */
-	constructor(follicles: Follicles, relaxation: number) {
+	/** @param relaxation seconds until 1/e of a lane is left */
+	constructor(follicles: FurFollicles, relaxation: number) {
 		this.#follicles = follicles;
 		this.#kept = Math.exp(-STEP / relaxation);
 		this.offsets = new Float32Array(4 * FOLLICLES_PER_ROW * Math.ceil(follicles.count / FOLLICLES_PER_ROW));
 	}
 
-	/** What all offsets are to be multiplied by. */
+	/** Common factor of all offsets. */
 	get fade(): number {
 		return this.#fade;
 	}
 
-	/** An upper bound of the offsets, shares of the length; 0 without any. */
+	/** Upper bound of the offsets, shares of the length; 0 without any. */
 	get widest(): number {
 		return this.#widest;
 	}
 
-	/** Whether fingers have still something to do. */
+	/** Whether strokes are pending. */
 	get pending(): boolean {
 		return this.#count > 0;
 	}
 
 	/**
-	 * A finger goes straight on from one point to another during the next frame.
+	 * Adds a straight stroke during the next frame.
 	 *
-	 * @param meshFromWorld into the axes in which it stays where it is if the body moves
+	 * @param meshFromWorld world axes → the mesh's, in which the stroke is fixed
 	 * @param radius in the mesh's units
 	 */
 	add(from: Vector3, to: Vector3, meshFromWorld: Matrix4, radius: number): void {
-		if (this.#count === MOST) {
+		if (this.#count === MAX_STROKES) {
 			this.#lay(0, 1);
 			this.#remove(0);
 		}
@@ -81,33 +81,33 @@ export class Strokes {
 	}
 
 	/**
-	 * Fingers go on, and lanes fade, by a sub-step.
+	 * Advances strokes and fades lanes by a sub-step.
 	 *
-	 * @param before share of the frame that was over when fingers went on last
-	 * @param now share of the frame that is over
+	 * @param before share of the frame at the last sub-step
+	 * @param now share of the frame at this one
 	 */
 	advance(before: number, now: number): void {
 		this.#fade *= this.#kept;
 		this.#widest *= this.#kept;
-		if (this.#widest > 0 && this.#widest < NOTHING) this.#clear();
+		if (this.#widest > 0 && this.#widest < MIN_OFFSET) this.#clear();
 		const part = before < 1 ? Math.min((now - before) / (1 - before), 1) : 1;
 		for (let stroke = 0; stroke < this.#count; stroke++)
 			this.#lay(stroke, this.#pending[stroke * STRIDE + 7] === 1 ? 1 : part);
 		this.#sweep();
 	}
 
-	/** What has not been done by now is overdue. */
+	/** Mark pending strokes as overdue. */
 	endFrame(): void {
 		for (let stroke = 0; stroke < this.#count; stroke++) this.#pending[stroke * STRIDE + 7] = 1;
 	}
 
-	/** All that is pending is done at once. */
+	/** Finishes pending strokes at once. */
 	finish(): void {
 		for (let stroke = 0; stroke < this.#count; stroke++) this.#lay(stroke, 1);
 		this.#count = 0;
 	}
 
-	/** No fingers, no lanes. */
+	/** Removes all strokes and lanes. */
 	reset(): void {
 		this.#count = 0;
 		this.#clear();
@@ -120,7 +120,7 @@ export class Strokes {
 		this.#widest = 0;
 	}
 
-	/** Removes those that are done. */
+	/** Remove finished strokes. */
 	#sweep(): void {
 		const pending = this.#pending;
 		for (let stroke = this.#count - 1; stroke >= 0; stroke--) {
@@ -136,7 +136,7 @@ export class Strokes {
 		this.#count--;
 	}
 
-	/** A finger does this part of what it has still to do. */
+	/** Apply this part of the rest of a stroke. */
 	#lay(stroke: number, part: number): void {
 		const pending = this.#pending;
 		const at = stroke * STRIDE;
@@ -153,7 +153,7 @@ export class Strokes {
 		along /= way;
 		up /= way;
 		beside /= way;
-		if (this.#fade < SMALL) this.#fold();
+		if (this.#fade < MIN_FADE) this.#fold();
 		const radius = pending[at + 6] as number;
 		const { count, position, normal, comb } = this.#follicles;
 		for (let i = 0; i < count; i++) {
@@ -163,7 +163,7 @@ export class Strokes {
 			const there = px * along + py * up + pz * beside;
 			const near = radius * radius - (px * px + py * py + pz * pz - there * there);
 			if (near <= 0) continue;
-			// Where the finger's path is within its radius of the hair, from where it is nearest.
+			// Half the path within the finger's radius of the hair, around the nearest point.
 			const reach = Math.sqrt(near);
 			const first = Math.max(-there, -reach);
 			const last = Math.min(way - there, reach);
@@ -173,7 +173,7 @@ export class Strokes {
 			const nx = normal[3 * i] as number;
 			const ny = normal[3 * i + 1] as number;
 			const nz = normal[3 * i + 2] as number;
-			// Along its way in the middle, aside at its rim.
+			// Along the path in the middle, aside at the rim.
 			const aside = PART / radius;
 			const ahead = Math.sqrt(1 - PART * PART * (1 - near / (radius * radius))) - aside * there;
 			const wayX = ahead * along + aside * px;
@@ -196,7 +196,7 @@ export class Strokes {
 		this.offsets[at] = offset + share * (towards / this.#fade - offset);
 	}
 
-	/** Fades the offsets themselves. */
+	/** Multiply the factor into the offsets. */
 	#fold(): void {
 		for (let i = 0; i < this.offsets.length; i++) this.offsets[i] = (this.offsets[i] as number) * this.#fade;
 		this.#fade = 1;

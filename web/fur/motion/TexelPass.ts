@@ -11,7 +11,7 @@ import {
 	type WebGLRenderer,
 	type WebGLRenderTarget,
 } from 'three';
-import vertexShader from './texel.vert.glsl?raw';
+import vertexShader from './shaders/texel.vert.glsl?raw';
 
 /** A fragment shader for every texel of a target. */
 export class TexelPass {
@@ -39,7 +39,7 @@ export class TexelPass {
 			depthTest: false,
 			depthWrite: false,
 		});
-		// One triangle covers the target without a seam.
+		// One triangle over the target, without a seam.
 		this.#geometry.setAttribute('position', new BufferAttribute(Float32Array.of(-1, -1, 0, 3, -1, 0, -1, 3, 0), 3));
 		const triangle = new Mesh(this.#geometry, this.#material);
 		triangle.frustumCulled = false;
@@ -48,7 +48,7 @@ export class TexelPass {
 		this.#scene.add(triangle);
 	}
 
-	/** Leaves the renderer as it was: target, viewport and scissor with it. While its context is lost nothing is drawn. */
+	/** Draws and restores the renderer's target, viewport and scissor. Does nothing while the context is lost. */
 	draw(renderer: WebGLRenderer, target: WebGLRenderTarget): void {
 		if (renderer.getContext().isContextLost()) return;
 		const before = renderer.getRenderTarget();

@@ -2,39 +2,39 @@ import { Vector3 } from 'three';
 import { type Drive, WAVES } from './drive.ts';
 import type { Turn } from './Turn.ts';
 
-/** Where a storm takes the tips of the longest fur that it meets from ahead, share of the length. */
+/** Displacement of the longest tips by a storm from ahead, share of the length. */
 const LAY = 0.7;
 
-/** Of each wave, turns per radius of the body; the last one turns the wind, the others strengthen it. */
+/** Turns of each wave per radius of the body; the last one turns the wind, the others strengthen it. */
 const TURNS = [0.9, 1.4, 2.6, 0.6] as const;
-/** How far they may stray from the wind's direction, radians. */
+/** Largest angle of each wave to the wind, radians. */
 const STRAY = [0.25, 0.7, 0.5, 0.6] as const;
-/** How fast they run, shares of the gusts' speed. */
+/** Speed of each wave, shares of the gusts' speed. */
 const SPEED = [1, 0.85, 1.2, 0.9] as const;
-/** Gusts' speed in a breath of wind, and what a storm has more, radii of the body per second. */
+/** Speed of gusts in the faintest wind, and its increase up to a storm, radii of the body per second. */
 const BREATH = 0.5;
 const STORM = 1.4;
 
-/** The wind as an app sets it. It blows everywhere alike, but for its gusts, which run over the fur. */
-export interface WindSettings {
-	/** Where it blows to, in the world. Its length does not matter; zero is no wind. */
+/** Settings of the wind. It is uniform but for its gusts, which run over the fur. */
+export interface FurWind {
+	/** Direction in which it blows, world axes; any length, 0 is no wind. */
 	readonly direction: Vector3;
-	/** 0 is none, 1 a storm that lays the fur. */
+	/** Strength: 0 is none, 1 a storm that lays the fur. */
 	strength: number;
-	/** 0 is steady; 1 swells and slackens by two thirds, and turns a little. */
+	/** Strength of gusts: 0 is steady; 1 swells and slackens by two thirds, and turns a little. */
 	gusts: number;
 }
 
-/** Waves of a seed that travel with the wind. What a follicle makes of them: `CpuSprings` and springs.frag.glsl. */
-export class Wind implements WindSettings {
+/** Wind with seeded waves that travel along it. For their effect on a follicle see `CpuSprings` and springs.frag.glsl. */
+export class Wind implements FurWind {
 	readonly direction = new Vector3(1, 0, 0);
 	strength = 0;
 	gusts = 0.6;
-	/** Of each wave: shares of the wind's direction and of the two axes across, and where it starts, turns. */
+	/** Components of each wave along the wind and along the two axes across, and its initial phase, turns. */
 	readonly #waves = new Float64Array(4 * WAVES);
-	/** How far gusts have come, radii of the body. */
+	/** Distance that gusts have travelled, radii of the body. */
 	#travel = 0;
-	/** As it was when it was last asked whether it stirs. */
+	/** Settings at the last call of `stirs`. */
 	readonly #known = { direction: new Vector3(), force: 0, gusts: 0 };
 	readonly #along = new Vector3();
 	readonly #right = new Vector3();
@@ -50,12 +50,12 @@ export class Wind implements WindSettings {
 		}
 	}
 
-	/** Its strength as it is used. */
+	/** Bounded strength. */
 	get #force(): number {
 		return this.direction.lengthSq() > 0 ? share(this.strength) : 0;
 	}
 
-	/** Whether it changes by itself, or has been changed since this was asked. */
+	/** Whether the wind varies by itself, or its settings have changed since the last call. */
 	stirs(): boolean {
 		const known = this.#known;
 		const force = this.#force;
@@ -68,23 +68,23 @@ export class Wind implements WindSettings {
 		return stirs;
 	}
 
-	/** As if it had not blown yet. */
+	/** Restarts the waves. */
 	reset(): void {
 		this.#known.force = 0;
 		this.#travel = 0;
 	}
 
-	/** Gusts travel on. */
+	/** Advances the gusts. */
 	advance(seconds: number): void {
 		this.#travel += seconds * (BREATH + STORM * this.#force);
 	}
 
 	/**
-	 * Writes what the wind has to do with.
+	 * Writes the wind's part of the drive.
 	 *
-	 * @param turn of the body in it
-	 * @param centre of the body, and its radius, units of its mesh
-	 * @param steady leaves out the gusts
+	 * @param turn orientation of the body
+	 * @param centre centre of the body, and its radius, units of its mesh
+	 * @param steady whether to leave out gusts
 	 */
 	write(drive: Drive, turn: Turn, centre: Vector3, radius: number, steady: boolean): void {
 		const along = this.#along.copy(this.direction).normalize();
@@ -122,7 +122,7 @@ function random(seed: number): () => number {
 		state = (state * 48271) % 2147483647;
 		return state / 2147483647;
 	};
-	// Small seeds start with small numbers.
+	// Skip the small numbers that small seeds begin with.
 	for (let i = 0; i < 4; i++) next();
 	return next;
 }

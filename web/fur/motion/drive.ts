@@ -1,32 +1,31 @@
-/** What moves the fur during one sub-step, in the axes of the shells' mesh. */
+/** Forces on the fur during one sub-step, in the axes of the shells' mesh. */
 
-/** Waves that the wind's gusts are made of. */
+/** Number of waves in the wind's gusts. */
 export const WAVES = 4;
 
 /**
- * The same for all follicles. What one of them makes of it stands in two places that have to agree: `CpuSprings` and
- * springs.frag.glsl.
+ * Forces common to all follicles. `CpuSprings` and springs.frag.glsl apply them and have to agree.
  */
 export interface Drive {
-	/** Where gravity alone takes the tips of the longest fur, shares of the length. */
+	/** Displacement of the longest tips by gravity alone, shares of the length. */
 	readonly sag: Float32Array;
-	/** Where the wind alone takes the tips of the longest fur that it blows along, share of the length. */
+	/** Displacement of the longest tips by a wind along the skin alone, share of the length. */
 	gale: number;
 	/** Unit vector along the wind. */
 	readonly blow: Float32Array;
-	/** How far gusts go, 0..1. */
+	/** Strength of the gusts, 0..1. */
 	gusts: number;
-	/** A wave each: XYZ = turns per unit of the mesh, W = turns. */
+	/** Waves: XYZ = turns per unit of the mesh, W = phase in turns. */
 	readonly waves: Float32Array;
-	/** Rows of the matrix that takes (position, 1) to the velocity that the skin's own gives to the tips, 1/s. */
+	/** Rows of the matrix (position, 1) → velocity added to the tips by the skin's motion, 1/s. */
 	readonly kick: Float32Array;
-	/** Whether there is any. */
+	/** Whether `kick` is not zero. */
 	kicks: boolean;
-	/** What the offsets left by strokes are multiplied by. */
+	/** Factor of the offsets left by strokes. */
 	fade: number;
 }
 
-/** One that moves nothing. */
+/** Drive without forces. */
 export function calm(): Drive {
 	return {
 		sag: new Float32Array(3),
@@ -40,11 +39,11 @@ export function calm(): Drive {
 	};
 }
 
-/** How much the first waves strengthen the wind, of what gusts do. */
+/** Shares of the first waves in the gusts' strength. */
 export const STRENGTHS = [0.5, 0.3, 0.2] as const;
-/** How much gusts strengthen or weaken the wind at most, share of it. */
+/** Largest change of the wind by gusts, share of its strength. */
 export const GUST = 0.65;
-/** How far gusts turn it at most, share of it to the side. */
+/** Largest sideways part of the wind in gusts, share of its strength. */
 export const VEER = 0.35;
-/** What is missing of it on the body's far side, share of it. */
+/** Part of the wind missing in the body's lee, share of its strength. */
 export const LEE = 0.75;

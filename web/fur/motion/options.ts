@@ -1,22 +1,22 @@
 import type { WebGLRenderer } from 'three';
 
-/** What a FurMotion may be told. */
-export interface MotionOptions {
-	/** How fast the fur swings to and fro, Hz; 0.2 to 20, 2.4 by default. */
+/** Options of FurMotion. */
+export interface FurMotionOptions {
+	/** Frequency of the undamped swing, Hz; 0.2 to 20, 2.4 by default. */
 	frequency?: number;
-	/** How soon it is still: ζ, share of the critical damping; 0.05 to 0.95, 0.28 by default. */
+	/** Damping ζ, share of the critical one; 0.05 to 0.95, 0.28 by default. */
 	damping?: number;
-	/** How much hairs take their neighbours along, 0 (not at all) to 1; 0.3 by default. */
+	/** Coupling of hairs with their neighbours, 0 to 1; 0.3 by default. */
 	coupling?: number;
-	/** Seconds in which a stroked lane loses all but 1/e, 0.01 to 3600; 1.2 by default. */
+	/** Seconds until 1/e of a stroked lane is left, 0.01 to 3600; 1.2 by default. */
 	relaxation?: number;
-	/** Gravities: 1, the default, is what the fur was baked under. */
+	/** Gravity over the baked one; 1 by default. */
 	gravity?: number;
-	/** Of the wind's gusts: other ones for another seed. */
+	/** Seed of the wind's gusts. */
 	seed?: number;
-	/** Whose GPU takes over what is too much for the CPU; without it nothing does. */
+	/** Renderer whose GPU takes over when the CPU is too slow; without one the CPU goes on. */
 	renderer?: WebGLRenderer;
-	/** Milliseconds by which the time of CPU and GPU is taken. */
+	/** Clock for the comparison of CPU and GPU, milliseconds. */
 	clock?: () => number;
 }
 
@@ -36,7 +36,7 @@ export function completed({
 	gravity = 1,
 	seed = 1,
 	clock = () => performance.now(),
-}: MotionOptions) {
+}: FurMotionOptions) {
 	const numbers = { frequency, damping, coupling, relaxation };
 	for (const name of Object.keys(RANGES) as (keyof typeof RANGES)[]) {
 		const [least, most] = RANGES[name];

@@ -1,24 +1,24 @@
-/** What both solvers make of follicles before anything moves. */
+/** Follicles prepared for both solvers. */
 
-import type { Follicles } from '../follicles.ts';
+import type { FurFollicles } from '../body/FurFollicles.ts';
 import { LIMIT } from './spring.ts';
 
-/** Follicles as solvers have them. */
+/** Follicles with comb and coupling weights. */
 export interface Roots {
-	readonly follicles: Follicles;
-	/** The follicles' comb in the very tangent plane, no longer than the limit; so the rest is inside of what is allowed. */
+	readonly follicles: FurFollicles;
+	/** Comb projected to the tangent plane and clamped to the limit, so that the rest is within it. */
 	readonly comb: Float32Array;
-	/** Of each link, what a follicle takes over of its neighbour's difference in a sub-step. */
+	/** Weight of each link: share of the neighbour's difference taken over in a sub-step. */
 	readonly weights: Float32Array;
 }
 
 /**
- * The links' weights are the same from both ends, and of a follicle's their sum is less than `coupling` / 2 (Metropolis's
- * weights, by the number of neighbours that the more popular end has).
+ * Prepares follicles. Weights of links are equal from both ends and sum to less than `coupling` / 2 per follicle: Metropolis
+ * weights, by the larger number of neighbours of the two ends.
  *
  * @param coupling 0..1
  */
-export function rootsOf(follicles: Follicles, coupling: number): Roots {
+export function rootsOf(follicles: FurFollicles, coupling: number): Roots {
 	const { count, normal, first, links } = follicles;
 	const comb = follicles.comb.slice();
 	const weights = new Float32Array(links.length);

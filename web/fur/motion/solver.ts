@@ -1,29 +1,29 @@
-/** What the springs on CPU and GPU have in common. */
+/** Common interface of the springs on CPU and GPU. */
 
 import type { Texture } from 'three';
 import type { Drive } from './drive.ts';
 
-/** Numbers of a follicle's state: displacement and velocity. */
+/** Numbers per follicle's state: displacement and velocity. */
 export const STATE = 6;
 
-/** Follicles' states, as one follows another. */
-export interface States {
-	/** At the beginning of the last sub-step, `STATE` numbers each. */
+/** SpringStates of the follicles. */
+export interface SpringStates {
+	/** SpringStates at the beginning of the last sub-step, `STATE` numbers each. */
 	readonly before: Float32Array;
-	/** At its end. */
+	/** SpringStates at its end. */
 	readonly after: Float32Array;
 }
 
-/** Hairs that swing. */
+/** Solver of the hairs' swing. */
 export interface Solver {
-	/** As `Fur.swing` takes it. */
+	/** Displacements for `Fur.swing`. */
 	readonly swing: Texture;
-	/** Goes on by a sub-step. */
+	/** Advances by a sub-step. */
 	step(drive: Drive): void;
-	/** Writes `swing`. @param share of the last sub-step that is over */
+	/** Writes `swing`. @param share elapsed share of the last sub-step */
 	show(share: number): void;
-	/** All hairs as they were baked. */
+	/** Resets all hairs to the baked pose. */
 	rest(): void;
-	/** Frees what it has on the GPU; `swing`, too, which furs take for the end of it. */
+	/** Frees its GPU objects, `swing` included, which resets furs that use it. */
 	dispose(): void;
 }

@@ -1,41 +1,41 @@
-/** A damped spring, and the numbers that solvers on CPU and GPU have in common. */
+/** Damped spring, and constants shared by the solvers on CPU and GPU. */
 
-/** Seconds of a sub-step. Fixed, so that what hairs give to their neighbours does not depend on the frame rate. */
+/** Length of a sub-step, seconds. Fixed, so that coupling does not depend on the frame rate. */
 export const STEP = 1 / 30;
 
-/** The farthest that a tip lies from its root along the skin, share of the hair's length. */
+/** Largest displacement of a tip along the skin, share of the hair's length. */
 export const LIMIT = 0.8;
 
-/** No tip is faster, in ω: what it may swing through when it is thrown, several times over. */
-const FASTEST = 4;
+/** Largest velocity of a tip, in ω: several times that of a thrown hair. */
+const MAX_SPEED = 4;
 
-/** How a spring goes on by one step: x' = xₑ + xx·(x − xₑ) + xv·v, v' = vx·(x − xₑ) + vv·v. */
+/** One step of a spring: x' = xₑ + xx·(x − xₑ) + xv·v, v' = vx·(x − xₑ) + vv·v. */
 export interface Spring {
 	/** ω, 1/s. */
 	readonly pace: number;
-	/** Share of the displacement that stays. */
+	/** Displacement by displacement. */
 	readonly xx: number;
-	/** Seconds. */
+	/** Displacement by velocity, s. */
 	readonly xv: number;
-	/** 1/s. */
+	/** Velocity by displacement, 1/s. */
 	readonly vx: number;
-	/** Share of the velocity that stays. */
+	/** Velocity by velocity. */
 	readonly vv: number;
-	/** Velocities beyond are cut, 1/s. */
+	/** Largest velocity, 1/s. */
 	readonly fastest: number;
-	/** What is left of a swing at most: e^(−ζω·seconds). */
+	/** Upper bound of the rest of a swing after a step: e^(−ζω·seconds). */
 	readonly decay: number;
-	/** An upper bound of all swings, in the norm that `decay` holds for. */
+	/** Upper bound of all swings, in the norm of `decay`. */
 	readonly widest: number;
 }
 
 /**
- * The exact solution of x″ = −ω²(x − xₑ) − 2ζω·x′ over a step in which xₑ stands still: stable for every ω, and as right
- * however long the step is.
+ * The exact solution of x″ = −ω²(x − xₑ) − 2ζω·x′ over a step with constant xₑ: stable for every ω and exact for every
+ * step.
  *
  * @param frequency of the undamped spring, Hz
  * @param damping ζ, share of the critical one, below 1
- * @param seconds of the step; a sub-step of `FurMotion` by default
+ * @param seconds length of the step; a sub-step of `FurMotion` by default
  */
 export function springOf(frequency: number, damping: number, seconds = STEP): Spring {
 	const pace = 2 * Math.PI * frequency;
@@ -49,8 +49,8 @@ export function springOf(frequency: number, damping: number, seconds = STEP): Sp
 		xv: sin,
 		vx: -(pace ** 2) * sin,
 		vv: cos - a * sin,
-		fastest: FASTEST * pace,
+		fastest: MAX_SPEED * pace,
 		decay,
-		widest: Math.sqrt(((1 + damping) / (1 - damping)) * ((2 * LIMIT) ** 2 + FASTEST ** 2)),
+		widest: Math.sqrt(((1 + damping) / (1 - damping)) * ((2 * LIMIT) ** 2 + MAX_SPEED ** 2)),
 	};
 }

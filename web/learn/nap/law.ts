@@ -1,12 +1,12 @@
-/** The law of light and eye, as `pelt/eye.py` has it: what light counts for an eye beside the fur, by a bake's own numbers. */
+/** Law of light and eye of `pelt/eye.py`: factor of light for an eye beside the fur, by a bake's own numbers. */
 
 import type { FurAsset } from '../../fur/index.ts';
 
 /** Unit vector: along the fur's lean, across it to the left, up. */
 export type Way = readonly [number, number, number];
 
-/** Of the factor. */
-const LEAST = 0.1;
+/** Smallest factor. */
+const MIN_FACTOR = 0.1;
 
 /** [q, a, q·b, p·b, q·z, q·b², p, a², p·a·b, a·z, q·b·z, q·a·b] of a light and an eye; neither is below the horizon. */
 export function termsOf(light: Way, eye: Way): number[] {
@@ -16,7 +16,7 @@ export function termsOf(light: Way, eye: Way): number[] {
 }
 
 /**
- * G: what light counts for an eye at height `s` in the fur, over what it counts for one straight above.
+ * G: light seen by an eye at height `s` in the fur, over that seen from straight above.
  *
  * @param numbers rows for 1, s and s², in each the weights of the terms
  */
@@ -25,14 +25,14 @@ export function factorOf(numbers: readonly (readonly number[])[], light: Way, ey
 	const sums = numbers.map((row) => row.reduce((sum, weight, f) => sum + weight * (terms[f] ?? 0), 0));
 	return Math.max(
 		sums.reduce((sum, each, power) => sum + each * s ** power, 1),
-		LEAST,
+		MIN_FACTOR,
 	);
 }
 
 /**
- * Light of a lamp beside the eye, which sees no shadows, over one aside.
+ * Surge of a lamp beside the eye, which sees no shadows, over a lamp aside.
  *
- * @param numbers how much more it is from above, what more of it from aside, and its width, radians
+ * @param numbers excess seen from above, further excess from aside, width in radians
  */
 export function surgeOf([above, aside, width]: readonly [number, number, number], light: Way, eye: Way): number {
 	const apart = light.reduce((sum, part, i) => sum + (part - (eye[i] ?? 0)) ** 2, 0);
@@ -54,7 +54,7 @@ export function coverages(
 }
 
 /**
- * What each slab is of what an eye sees of the fur, as if hairs were spread evenly: shares that sum to 1.
+ * Share of each slab in the view of the fur, for evenly spread hairs; shares sum to 1.
  *
  * @param covers of `coverages`; @param up the eye's height over the skin, as a sine
  */
@@ -62,7 +62,7 @@ export function sharesSeen(covers: readonly number[], up: number): number[] {
 	const shares = covers.map(() => 0);
 	let open = 1;
 	for (let k = covers.length - 1; k >= 0; k--) {
-		// The way through a slab is longer from aside.
+		// The path through a slab is longer from aside.
 		const left = (1 - (covers[k] ?? 0)) ** (1 / Math.max(up, 0.05));
 		shares[k] = open * (1 - left);
 		open *= left;
@@ -70,7 +70,7 @@ export function sharesSeen(covers: readonly number[], up: number): number[] {
 	return shares.map((share) => share / Math.max(1 - open, 1e-9));
 }
 
-/** G of a lamp over all that an eye sees of the fur, its surge included. @param covers of `coverages` */
+/** G of a lamp over the whole view of the fur, surge included. @param covers of `coverages` */
 export function factorSeen(
 	{ eye: numbers = [], surge = [0, 0, 1] }: Pick<FurAsset, 'eye' | 'surge'>,
 	covers: readonly number[],

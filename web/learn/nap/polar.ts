@@ -1,26 +1,26 @@
 /** Polar plots of the factor of light and eye: once around the fur, seen from above, and over it from horizon to horizon. */
 
 import './style.css';
-import { decimal, draw, line, mark } from '../measured/plot.ts';
+import { decimal, draw, line, mark } from '../plot/plot.ts';
 
-/** Drawn from the middle to the rim. */
-const MOST = 2;
+/** Value at the rim. */
+const MAX_FACTOR = 2;
 /** Room for marks around the rim, pixels. */
 const AROUND = 20;
-/** Of the curves, degrees. */
+/** Step of the curves, degrees. */
 const STEP = 1;
-/** Beyond the rim, share of its radius. */
+/** Radius of marks beyond the rim, share of the rim's. */
 const OUTSIDE = 1.07;
 
 const radians = (degrees: number) => (degrees * Math.PI) / 180;
 
-/** What a plot shows. Angles are degrees, counted from the right and anticlockwise. */
+/** Content of a plot. Angles are degrees, anticlockwise from the right. */
 export interface Polar {
-	/** G of an eye there. */
+	/** G of an eye at this angle. */
 	factor: (angle: number) => number;
 	eye: number;
 	light: number;
-	/** Where the hairs' tips point; how far, 0..1. */
+	/** Direction of the hairs' tips, and their displacement, 0..1. */
 	lean: readonly [angle: number, share: number];
 }
 
@@ -29,16 +29,16 @@ interface Disc {
 	at: (angle: number, factor: number) => [number, number];
 }
 
-/** Once around, seen from above. */
+/** Draws the factor around the fur, seen from above. */
 export function drawAround(svg: SVGElement, width: number, height: number, shown: Polar): void {
 	const radius = Math.min(width, height) / 2 - AROUND;
 	const disc = discAt(svg, width / 2, height / 2, radius);
-	for (const ring of [1, MOST])
+	for (const ring of [1, MAX_FACTOR])
 		draw(svg, 'circle', {
 			class: ring === 1 ? 'one' : 'grid',
 			cx: width / 2,
 			cy: height / 2,
-			r: (ring / MOST) * radius,
+			r: (ring / MAX_FACTOR) * radius,
 		});
 	labels(disc, 45);
 	const [x, y] = disc.at(shown.lean[0], 0.42);
@@ -53,13 +53,13 @@ export function drawAround(svg: SVGElement, width: number, height: number, shown
 	marks(disc, shown);
 }
 
-/** From below the eye over the top and down again, the fur cut along that plane. @param lowest angle of an eye */
+/** Draws the factor over the fur, in a vertical section from horizon to horizon. @param lowest angle of an eye */
 export function drawOver(svg: SVGElement, width: number, height: number, shown: Polar, lowest: number): void {
 	const radius = Math.min(width / 2, height) - AROUND;
 	const [cx, cy] = [width / 2, (height + radius) / 2];
 	const disc = discAt(svg, cx, cy, radius);
-	for (const ring of [1, MOST]) {
-		const r = (ring / MOST) * radius;
+	for (const ring of [1, MAX_FACTOR]) {
+		const r = (ring / MAX_FACTOR) * radius;
 		draw(svg, 'path', { class: ring === 1 ? 'one' : 'grid', d: `M${cx - r} ${cy}A${r} ${r} 0 0 1 ${cx + r} ${cy}` });
 	}
 	labels(disc, 0);
@@ -76,15 +76,15 @@ export function drawOver(svg: SVGElement, width: number, height: number, shown: 
 
 function discAt(svg: SVGElement, cx: number, cy: number, radius: number): Disc {
 	const at = (angle: number, factor: number): [number, number] => {
-		const out = (factor / MOST) * radius;
+		const out = (factor / MAX_FACTOR) * radius;
 		return [cx + out * Math.cos(radians(angle)), cy - out * Math.sin(radians(angle))];
 	};
 	return { svg, at };
 }
 
-/** What the rings stand for. */
+/** Draw the rings' values. */
 function labels({ svg, at }: Disc, angle: number): void {
-	for (const ring of [1, MOST]) {
+	for (const ring of [1, MAX_FACTOR]) {
 		const [x, y] = at(angle, ring);
 		draw(svg, 'text', { x: x + 3, y: y + (angle ? -3 : 14) }, String(ring));
 	}
@@ -98,14 +98,14 @@ function curve({ svg, at }: Disc, { factor }: Polar, from: number, to: number): 
 	line(svg, points, 'ptm');
 }
 
-/** Lamp and eye on the rim, and the curve's point under the eye. */
+/** Draw lamp and eye on the rim, and the curve's point under the eye. */
 function marks({ svg, at }: Disc, { factor, eye, light }: Polar): void {
 	for (const [angle, kind, shape, size] of [
 		[light, 'bulb', 'dot', 5],
 		[eye, 'watcher', 'ring', 9],
 	] as const) {
 		const [x0, y0] = at(angle, 0);
-		const [x1, y1] = at(angle, OUTSIDE * MOST);
+		const [x1, y1] = at(angle, OUTSIDE * MAX_FACTOR);
 		draw(svg, 'line', { class: `ray ${kind}`, x1: x0, y1: y0, x2: x1, y2: y1 });
 		mark(svg, shape, kind, x1, y1, size);
 	}

@@ -1,4 +1,4 @@
-/** Step 7: the fur on a body. Shells, fins, the patches that lap over each other, and the hull that casts the shadow. */
+/** Step 7: the fur on a body. Shells, fins, overlapping patches, and the hull that casts the shadow. */
 
 import {
 	BufferAttribute,
@@ -10,14 +10,14 @@ import {
 	WireframeGeometry,
 } from 'three';
 import type { FurShells } from '../../fur/index.ts';
-import { loadFurry, loadReport, reach } from '../assets.ts';
 import { choice, controlRow, note } from '../controls.ts';
+import { loadFurry, loadReport, reach } from '../data/assets.ts';
+import { patchesOf } from '../data/patches.ts';
 import type { Mount } from '../lesson.ts';
-import { patchesOf } from '../patches.ts';
 import { View } from '../view.ts';
 
 const MODEL = 'bunny';
-/** Of the fur's length, where the hull stands that casts the shadow. */
+/** Height of the shadow's hull, share of the fur's length. */
 const HULL = 0.75;
 
 interface Report {
@@ -44,7 +44,7 @@ export const mount: Mount = async (place, lesson) => {
 	const painted = white.clone();
 	const paint = new Color();
 	for (const [vertex, patch] of of.entries()) {
-		// Neighbours in number are far apart on the wheel.
+		// Consecutive patches get distant hues.
 		paint.setHSL((patch * 0.618034) % 1, 0.62, 0.56).toArray(painted.array, vertex * 3);
 	}
 	const { root, tip, tip2 } = shells.material;
@@ -73,11 +73,11 @@ export const mount: Mount = async (place, lesson) => {
 	});
 };
 
-/** The shells' surface moved out to half of the fur, as lines. */
+/** Shells' surface moved out to the hull, as lines. */
 function hullOf(shells: FurShells): LineSegments {
 	const surface = shells.geometry;
 	const [position, normal, fur] = ['position', 'normal', '_fur'].map((name) => surface.getAttribute(name));
-	// In floats: as they are stored, no position is outside of the skin's own box.
+	// Floats, since stored positions are quantised within the skin's box.
 	const moved = new BufferAttribute(new Float32Array(3 * (position?.count ?? 0)), 3);
 	if (!position || !normal) throw new Error(`models/${MODEL}: its shells have no normals`);
 	const [point, out] = [new Vector3(), new Vector3()];

@@ -1,22 +1,20 @@
-/** The lamps under which every layer was sampled, and the layer as measured under the one that is lit. */
+/** Lamps under which every layer was sampled, and the layer as measured under the lit one. */
 
 import { controlRow, figureCanvas } from '../controls.ts';
+import { elevationOf, nearest, neighbour, toTile, toWorld } from '../data/lights.ts';
+import { Selection } from '../data/Selection.ts';
 import { arrows, listenToDrags } from '../drag.ts';
-import type { Mount } from '../lesson.ts';
-import { Chosen } from '../measured/chosen.ts';
-import { lightColour } from '../measured/colours.ts';
-import { Dome } from '../measured/dome.ts';
-import { elevationOf, nearest, neighbour, toTile, toWorld } from '../measured/lights.ts';
-import { layerChoice, line, live, ramp } from '../measured/parts.ts';
-import { decimal, legend } from '../measured/plot.ts';
-import { drawSlice, panel, panels } from '../measured/slice.ts';
-import { wordsIn } from '../measured/words.ts';
+import type { Lesson, Mount } from '../lesson.ts';
+import { lightColour } from '../plot/colours.ts';
+import { Dome } from '../plot/dome.ts';
+import { layerChoice, line, live, ramp } from '../plot/parts.ts';
+import { decimal, legend } from '../plot/plot.ts';
+import { drawSlice, panel, panels } from '../plot/slice.ts';
 
 export const mount: Mount = async (place, lesson) => {
-	const words = wordsIn(lesson.language);
-	const chosen = await Chosen.of(lesson);
-	const { lamps, record } = chosen;
-	const { light } = lesson;
+	const words = lesson.words.measured;
+	const selection = await Selection.of(lesson);
+	const { lamps, record } = selection;
 
 	const row = panels(place, 2);
 	const box = document.createElement('div');
@@ -31,32 +29,17 @@ export const mount: Mount = async (place, lesson) => {
 		['diamond', 'lamp', words.lampHeldOut],
 	]);
 	ramp(place, lesson, record.peak);
-	layerChoice(controlRow(place), lesson, chosen);
+	layerChoice(controlRow(place), lesson, selection);
 
 	const dome = new Dome(lamps, record.fitted);
-	const lit = () => nearest(lamps, toTile(light.direction));
-	/** The lamp that the light is on its way to: the next key goes on from there. */
-	let asked: number | undefined;
-	const take = (lamp: number | undefined) => {
-		const direction = lamp === undefined ? undefined : lamps[lamp];
-		if (!direction) return;
-		asked = lamp;
-		light.set(...toWorld(direction));
-	};
-	canvas.addEventListener('blur', () => {
-		asked = undefined;
-	});
-	listenToDrags(canvas, ({ x, y }) => take(dome.lampAt(x, y)));
-	arrows(canvas, (right, up) => take(neighbour(lamps, asked ?? lit(), right, up)));
-
+	const lit = lampByHand(canvas, dome, selection, lesson.light);
 	const colourOf = (measured: Float32Array) => (texel: number) => lightColour(measured[texel] ?? 0, record.peak);
-	live(lesson, chosen, [
+	live(lesson, selection, [
 		[
 			canvas,
 			() => {
 				const lamp = lit();
-				if (lamp === asked) asked = undefined;
-				dome.draw(canvas, lamp, chosen.layer, colourOf(chosen.measured(lamp)));
+				dome.draw(canvas, lamp, selection.layer, colourOf(selection.measured(lamp)));
 				const high = decimal(elevationOf(lamps[lamp] ?? [0, 0, 1]), 0);
 				canvas.dataset.lamp = String(lamp);
 				lampSays(
@@ -70,8 +53,8 @@ export const mount: Mount = async (place, lesson) => {
 			slice.canvas,
 			() => {
 				const lamp = lit();
-				const measured = chosen.measured(lamp);
-				drawSlice(slice.canvas, chosen.layer, colourOf(measured));
+				const measured = selection.measured(lamp);
+				drawSlice(slice.canvas, selection.layer, colourOf(measured));
 				const mean = measured.reduce((sum, value) => sum + value, 0) / measured.length;
 				slice.canvas.dataset.mean = String(mean);
 				slice.say(words.measuredUnder(decimal(elevationOf(lamps[lamp] ?? [0, 0, 1]), 0), decimal(mean)));
@@ -79,3 +62,26 @@ export const mount: Mount = async (place, lesson) => {
 		],
 	]);
 };
+
+/** Drags and arrow keys on the dome move the light from lamp to lamp. @returns index of the lit one */
+function lampByHand(canvas: HTMLCanvasElement, dome: Dome, { lamps }: Selection, light: Lesson['light']): () => number {
+	/** Target lamp of the moving light: the next key continues from there. */
+	let asked: number | undefined;
+	const lit = () => {
+		const lamp = nearest(lamps, toTile(light.direction));
+		if (lamp === asked) asked = undefined;
+		return lamp;
+	};
+	const take = (lamp: number | undefined) => {
+		const direction = lamp === undefined ? undefined : lamps[lamp];
+		if (!direction) return;
+		asked = lamp;
+		light.set(...toWorld(direction));
+	};
+	canvas.addEventListener('blur', () => {
+		asked = undefined;
+	});
+	listenToDrags(canvas, ({ x, y }) => take(dome.lampAt(x, y)));
+	arrows(canvas, (right, up) => take(neighbour(lamps, asked ?? lit(), right, up)));
+	return lit;
+}

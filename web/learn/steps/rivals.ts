@@ -1,24 +1,24 @@
-/** Step 8: the same fur by five means of light, and Table 1 measured by the machine in front of the reader. */
+/** Step 8: the same fur by five methods of lighting, and Table 1 measured on the reader's machine. */
 
-import type { Fur, MethodName } from '../../fur/index.ts';
-import { dress, furMethod } from '../../fur/index.ts';
-import { ARTICLE, type Table1Row } from '../../measure/results.ts';
-import { ARTICLE_FORM, loadFurry, reach } from '../assets.ts';
+import type { Fur, FurMethodName } from '../../fur/index.ts';
+import { dressFur, furMethod } from '../../fur/index.ts';
+import { ARTICLE, type Table1Row } from '../../measure/bench/results.ts';
 import { action, controlRow, note, pane, panes } from '../controls.ts';
+import { ARTICLE_FORM, loadFurry, reach } from '../data/assets.ts';
 import type { Lesson, Mount } from '../lesson.ts';
 import { View, type ViewOptions } from '../view.ts';
 
 const MODEL = 'torus-4608';
 const SHELLS = 16;
-const METHODS = ['unlit', 'lengyel', 'shadow-layers', 'ptm'] as const satisfies MethodName[];
+const METHODS = ['unlit', 'lengyel', 'shadow-layers', 'ptm'] as const satisfies FurMethodName[];
 
 export const mount: Mount = async (place, lesson) => {
 	const [furry, article] = await Promise.all([loadFurry(MODEL, lesson), loadFurry(ARTICLE_FORM, lesson)]);
-	pictures(place, lesson, furry.fur, dress(furry.fur, article.fur), reach(furry)).add(furry.object);
+	pictures(place, lesson, furry.fur, dressFur(furry.fur, article.fur), reach(furry)).add(furry.object);
 	table(place, lesson);
 };
 
-/** @param article the same body in the article's form of texels */
+/** @param article same body in the article's form of texels */
 function pictures(
 	place: HTMLElement,
 	lesson: Lesson,
@@ -27,14 +27,16 @@ function pictures(
 	around: Pick<ViewOptions, 'centre' | 'radius'>,
 ): View {
 	const words = lesson.words.rivals;
+	const { renderer } = lesson.painter;
+	if (!renderer) throw new Error(lesson.words.needsWebGL2);
 	for (const { shells, fins } of [fur, article]) {
 		shells.shellCount = SHELLS;
 		if (fins) fins.visible = false;
 		Object.assign(shells.material, { gloss: 0, backlight: 0 });
 	}
 	const rivals = [
-		...METHODS.map((name) => ({ name, of: fur, method: furMethod(name, fur) })),
-		{ name: 'article' as const, of: article, method: furMethod('ptm', article) },
+		...METHODS.map((name) => ({ name, of: fur, method: furMethod(fur, name, { renderer }) })),
+		{ name: 'article' as const, of: article, method: furMethod(article, 'ptm') },
 	];
 	const row = panes(place, rivals.length);
 	let view: View | undefined;
@@ -49,8 +51,8 @@ function pictures(
 			...around,
 			before() {
 				for (const each of [fur, article]) each.shells.visible = each === of;
-				method.wear();
-				if (lesson.painter.renderer && view) method.before(lesson.painter.renderer, view.key);
+				method.apply();
+				of.update(0);
 			},
 		};
 		if (view) view.window(element, options);
@@ -60,32 +62,22 @@ function pictures(
 		caption.append(strong, ` ${words.methods[name].costs}`);
 	}
 	const made = view as View;
-	// Less light from all around than elsewhere: here it is about shadow.
+	// Less ambient light than elsewhere, to show shadows.
 	made.sky.intensity *= 0.5;
 	made.cast(fur.asset.length);
 	return made;
 }
 
-/** The article's table, with room beside it for this machine's. */
+/** Article's table, with room beside it for this machine's figures. */
 function table(place: HTMLElement, { words: { rivals: words }, painter }: Lesson): void {
 	const scroll = document.createElement('div');
 	scroll.className = 'scroll';
-	// Where it is wider than the window, arrow keys scroll it.
+	// Scrollable by arrow keys where wider than the window.
 	scroll.tabIndex = 0;
 	scroll.setAttribute('role', 'region');
 	scroll.setAttribute('aria-label', words.table);
 	const made = scroll.appendChild(document.createElement('table'));
-	const caption = made.createCaption();
-	caption.textContent = words.table;
-	const [first, second] = [made.createTHead().insertRow(), made.createTHead().insertRow()];
-	const head = (row: HTMLTableRowElement, text: string, span = 1) => {
-		const cell = row.appendChild(document.createElement('th'));
-		Object.assign(cell, { textContent: text, colSpan: span, scope: span > 1 ? 'colgroup' : 'col' });
-	};
-	first.insertCell();
-	head(first, words.article, 3);
-	head(first, words.here, 3);
-	for (const text of [words.triangles, ...words.columns, ...words.columns]) head(second, text);
+	headings(made, words);
 	const body = made.createTBody();
 	const here = new Map<number, HTMLTableCellElement[]>();
 	for (const row of ARTICLE) {
@@ -108,11 +100,11 @@ function table(place: HTMLElement, { words: { rivals: words }, painter }: Lesson
 		if (running) return running.abort();
 		running = new AbortController();
 		button.textContent = words.stop;
-		// The figures would share the machine with what is measured.
+		// Pause the figures, which would disturb the measurement.
 		painter.paused = true;
 		try {
-			// Fetched by those who ask for it.
-			const { measureTable1 } = await import('../../measure/table1.ts');
+			// Fetched on demand.
+			const { measureTable1 } = await import('../../measure/bench/table1.ts');
 			const rows = await measureTable1({ quick: true }, running.signal, (share) => {
 				line.textContent = words.measuring(share);
 			});
@@ -129,6 +121,20 @@ function table(place: HTMLElement, { words: { rivals: words }, painter }: Lesson
 		painter.paused = false;
 		button.textContent = words.measure;
 	});
+}
+
+/** Caption and two rows of headings. */
+function headings(table: HTMLTableElement, words: Lesson['words']['rivals']): void {
+	table.createCaption().textContent = words.table;
+	const [first, second] = [table.createTHead().insertRow(), table.createTHead().insertRow()];
+	const head = (row: HTMLTableRowElement, text: string, span = 1) => {
+		const cell = row.appendChild(document.createElement('th'));
+		Object.assign(cell, { textContent: text, colSpan: span, scope: span > 1 ? 'colgroup' : 'col' });
+	};
+	first.insertCell();
+	head(first, words.article, 3);
+	head(first, words.here, 3);
+	for (const text of [words.triangles, ...words.columns, ...words.columns]) head(second, text);
 }
 
 function cells({ layered, ptm, ratio }: Table1Row): string[] {

@@ -1,14 +1,14 @@
-/** Step 1: why shells. The same square of fur with few and many of them, askew and from the side. */
+/** Step 1: shells. The same square of fur with few and many of them, askew and from the side. */
 
 import { Vector3 } from 'three';
-import { loadFurry } from '../assets.ts';
 import { controlRow, note, slider } from '../controls.ts';
+import { loadFurry } from '../data/assets.ts';
 import type { Mount } from '../lesson.ts';
 import { FurPatch } from '../patch.ts';
 import { View } from '../view.ts';
 
 const TILES = 2;
-const MOST = 64;
+const MAX_SHELLS = 64;
 
 export const mount: Mount = async (place, lesson) => {
 	const words = lesson.words.shells;
@@ -53,5 +53,5 @@ export const mount: Mount = async (place, lesson) => {
 
 /** 1, 2, 3, 4, 6, 8, … 64: half-steps of doubling. */
 export function shells(step: number): number {
-	return Math.min(Math.round(2 ** (step / 2)), MOST);
+	return Math.min(Math.round(2 ** (step / 2)), MAX_SHELLS);
 }

@@ -1,15 +1,15 @@
 /** Step 9, the article's figure 5: on short fur it matters less where the light comes from. */
 
 import { Object3D, Vector3 } from 'three';
-import { lit, onTile, seenFromAbove } from '../above.ts';
-import { ARTICLE_FORM, loadFurry } from '../assets.ts';
 import { pane, panes } from '../controls.ts';
+import { lit, onTile, seenFromAbove } from '../data/above.ts';
+import { ARTICLE_FORM, loadFurry } from '../data/assets.ts';
 import type { Mount } from '../lesson.ts';
 import { FurPatch } from '../patch.ts';
 import { View } from '../view.ts';
 
 const TILES = 2;
-/** Of a turn of the light. */
+/** Steps of a turn of the light. */
 const STEPS = 36;
 
 export const mount: Mount = async (place, lesson) => {
@@ -38,7 +38,7 @@ export const mount: Mount = async (place, lesson) => {
 	}
 };
 
-/** L at the least and at the most while the light goes once around at its height. */
+/** Smallest and largest L over a turn of the light at its height. */
 function around(coefficients: readonly number[], direction: Readonly<Vector3>): [least: number, most: number] {
 	const light = new Vector3();
 	const values = Array.from({ length: STEPS }, (_, i) => {

@@ -1,4 +1,4 @@
-/** Step 2: hairs, the volume that they fill, and its slices, which can be pulled apart. */
+/** Step 2: hairs, their volume, and its slices, which can be pulled apart. */
 
 import {
 	BoxGeometry,
@@ -15,20 +15,22 @@ import {
 	Vector3,
 } from 'three';
 import type { Fur } from '../../fur/index.ts';
-import { bytesOf } from '../above.ts';
-import { loadFurry } from '../assets.ts';
 import { choice, controlRow, note, slider } from '../controls.ts';
+import { bytesOf } from '../data/above.ts';
+import { loadFurry } from '../data/assets.ts';
+import { hairTubes, loadStrands } from '../data/strands.ts';
 import type { Mount } from '../lesson.ts';
 import { FurPatch } from '../patch.ts';
-import { hairTubes, loadStrands } from '../strands.ts';
 import { View } from '../view.ts';
 
-/** Coverage below which a voxel is left out: it would hide those behind it, which hold more. */
+/** Coverage below which a voxel is left out, since it would hide denser ones behind. */
 const SOLID = 0.35;
-/** Heights of the fur that the slices fill when they are pulled apart. */
+/** Height of the slices pulled apart, heights of the fur. */
 const APART = 3.6;
-/** Share of the slider at first. */
+/** First share of the slider. */
 const PULLED = 0.6;
+/** Where the picture is taken from. */
+const SEEN = { aspect: 16 / 10, azimuth: 28, elevation: 24, zoom: 1.1, radius: 1.1 };
 
 export const mount: Mount = async (place, lesson) => {
 	const words = lesson.words.slices;
@@ -40,27 +42,11 @@ export const mount: Mount = async (place, lesson) => {
 	const cubes = voxels(fur);
 	const patch = new FurPatch(fur, 1);
 	patch.shells.shellCount = layers;
-	const frames = new Group();
-	const square = new BufferGeometry().setFromPoints(
-		[
-			[-0.5, -0.5],
-			[0.5, -0.5],
-			[0.5, 0.5],
-			[-0.5, 0.5],
-		].map(([x, z]) => new Vector3(x, 0, z)),
-	);
 	const ink = new LineBasicMaterial({ color: 0xe9e4dc, transparent: true });
-	frames.add(...Array.from({ length: layers }, () => new LineLoop(square, ink)));
+	const frames = outlines(layers, ink);
 	const all = new Group().add(hairs, cubes, patch, frames);
 
-	const view = new View(place, lesson, {
-		label: words.picture,
-		aspect: 16 / 10,
-		azimuth: 28,
-		elevation: 24,
-		zoom: 1.1,
-		radius: 1.1,
-	});
+	const view = new View(place, lesson, { label: words.picture, ...SEEN });
 	view.add(all);
 	for (const solid of [hairs, cubes]) solid.castShadow = solid.receiveShadow = true;
 	view.cast(0.012, 0.9);
@@ -91,7 +77,7 @@ export const mount: Mount = async (place, lesson) => {
 	const stages = choice(row, words.stage, words.stages, 'slices', (stage) => {
 		for (const [name, object] of Object.entries(shown)) object.visible = name === stage;
 		frames.visible = stage === 'slices';
-		// What is in one piece is shown as it is.
+		// Views without slices are never pulled apart.
 		if (!apart.element.disabled) pulled = apart.value;
 		apart.element.disabled = stage !== 'slices';
 		apart.value = stage === 'slices' ? pulled : 0;
@@ -104,7 +90,20 @@ export const mount: Mount = async (place, lesson) => {
 	row.prepend(stages);
 };
 
-/** A cube for every voxel that hair fills, in its colour. */
+/** Square around every slice. */
+function outlines(layers: number, ink: LineBasicMaterial): Group {
+	const square = new BufferGeometry().setFromPoints(
+		[
+			[-0.5, -0.5],
+			[0.5, -0.5],
+			[0.5, 0.5],
+			[-0.5, 0.5],
+		].map(([x, z]) => new Vector3(x, 0, z)),
+	);
+	return new Group().add(...Array.from({ length: layers }, () => new LineLoop(square, ink)));
+}
+
+/** Cube for every voxel with hair, in its colour. */
 function voxels(fur: Fur): InstancedMesh {
 	const { layers, size, height, ramp } = fur.asset;
 	const alpha = bytesOf(fur.textures.plane1);

@@ -12,16 +12,16 @@ import {
 	SRGBColorSpace,
 	Vector3,
 } from 'three';
-import { loadFurry } from '../assets.ts';
+import { loadFurry } from '../data/assets.ts';
+import { hairTubes, loadStrands } from '../data/strands.ts';
 import type { Mount } from '../lesson.ts';
 import { FurPatch, tiled } from '../patch.ts';
-import { hairTubes, loadStrands } from '../strands.ts';
 import { View } from '../view.ts';
 
-/** Of the tuft at its foot, tile widths; beyond `RIM` hairs are thinned out. */
+/** Radius of the tuft at its foot, tile widths; hairs thin out beyond `RIM`. */
 const RADIUS = 0.46;
 const RIM = 0.4;
-/** Of the tuft over the tile's own hairs. */
+/** Length of the tuft over the tile's own hairs. */
 const LENGTH = 1.7;
 const GROUND = 2.6;
 const MAP_SIZE = 1024;
@@ -42,7 +42,7 @@ export const mount: Mount = async (place, lesson) => {
 	patch.skin.visible = false;
 	patch.shells.material.furLength *= LENGTH;
 
-	// The map is drawn from the very hairs that the volume was made of; the camera does not see them.
+	// The shadow map is drawn from the volume's own hairs, invisible to the camera.
 	const { root, tip, power } = fur.asset.ramp;
 	const colours = { root: new Color(...root), tip: new Color(...tip), power };
 	const inside = (x: number, z: number) => Math.hypot(x, z) < (RADIUS + RIM) / 2;
@@ -81,7 +81,7 @@ function smooth(t: number): number {
 	return x * x * (3 - 2 * x);
 }
 
-/** White in the middle, nothing at the rim. */
+/** Texture that is white in the middle and clear at the rim. */
 function fading(size = 128): DataTexture {
 	const texels = new Uint8Array(size * size * 4).fill(255);
 	for (let y = 0; y < size; y++)

@@ -1,9 +1,9 @@
 /** Step 9, the article's figure 4: one square of fur, the light turned by quarters. */
 
 import { MathUtils, Object3D, Vector3 } from 'three';
-import { lit, onTile, seenFromAbove } from '../above.ts';
-import { ARTICLE_FORM, loadFurry } from '../assets.ts';
 import { pane, panes } from '../controls.ts';
+import { lit, onTile, seenFromAbove } from '../data/above.ts';
+import { ARTICLE_FORM, loadFurry } from '../data/assets.ts';
 import type { Mount } from '../lesson.ts';
 import { FurPatch } from '../patch.ts';
 import { View, type ViewOptions } from '../view.ts';

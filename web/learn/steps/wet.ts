@@ -1,28 +1,29 @@
-/** Step 11: fur between two of the states that were baked, and with mud on it. */
+/** Step 11: fur between two baked states, and fur with mud. */
 
 import { FurWeather } from '../../fur/index.ts';
-import { loadFurry } from '../assets.ts';
 import { controlRow, note, pane, panes, slider } from '../controls.ts';
+import { loadFurry } from '../data/assets.ts';
 import type { Mount } from '../lesson.ts';
 import { FurPatch, tiled } from '../patch.ts';
 import { View, type WindowOptions } from '../view.ts';
 import { mixtureOf } from '../wet/mixture.ts';
+import type { Words } from '../words/index.ts';
 
 const PELT = 'pelt-fox';
 const TILES = 3;
-/** Of the mesh: the lights' moments vary little on a plane. */
+/** Squares of the mesh, few since light moments vary little on a plane. */
 const CELLS = 6;
-/** Half-way between two states. */
+/** First wetness, half-way between two states. */
 const FIRST_WETNESS = 0.625;
-/** Dry, how glossy it is, and how much light comes through. */
+/** Gloss and light from behind of dry fur. */
 const LOOK = { gloss: 0.12, backlight: 2 };
-/** Three pictures are drawn at a time: each with fewer shells than look best. */
+/** Spacing of shells over the best, since three pictures are drawn at a time. */
 const COARSE = 1.5;
 
 export const mount: Mount = async (place, lesson) => {
 	const words = lesson.words.wet;
 	const { fur: pelt } = await loadFurry(PELT, lesson);
-	// What is drawn, and the states before and after it.
+	// The mixture, and the states before and after it.
 	const patches = [0, 1, 2].map(() => new FurPatch(pelt, TILES, tiled(TILES, CELLS)));
 	const weathers = patches.map(({ fur, shells }) => {
 		Object.assign(shells.material, LOOK);
@@ -36,12 +37,6 @@ export const mount: Mount = async (place, lesson) => {
 
 	const [main] = patches as [FurPatch];
 	const [weather, ...others] = weathers as [FurWeather, ...FurWeather[]];
-	/** Of the three, which this window shows. */
-	const only = (shown: number): Pick<WindowOptions, 'before'> => ({
-		before() {
-			for (const [i, patch] of patches.entries()) patch.visible = i === shown;
-		},
-	});
 	const look = { azimuth: 24, elevation: 38 };
 	const view = new View(place, lesson, {
 		label: words.picture,
@@ -50,27 +45,28 @@ export const mount: Mount = async (place, lesson) => {
 		zoom: 1.3,
 		centre: main.middle,
 		radius: TILES * 0.62,
-		...only(0),
+		...only(patches, 0),
 	});
 	const row = panes(place, 2);
 	row.classList.add('below');
 	const captions = words.neighbours.map((label, i) => {
 		const { element, caption } = pane(row);
-		view.window(element, { label, aspect: 16 / 10, ...look, zoom: 1.8, lamp: false, ...only(i + 1) });
+		view.window(element, { label, aspect: 16 / 10, ...look, zoom: 1.8, lamp: false, ...only(patches, i + 1) });
 		return caption;
 	});
 	view.add(...patches);
 
 	const controls = controlRow(place);
 	const says = note(place);
-	let [wetness, dirt] = [FIRST_WETNESS, 0];
+	const now = { wetness: FIRST_WETNESS, dirt: 0 };
 	const show = () => {
-		Object.assign(weather, { wetness, dirt }).update(0);
-		// Mud mats hairs as water does.
+		Object.assign(weather, now);
+		main.fur.update(0);
+		// Mud counts as wetness, since it mats hairs as water does.
 		const { drier, share } = mixtureOf(wetnesses, weather.wettest);
 		for (const [i, other] of others.entries()) {
 			other.wetness = wetnesses[drier + i] ?? 0;
-			other.update(0);
+			patches[i + 1]?.fur.update(0);
 		}
 		for (const [i, caption] of captions.entries())
 			caption.textContent = words.share(words.states[drier + i] ?? '', i ? share : 1 - share);
@@ -79,15 +75,32 @@ export const mount: Mount = async (place, lesson) => {
 		says.textContent = words.hair(of('length'), of('shade'));
 		view.redraw();
 	};
+	sliders(controls, words, now, show);
+};
+
+/** Window that shows only one of the patches. */
+const only = (patches: readonly FurPatch[], shown: number): Pick<WindowOptions, 'before'> => ({
+	before() {
+		for (const [i, patch] of patches.entries()) patch.visible = i === shown;
+	},
+});
+
+/** Sliders of wetness and dirt. */
+function sliders(
+	controls: HTMLElement,
+	words: Words['wet'],
+	now: Record<'wetness' | 'dirt', number>,
+	show: () => void,
+): void {
 	slider(controls, {
 		label: words.wetness,
 		min: 0,
 		max: 1,
 		step: 0.025,
-		value: wetness,
+		value: now.wetness,
 		text: (value) => value.toFixed(3),
 		input: (value) => {
-			wetness = value;
+			now.wetness = value;
 			show();
 		},
 	});
@@ -96,11 +109,11 @@ export const mount: Mount = async (place, lesson) => {
 		min: 0,
 		max: 1,
 		step: 0.01,
-		value: dirt,
+		value: now.dirt,
 		text: (value) => value.toFixed(2),
 		input: (value) => {
-			dirt = value;
+			now.dirt = value;
 			show();
 		},
 	});
-};
+}

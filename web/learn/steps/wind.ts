@@ -2,25 +2,28 @@
 
 import { type Camera, MathUtils, Plane, Ray, type Vector2, Vector3 } from 'three';
 import { FurMotion } from '../../fur/index.ts';
-import { loadFurry } from '../assets.ts';
 import { action, controlRow, slider } from '../controls.ts';
+import { loadFurry } from '../data/assets.ts';
 import type { Mount } from '../lesson.ts';
 import { FurPatch, tiled } from '../patch.ts';
 import { View } from '../view.ts';
+import type { Words } from '../words/index.ts';
 
 const TILES = 4;
 /** Squares of the mesh across, each corner with a spring. */
 const CELLS = 24;
-/** Of the hand, tile widths. */
+/** Radius of the hand, tile widths. */
 const HAND = 0.42;
-/** Share of the fur's height at which a finger touches it. */
+/** Height at which a finger touches the fur, share of the fur's. */
 const TOUCHED = 0.7;
-/** Steps of the stroke that the button does. */
+/** Steps of the button's stroke. */
 const STROKE_STEPS = 16;
-/** To and fro: how far, tile widths; how often; seconds of all of it. */
+/** Shaking: amplitude in tile widths, number of swings, duration in seconds. */
 const [SHAKE, SHAKES, SHAKEN] = [0.25, 3, 1.2];
-/** In motion fewer shells than look best are enough. */
+/** Spacing of shells over the best; fewer are enough in motion. */
 const COARSE = 1.5;
+/** Where the picture is taken from. */
+const SEEN = { aspect: 16 / 9, azimuth: 24, elevation: 34, zoom: 1.25 };
 
 export const mount: Mount = async (place, lesson) => {
 	const words = lesson.words.wind;
@@ -31,24 +34,14 @@ export const mount: Mount = async (place, lesson) => {
 	const motion = new FurMotion(patch.fur);
 	motion.wind.gusts = lesson.calm ? 0 : 1;
 
-	const skin = new Plane(new Vector3(0, 1, 0), -TOUCHED * patch.height);
-	const ray = new Ray();
 	const [before, now] = [new Vector3(), new Vector3()];
+	const touch = touchAt(TOUCHED * patch.height, now);
 	let touching = false;
-	/** How much of the shaking is over, 0..1. */
+	/** Elapsed share of the shaking, 0..1. */
 	let shaken = 1;
-	/** The place on the skin under a finger is left in `now`. */
-	const touch = ({ x, y }: Vector2, camera: Camera) => {
-		ray.origin.setFromMatrixPosition(camera.matrixWorld);
-		ray.direction.set(x, y, 0.5).unproject(camera).sub(ray.origin).normalize();
-		return ray.intersectPlane(skin, now)?.setY(0);
-	};
 	const view = new View(place, lesson, {
 		label: words.picture,
-		aspect: 16 / 9,
-		azimuth: 24,
-		elevation: 34,
-		zoom: 1.25,
+		...SEEN,
 		centre: patch.middle,
 		radius: TILES * 0.6,
 		drag(pointer, camera) {
@@ -62,7 +55,7 @@ export const mount: Mount = async (place, lesson) => {
 	});
 	view.add(patch);
 
-	/** Shows where steady forces lead where nothing is to move; else it moves there. */
+	/** Jump to the equilibrium if the page is still; else move there. */
 	const changed = () => {
 		if (!lesson.calm) return lesson.painter.wake();
 		motion.settle();
@@ -76,12 +69,34 @@ export const mount: Mount = async (place, lesson) => {
 		if (lesson.calm || !view.visible) return false;
 		shaken = Math.min(shaken + elapsed / SHAKEN, 1);
 		patch.position.x = SHAKE * Math.sin(2 * Math.PI * SHAKES * shaken) * Math.sin(Math.PI * shaken);
-		const moving = motion.update(elapsed) || shaken < 1;
+		const moving = patch.fur.update(elapsed) || shaken < 1;
 		if (moving) view.redraw();
 		return moving;
 	});
 
 	const controls = controlRow(place);
+	sliders(controls, words, motion, changed);
+	action(controls, words.stroke, () => strokeOnce(stroke));
+	if (lesson.calm) return;
+	action(controls, words.shake, () => {
+		shaken = 0;
+		lesson.painter.wake();
+	});
+};
+
+/** Ray cast from a finger. @param height of the plane touched; @param place takes the place on the skin below */
+function touchAt(height: number, place: Vector3): (pointer: Vector2, camera: Camera) => Vector3 | undefined {
+	const plane = new Plane(new Vector3(0, 1, 0), -height);
+	const ray = new Ray();
+	return ({ x, y }, camera) => {
+		ray.origin.setFromMatrixPosition(camera.matrixWorld);
+		ray.direction.set(x, y, 0.5).unproject(camera).sub(ray.origin).normalize();
+		return ray.intersectPlane(plane, place)?.setY(0);
+	};
+}
+
+/** Sliders of the wind. */
+function sliders(controls: HTMLElement, words: Words['wind'], { wind }: FurMotion, changed: () => void): void {
 	slider(controls, {
 		label: words.wind,
 		min: 0,
@@ -90,7 +105,7 @@ export const mount: Mount = async (place, lesson) => {
 		value: 0.4,
 		text: words.strength,
 		input: (strength) => {
-			motion.wind.strength = strength;
+			wind.strength = strength;
 			changed();
 		},
 	});
@@ -103,18 +118,16 @@ export const mount: Mount = async (place, lesson) => {
 		text: (degrees) => words.degrees(degrees),
 		input: (degrees) => {
 			const angle = MathUtils.degToRad(degrees);
-			motion.wind.direction.set(Math.sin(angle), 0, Math.cos(angle));
+			wind.direction.set(Math.sin(angle), 0, Math.cos(angle));
 			changed();
 		},
 	});
-	action(controls, words.stroke, () => {
-		const at = (i: number, to: Vector3) =>
-			to.set((i / STROKE_STEPS - 0.5) * 0.8 * TILES, 0, 0.12 * TILES * Math.sin((i / STROKE_STEPS) * 2 * Math.PI));
-		for (let i = 0; i < STROKE_STEPS; i++) stroke(at(i, before), at(i + 1, now));
-	});
-	if (lesson.calm) return;
-	action(controls, words.shake, () => {
-		shaken = 0;
-		lesson.painter.wake();
-	});
-};
+}
+
+/** Strokes the fur along a wave through the square. */
+function strokeOnce(stroke: (from: Vector3, to: Vector3) => void): void {
+	const [from, to] = [new Vector3(), new Vector3()];
+	const place = (i: number, target: Vector3) =>
+		target.set((i / STROKE_STEPS - 0.5) * 0.8 * TILES, 0, 0.12 * TILES * Math.sin((i / STROKE_STEPS) * 2 * Math.PI));
+	for (let i = 0; i < STROKE_STEPS; i++) stroke(place(i, from), place(i + 1, to));
+}

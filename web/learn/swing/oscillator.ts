@@ -1,19 +1,19 @@
-/** The way of one hair's tip on its spring: as it is, by the library's exact step, and by Euler's. */
+/** Path of one hair's tip on its spring: the solution, the library's exact steps, and Euler's. */
 
-import { springOf } from '../../fur/index.ts';
+import { springOf } from '../../fur/reference.ts';
 
 export interface Oscillator {
-	/** Hz, of the swing without damping. */
+	/** Frequency without damping, Hz. */
 	frequency: number;
 	/** ζ, 0..1. */
 	damping: number;
-	/** Where it comes to rest, in lengths of the hair. */
+	/** Rest position, lengths of the hair. */
 	rest: number;
-	/** Where it is let go. */
+	/** Start position. */
 	from: number;
 }
 
-/** Where a tip is and how fast it moves, in lengths of the hair and seconds. */
+/** Position and velocity of a tip, in lengths of the hair and seconds. */
 interface Tip {
 	x: number;
 	v: number;
@@ -21,7 +21,7 @@ interface Tip {
 
 const omega = ({ frequency }: Oscillator): number => 2 * Math.PI * frequency;
 
-/** x at a time as amplitude and phase of the fading cosine: another way than the step's. */
+/** x at a time by amplitude and phase of the fading cosine, independent of the step. */
 export function truth(spring: Oscillator, time: number): number {
 	const { damping, rest, from } = spring;
 	const fade = damping * omega(spring);
@@ -30,7 +30,7 @@ export function truth(spring: Oscillator, time: number): number {
 	return rest + ((from - rest) / Math.cos(phase)) * Math.exp(-fade * time) * Math.cos(turn * time - phase);
 }
 
-/** Where steps of `dt` seconds take the tip within so many seconds; the first is where it is let go. */
+/** Path by exact steps of `dt` seconds, from the start position. */
 export function exactPath(spring: Oscillator, dt: number, seconds: number): number[] {
 	const { xx, xv, vx, vv } = springOf(spring.frequency, spring.damping, dt);
 	return walk(spring, dt, seconds, ({ x, v }) => {
@@ -39,7 +39,7 @@ export function exactPath(spring: Oscillator, dt: number, seconds: number): numb
 	});
 }
 
-/** As `exactPath`, by the slope at the beginning of each step. */
+/** Path by Euler's steps, with the slope at the beginning of each. */
 export function eulerPath(spring: Oscillator, dt: number, seconds: number): number[] {
 	const w = omega(spring);
 	return walk(spring, dt, seconds, ({ x, v }) => ({
@@ -59,7 +59,7 @@ function walk(spring: Oscillator, dt: number, seconds: number, step: (tip: Tip) 
 	return path;
 }
 
-/** How far the points of a path are off the curve at most. */
+/** Largest distance of a path's points from the solution. */
 export function farthest(path: readonly number[], spring: Oscillator, dt: number): number {
 	return Math.max(...path.map((x, i) => Math.abs(x - truth(spring, i * dt))));
 }

@@ -1,30 +1,30 @@
-/** Tufts of hair from the side, each bent as far as its spring is. */
+/** Tufts of hair from the side, each bent by its spring. */
 
-/** The most that tips are displaced, in lengths of the hair: the library's limit. */
-export const FARTHEST = 0.8;
+/** Largest displacement of tips, lengths of the hair: the library's limit. */
+export const MAX_DISPLACEMENT = 0.8;
 
 const HAIRS = 110;
 /** Points along a hair. */
 const POINTS = 12;
-/** Longest hairs: share of the picture's height, and of the room that a tuft has. */
+/** Longest hairs: share of the picture's height, and of a tuft's width. */
 const [TALL, WIDE] = [0.78, 0.5];
-/** Of the skin, share of the picture's height. */
+/** Height of the skin, share of the picture's. */
 const SKIN = 0.1;
-/** Roots on either side of the middle, lengths of the hair. */
+/** Spread of roots to either side of the middle, lengths of the hair. */
 const SPREAD = 0.34;
-/** Half of a hair's width at its root, lengths of the hair. */
+/** Radius of a hair at its root, lengths of the hair. */
 const RADIUS = 0.013;
-/** From the shade between the hairs to their tips. */
+/** Colours from the shade between hairs to their tips. */
 const SHADES = ['#3b2a1e', '#6d4d35', '#c39a70', '#e9cda6'];
 const SKIN_COLOUR = '#33251c';
 
-/** Numbers between −1 and 1 that look like chance, the same in every picture. */
+/** Fixed pseudo-random numbers between −1 and 1. */
 function chance(i: number, salt: number): number {
 	const x = Math.sin(i * 12.9898 + salt * 78.233) * 43758.5453;
 	return 2 * (x - Math.floor(x)) - 1;
 }
 
-/** @param tips displacement of each tuft's tips, in lengths of the hair; beyond `FARTHEST` they stay there */
+/** @param tips displacement of each tuft's tips, lengths of the hair; clamped to `MAX_DISPLACEMENT` */
 export function drawTufts(canvas: HTMLCanvasElement, tips: readonly number[]): void {
 	const context = canvas.getContext('2d');
 	if (!context) return;
@@ -33,14 +33,14 @@ export function drawTufts(canvas: HTMLCanvasElement, tips: readonly number[]): v
 	const room = width / tips.length;
 	const longest = Math.min(TALL * height, WIDE * room);
 	const ground = (height + longest) / 2 + SKIN * height * 0.5;
-	// Outer hairs are the lighter ones: those behind stand in the shade of those in front.
+	// Outer hairs are lighter; those behind are shaded by those in front.
 	const paints = [0.62, 0.8, 1].map((light) => {
 		const paint = context.createLinearGradient(0, ground, 0, ground - longest * light);
 		for (const [i, shade] of SHADES.entries()) paint.addColorStop(i / (SHADES.length - 1), shade);
 		return paint;
 	});
 	tips.forEach((tip, n) => {
-		const bent = Math.min(Math.max(tip, -FARTHEST), FARTHEST);
+		const bent = Math.min(Math.max(tip, -MAX_DISPLACEMENT), MAX_DISPLACEMENT);
 		for (let i = 0; i < HAIRS; i++) {
 			const out = chance(i, 1);
 			const lean = Math.min(Math.max(bent + 0.16 * out + 0.07 * chance(i, 2), -0.92), 0.92);
@@ -53,7 +53,7 @@ export function drawTufts(canvas: HTMLCanvasElement, tips: readonly number[]): v
 	context.fillRect(0, ground, width, height - ground);
 }
 
-/** One hair: it leaves along the normal and bends to where its tip is, as the shells have it. */
+/** Draw one hair: it leaves along the normal and bends to its tip, as in the shells. */
 function hair(
 	context: CanvasRenderingContext2D,
 	x: number,

@@ -1,9 +1,9 @@
-/** Which two states a wetness lies between, and how much of each it is. */
+/** Two states around a wetness, and their shares. */
 
 export interface Mixture {
-	/** Place of the drier one among the states; the wetter is the next. */
+	/** Index of the drier state; the wetter is the next. */
 	drier: number;
-	/** Share of the wetter one, 0..1. */
+	/** Share of the wetter state, 0..1. */
 	share: number;
 }
 

@@ -1,0 +1,11 @@
+"""Errors whose message is a sentence for the user."""
+
+from furbake.asset.planes import PlaneError
+from furbake.asset.read import AssetError
+from furbake.asset.store import StoreError
+from furbake.groom.files import GroomError
+from furbake.options import OptionError
+from furbake.study.verify.pathtrace import VerifyError
+from furbake.surface.mesh import MeshError
+
+TOLD = (OptionError, MeshError, StoreError, AssetError, PlaneError, VerifyError, GroomError)

@@ -1,0 +1,37 @@
+"""Ctrl-C while libraries are imported: one line, and the end.
+
+An exception would not do: initialisers in C turn it into errors of their own.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+INTERRUPTED = 130
+MESSAGE = "interrupted, nothing written"
+
+
+@contextmanager
+def importing() -> Iterator[None]:
+    """Stop the process at once on Ctrl-C during the block, unless somebody else listens to it."""
+    if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+        yield
+        return
+    try:
+        signal.signal(signal.SIGINT, _stop)
+    except ValueError:  # not the main thread, which alone is interrupted
+        yield
+        return
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def _stop(_number: int, _frame: Any) -> None:
+    os.write(2, f"furbake: {MESSAGE}\n".encode())
+    os._exit(INTERRUPTED)

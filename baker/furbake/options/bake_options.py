@@ -1,0 +1,189 @@
+"""Options of a bake: meaning, unit and default of each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, replace
+from typing import Any, Literal
+
+from furbake.options import knobs
+from furbake.options.knobs import KNOBS, LENGTH, MAX_FACES, OptionError
+from furbake.pelt.hairs.ramp import Ramp
+from furbake.pelt.hairs.states import WETNESS
+from furbake.pelt.hairs.strands import Coat
+
+BasisKind = Literal["ptm", "eigen"]
+CurvesKind = Literal["slab", "none"]
+Guide = Literal["nose-tail", "down"]
+Uv = Literal["lapped", "own"]
+
+FILES = ("length_map", "mask", "comb", "features")
+"""Options that name files."""
+
+OF_VERTICES = "vertex:"
+"""Prefix of a `length_map` or `mask` that names a channel of the vertex colours, or an attribute, not a file."""
+
+
+LATER = ("directions", "states", "dirt")
+"""Options that early records do not have."""
+
+
+@dataclass(frozen=True)
+class BakeOptions:
+    """Options of one bake; ranges are in `furbake.options.knobs`.
+
+    length = height × tile: at most two of the three may be given; `None` means that one follows from the other two.
+    """
+
+    preset: str = "paper"
+    layers: int = 16
+    """Slabs of the tile."""
+    size: int = 64
+    """Texels per side of the tile, a power of two."""
+    lights: int = 64
+    """Sampled light directions on the upper hemisphere."""
+    basis: BasisKind = "ptm"
+    coefficients: int = 6
+    """Numbers per texel: 6 for ptm, 3 to 6 for eigen."""
+    curves: CurvesKind = "slab"
+    """Mean light of each slab, by which its numbers are multiplied, or none: version 1 of the format."""
+    length: float | None = None
+    """Longest fur, the model's own units."""
+    tile: float | None = None
+    """Width of a tile, the model's own units. Default: `tile_share` of the model's largest side."""
+    height: float | None = None
+    """Longest fur in tile widths. Default: `height_share`."""
+    seed: int = 0
+    """Seed of all chance, 0 or above."""
+    flat: bool = False
+    """A flat patch under a point at infinity: for checks against other renderers."""
+    guide: Guide = "nose-tail"
+    """Direction in which the fur is laid."""
+    sweep: float = 0.0
+    """How far shells bend along the fur's direction, share of its length, besides the lean in the tile."""
+    uv: Uv = "lapped"
+    """Lapped patches along the fur, or the model's own texture coordinates."""
+    length_by_thickness: bool = False
+    """Shorter fur where the body is thin (ears, feet)."""
+    length_noise: float = 0.0
+    """How much shorter fur may be from place to place."""
+    tip_noise: float = 0.0
+    """How far tips turn to the ramp's second tip colour from place to place."""
+    belly: float = 0.0
+    """How far they turn to it on the underside."""
+    max_faces: int = 60_000
+    """Faces above which a model is simplified."""
+    length_map: str | None = None
+    """PNG over the model's texture coordinates, or `vertex:red` of its vertices: white is full length, black none."""
+    mask: str | None = None
+    """The same for where fur grows: black is bare skin."""
+    comb: str | None = None
+    """JSON file of strokes along which the fur is laid."""
+    features: str | None = None
+    """JSON file of eyes, a nose and the like."""
+    fins: bool = True
+    """Quads on the edges that show the fur from the side, where shells are seen edge-on."""
+    coat: Coat = field(default_factory=Coat)
+    ramp: Ramp = field(default_factory=Ramp)
+    colour_plane: bool = True
+    """Store the paper's original colour of every texel as a third plane."""
+    directions: bool = False
+    """Store the hairs' mean direction in every texel, for renderers that compute the light themselves."""
+    states: tuple[str, ...] = ("dry",)
+    """States of wetness by name, dry first: some of those in `WETNESS`."""
+    dirt: bool = False
+    """A dirty state besides."""
+    tile_share: float = 0.13
+    """Default width of a tile as a share of the model's largest side."""
+    height_share: float = 0.5
+    """Default height in tile widths."""
+
+    def check(self) -> None:
+        """Raise `OptionError` for the first value that is out of range."""
+        for name, value in values_of(self).items():
+            KNOBS[name].take(name, value)
+        if self.size & (self.size - 1):
+            raise OptionError(f"size: got {self.size}, expected a power of two")
+        if self.basis == "ptm" and self.coefficients != 6:
+            raise OptionError(
+                f"coefficients: got {self.coefficients}, expected 6 for the basis ptm (eigen takes 3 to 6)"
+            )
+        knobs.within("max-faces", self.max_faces, MAX_FACES.low, MAX_FACES.high)
+        for name, length in (("length", self.length), ("tile", self.tile)):
+            if length is not None and not LENGTH.low <= length <= LENGTH.high:
+                raise OptionError(
+                    f"{name}: got {length:g}, expected a length above 0 ({LENGTH.low:g} to {LENGTH.high:g})"
+                )
+        if None not in (self.length, self.tile, self.height):
+            raise OptionError(
+                "length: got length, tile and height, expected at most two of them (length = height × tile)"
+            )
+        known = list(WETNESS)
+        if self.states[:1] != ("dry",) or self.states != tuple(name for name in known if name in self.states):
+            expected = f"dry..wet, or dry and then some of {', '.join(known[1:])}"
+            raise OptionError(f"states: got {','.join(self.states)}, expected {expected}")
+        if self.dirt and self.coefficients < 4:
+            raise OptionError("dirt: got 3 coefficients, which leave no room for the share of mud, expected 4 to 6")
+        hairs = self.coat.guard.count + self.coat.under.count
+        knobs.within("coat.guard.count + coat.under.count", hairs, 1, KNOBS["coat.guard.count"].high)
+
+    @property
+    def own_height(self) -> float:
+        """Longest fur in tile widths, without a body."""
+        return self.height if self.height is not None else self.height_share
+
+    def dimensions(self, extent: float) -> tuple[float, float]:
+        """(tile, length) in the model's units, for a model whose largest side is `extent`.
+
+        Raises OptionError when length and tile together give a height out of range.
+        """
+        height = self.own_height
+        if self.length is not None and self.tile is not None:
+            knob = KNOBS["height"]
+            knobs.within("height (length / tile)", self.length / self.tile, knob.low, knob.high)
+            return self.tile, self.length
+        if self.length is not None:
+            return self.length / height, self.length
+        tile = self.tile if self.tile is not None else self.tile_share * extent
+        return tile, height * tile
+
+    def as_record(self) -> dict[str, Any]:
+        """Plain data, for bake.json. Options in `LATER` are left out at their defaults: old records stay equal."""
+        unused = {name for name in LATER if getattr(self, name) == getattr(BakeOptions, name)}
+        return {name: value for name, value in asdict(self).items() if name not in unused}
+
+    @classmethod
+    def from_record(cls, record: dict[str, Any]) -> BakeOptions:
+        """The options that `as_record` wrote, JSON's lists and all; older ones know no curves.
+
+        Raises OptionError for anything else.
+        """
+        try:
+            options = build({"curves": "none", **record})
+            options.check()
+        except (TypeError, ValueError, AttributeError, KeyError) as error:
+            raise OptionError(
+                f"options: got a record that is not understood ({error}), expected one of bake.json"
+            ) from None
+        return options
+
+
+def values_of(options: BakeOptions) -> dict[str, Any]:
+    """Values of all knobs by dotted name; `height` is `own_height`."""
+    values = dict(knobs.flatten(asdict(options)))
+    values["height"] = options.own_height
+    return {name: values[name] for name in KNOBS}
+
+
+def build(table: Mapping[str, Any]) -> BakeOptions:
+    """Options from nested tables and lists, the rest at their defaults."""
+    coat = dict(table.get("coat", {}))
+    defaults = Coat()
+    for kind in ("guard", "under"):
+        coat[kind] = replace(getattr(defaults, kind), **_tuples(coat.get(kind, {})))
+    built = {"coat": Coat(**_tuples(coat)), "ramp": Ramp(**_tuples(table.get("ramp", {})))}
+    return BakeOptions(**{**_tuples(table), **built})
+
+
+def _tuples(table: Mapping[str, Any]) -> dict[str, Any]:
+    return {key: tuple(value) if isinstance(value, list) else value for key, value in table.items()}

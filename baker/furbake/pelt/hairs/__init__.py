@@ -1,0 +1,1 @@
+"""Hairs: grown, wetted, soiled, and drawn into voxels."""

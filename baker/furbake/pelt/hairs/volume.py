@@ -1,0 +1,222 @@
+"""Strands drawn into a periodic volume of slabs, and averaged down to the slabs that are stored."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from furbake.pelt.hairs.drawn import MIN_RADIUS, extinction
+from furbake.pelt.hairs.strands import Strands
+
+Array = NDArray[np.float64]
+Real = TypeVar("Real", np.float32, np.float64)
+
+FINER = 2
+"""The volume is built and lit this much finer in every axis at least: discretisation is the largest error of all."""
+
+FINE_SLABS = 64
+"""Slabs up to which voxels are made as flat as they are wide; more cost more than they gain."""
+
+PLANES = 2
+"""Horizontal cuts per fine slab."""
+
+SOLID_SLAB = 1 / 16
+"""Share of the fur's height to which `Coat.opacity` refers."""
+
+
+@dataclass(frozen=True)
+class Volume:
+    """A tile of fur as K slabs of N × N voxels, slab 0 at the skin, indexed [slab, row = v, column = u].
+
+    sigma : (K, N, N) extinction per tile width that shells show
+    breadth : (K, N, N) width times length of the hairs in a volume, per tile width
+    radius : (K,) mean over the hairs by their width, tile widths
+    tangent : (K, N, N, 3) unit mean direction of the hairs, towards the tips; +z where there are none
+    tint, hue : (K, N, N) means over the hairs, 0..1
+    drift : (K, 2) mean displacement of the hairs from their roots, tile widths
+    height : tile widths
+    aside : (K, 2) how far a slab's voxels lie beside the skin's, tile widths; None: nowhere
+    """
+
+    sigma: Array
+    breadth: Array
+    radius: Array
+    tangent: Array
+    tint: Array
+    hue: Array
+    drift: Array
+    height: float
+    aside: Array | None = None
+
+    @property
+    def slab(self) -> float:
+        """Thickness of a slab, tile widths."""
+        return self.height / len(self.sigma)
+
+    @property
+    def coverage(self) -> Array:
+        """α = 1 − exp(−σ·h), (K, N, N): what a slab hides, seen from straight above."""
+        return -np.expm1(-self.sigma * self.slab)
+
+    @property
+    def extinction(self) -> Array:
+        """Extinction of light across the hairs, per tile width, (K, N, N)."""
+        return extinction(self.breadth, self.radius)
+
+
+def fine_shape(layers: int, size: int, height: float) -> tuple[int, int]:
+    """Slabs and voxels per side of the volume from which `layers` slabs of `size` × `size` texels are averaged."""
+    even = round(height * size * FINER / layers)
+    return layers * max(FINER, min(even, -(-FINE_SLABS // layers))), size * FINER
+
+
+# Long: one pass over the planes fills eight sums of the same crossings.
+def voxelise(
+    strands: Strands, height: float, layers: int, size: int, opacity: float, aside: Array | None = None
+) -> Volume:
+    """Draw strands into `layers` slabs of `size` × `size` voxels.
+
+    Each slab is cut by `PLANES` horizontal planes; where a hair crosses a plane, its cross-section (an ellipse, the
+    longer the more the hair lies down) is drawn with an antialiased rim.
+
+    `opacity` is the optical depth of 1/16 of the height filled with hair, `aside` as of `Volume`.
+    """
+    points, radius = strands.points, strands.radius
+    low, high = points[:, :-1, 2], points[:, 1:, 2]
+    step = points[:, 1:] - points[:, :-1]
+    direction = step / np.maximum(np.linalg.norm(step, axis=-1, keepdims=True), 1e-12)
+
+    solid = np.zeros((layers, size * size))
+    weight, breadth = np.zeros((2, layers, size * size))
+    widths = np.zeros((layers, 2))
+    sums = np.zeros((layers, 5, size * size))  # tangent x, y, z, tint, hue
+    drift = np.zeros((layers, 3))
+    beside = np.zeros((layers, 2)) if aside is None else aside
+
+    for plane in range(layers * PLANES):
+        slab = plane // PLANES
+        z = (plane + 0.5) / (layers * PLANES) * height
+        hair, segment = np.nonzero((low <= z) != (high <= z))
+        if not len(hair):
+            continue
+        t = (z - low[hair, segment]) / step[hair, segment, 2]
+        centre = points[hair, segment, :2] + t[:, None] * step[hair, segment, :2] - beside[slab]
+        thick = radius[hair, segment] * (1 - t) + radius[hair, segment + 1] * t
+        along = direction[hair, segment]
+        along = along * np.where(along[:, 2:] < 0, -1.0, 1.0)
+
+        cover, voxel = cross_sections(centre, thick, along, size)
+        here = np.zeros(size * size)
+        np.maximum.at(here, voxel.ravel(), cover.ravel())
+        solid[slab] += here / PLANES
+        colour = [part[hair, segment] * (1 - t) + part[hair, segment + 1] * t for part in (strands.tint, strands.hue)]
+        values = np.concatenate([along, np.stack(colour, 1)], 1)
+        weight[slab] += np.bincount(voxel.ravel(), cover.ravel(), size * size)
+        wide = cover * (2 / (np.pi * PLANES * np.maximum(thick, MIN_RADIUS)))[:, None]
+        breadth[slab] += np.bincount(voxel.ravel(), wide.ravel(), size * size)
+        widths[slab] += (thick * thick).sum(), thick.sum()
+        for channel in range(5):
+            sums[slab, channel] += np.bincount(voxel.ravel(), (cover * values[:, channel, None]).ravel(), size * size)
+        moved = centre - points[hair, 0, :2]
+        drift[slab] += np.append((thick[:, None] * moved).sum(0), thick.sum())
+
+    shape = (layers, size, size)
+    empty = (weight < 1e-6).reshape(shape)
+    means = (sums / np.maximum(weight, 1e-6)[:, None]).reshape(layers, 5, size, size)
+    tangent = np.moveaxis(means[:, :3], 1, -1)
+    tangent = np.where(empty[..., None], [0.0, 0.0, 1.0], tangent)
+    tangent /= np.maximum(np.linalg.norm(tangent, axis=-1, keepdims=True), 1e-9)
+    return Volume(
+        sigma=solid.reshape(shape) * opacity / (height * SOLID_SLAB),
+        breadth=breadth.reshape(shape),
+        radius=widths[:, 0] / np.maximum(widths[:, 1], 1e-12),
+        tangent=tangent,
+        tint=np.where(empty, strands.tint.mean(), means[:, 3]),
+        hue=np.where(empty, strands.hue.mean(), means[:, 4]),
+        drift=drift[:, :2] / np.maximum(drift[:, 2:], 1e-12) + beside,
+        height=height,
+        aside=aside,
+    )
+
+
+def cross_sections(centre: Array, thick: Array, along: Array, size: int) -> tuple[Array, NDArray[np.int64]]:
+    """Coverage of the voxels around n cut hairs: (n, w) coverage 0..1 and (n, w) flat voxel index, wrapped."""
+    reach = int(np.ceil(min((thick / np.maximum(along[:, 2], 0.3)).max() * size, size / 2))) + 1
+    offset = np.arange(-reach, reach + 1)
+    dv, du = (grid.ravel() for grid in np.meshgrid(offset, offset, indexing="ij"))
+    position = centre * size - 0.5
+    nearest = np.floor(position + 0.5).astype(np.int64)
+    u = nearest[:, :1] + du - position[:, :1]
+    v = nearest[:, 1:] + dv - position[:, 1:]
+    axial = u * along[:, :1] + v * along[:, 1:2]
+    distance = np.sqrt(np.maximum(u * u + v * v - axial * axial, 0.0))
+    # A disc of radius q with a rim one voxel wide has the area π(q² + 1/12): q is such that this is the hair's own.
+    # Below q = 1/2 nothing but the rim is left, which is then drawn thinner.
+    square = (thick[:, None] * size) ** 2
+    q = np.sqrt(np.maximum(square - 1 / 12, 1 / 4))
+    cover = np.clip(q - distance + 0.5, 0.0, 1.0) * np.minimum(1.0, 3 * square)
+    voxel = (nearest[:, 1:] + dv) % size * size + (nearest[:, :1] + du) % size
+    return cover, voxel
+
+
+def pool(fine: NDArray[Real], size: int) -> NDArray[Real]:
+    """Means over squares of voxels: (..., N, N) → (..., size, size)."""
+    *rest, rows, columns = fine.shape
+    mean: NDArray[Real] = fine.reshape(*rest, size, rows // size, size, columns // size).mean((-3, -1))
+    return mean
+
+
+def doubled(image: NDArray[Real]) -> NDArray[Real]:
+    """Twice as fine, bilinear, periodic: (..., N, N) → (..., 2N, 2N). New voxels lie a quarter of an old one off."""
+    for axis in (-2, -1):
+        before, after = np.roll(image, 1, axis), np.roll(image, -1, axis)
+        shape = list(image.shape)
+        shape[axis] *= 2
+        pairs = np.stack([0.75 * image + 0.25 * before, 0.75 * image + 0.25 * after], axis if axis == -1 else -2)
+        image = pairs.reshape(shape)
+    return image
+
+
+def seen_from_above(coverage: NDArray[Real], layers: int) -> NDArray[Real]:
+    """Visible share of each fine slab from above within its coarse slab, α_j·Π(1−α): (K·f, N, N) → (K, f, N, N)."""
+    slabs = coverage.reshape(layers, -1, *coverage.shape[1:])
+    shares = np.empty_like(slabs)
+    clear = np.ones_like(slabs[:, 0])
+    for j in reversed(range(slabs.shape[1])):
+        shares[:, j] = slabs[:, j] * clear
+        clear = clear * (1 - slabs[:, j])
+    return shares
+
+
+def average_down(fine: NDArray[Real], shares: NDArray[Real], size: int) -> NDArray[Real]:
+    """Mean of a quantity as seen from above: (K·f, M, M) with shares (K, f, M, M) → (K, size, size)."""
+    weights = np.maximum(shares, 1e-6)
+    values = fine.reshape(shares.shape)
+    mean: NDArray[Real] = pool((values * weights).sum(1), size) / pool(weights.sum(1), size)
+    return mean
+
+
+def slab_means(fine: Array, layers: int) -> Array:
+    """Means of two numbers per fine slab over the stored slabs, (K·f, 2) → (K, 2)."""
+    return np.asarray(fine.reshape(layers, -1, 2).mean(1))
+
+
+def coarsen(fine: Volume, layers: int, size: int) -> Volume:
+    """The stored slabs from the fine ones: coverage is kept exactly, all else is weighted by what the eye sees."""
+    shares = seen_from_above(fine.coverage, layers)
+    coverage, hairs = pool(shares.sum(1), size), fine.breadth.mean((1, 2))
+    tangent = np.stack([average_down(fine.tangent[..., axis], shares, size) for axis in range(3)], -1)
+    return Volume(
+        sigma=-np.log1p(-np.minimum(coverage, 1 - 1e-9)) / (fine.height / layers),
+        breadth=pool(fine.breadth.reshape(layers, -1, *fine.breadth.shape[1:]).mean(1), size),
+        radius=(fine.radius * hairs).reshape(layers, -1).sum(1) / np.maximum(hairs.reshape(layers, -1).sum(1), 1e-12),
+        tangent=tangent / np.maximum(np.linalg.norm(tangent, axis=-1, keepdims=True), 1e-9),
+        tint=average_down(fine.tint, shares, size),
+        hue=average_down(fine.hue, shares, size),
+        drift=slab_means(fine.drift, layers),
+        height=fine.height,
+        aside=None if fine.aside is None else slab_means(fine.aside, layers),
+    )

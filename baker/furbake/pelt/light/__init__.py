@@ -1,0 +1,1 @@
+"""Light through voxels of hair."""

@@ -1,0 +1,300 @@
+"""Multiple scattering: light that reaches a hair from other hairs and from the skin, by discrete ordinates.
+
+Light crosses the periodic slabs along 48 directions, order after order. A hair is a Lambertian cylinder also where
+light meets it again: its D is a constant and a cosine around the hair (the first terms of the Fourier series of
+sin φ + (π − φ)·cos φ = 4/π + (π/2)·cos φ + …), so that four numbers of what arrives say all that it scatters:
+
+    φ = ∫ I·sin θ dω   and   F = ∫ I·ω dω   (ω towards where the light comes from)
+    source towards v = ϖ/4π · [ (4/π)·φ + (π/2)·F⊥·v / sin(t, v) ],   extinction σ·sin(t, v)
+
+All is linear in the light that comes in, and in the unit of L, so that it adds to single scattering as it is.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from furbake.pelt.light.fibre import cylinder, sine
+
+Array = NDArray[np.float64]
+Single = NDArray[np.float32]
+
+MAX_ORDERS = 40
+SPENT = 0.03
+"""The order that adds less than this share to all before it is the last; those after it are a geometric series."""
+
+ELEVATIONS, AZIMUTHS = 3, 8
+"""Directions per hemisphere: Gauss–Legendre in the cosine, even in azimuth."""
+
+LOST = 0.01
+"""Share of the sources' energy, over all lights, that may be left out: what varies so fast is evened out anyhow."""
+
+LOST_FAINT = 1e-3
+"""The same where light is evened out already. A bunny's M under lights from the zenith down to lz = −.4 has then 3 % of
+error in its slabs' means above the horizon and 4 to 14 % below it, 5 % and 22 to 84 % with `LOST` of the sources."""
+
+THINNED = 0.5
+"""Exponent of `escape`: the part of a slab's extinction that T has already, since T leaves out what a hair does to its
+own light. With 0.5 M is 0.86 to 1.04 of a path tracer's (bunny, fox, paper and sheep under lights
+from 75° to 20°), with 1 it is 1.1 to 1.5 of that, with 0 0.72 to 0.75 (paper)."""
+
+
+@dataclass(frozen=True)
+class Arriving:
+    """Light that arrives at the hairs and at the skin, B fields of it.
+
+    phi : (K, B, N, N) ∫I·sin θ dω, flux : (3, K, B, N, N) ∫I·ω dω, floor : (B, N, N) irradiance of the skin
+    """
+
+    phi: Single
+    flux: Single
+    floor: Single
+
+
+@dataclass(frozen=True)
+class Slabs:
+    """Periodic slabs of hair in which light is scattered.
+
+    sigma : (K, N, N) extinction across the hairs, per tile width
+    thick : of a slab, tile widths
+    tangent : (K, N, N, 3) unit direction of the hairs
+    aside : as of `Volume`
+    """
+
+    sigma: Single
+    thick: float
+    tangent: Single
+    aside: Array | None = None
+
+
+@dataclass(frozen=True)
+class Unscattered:
+    """Light of n lamps of irradiance 1 before it is scattered.
+
+    lights : (n, 3) unit directions
+    caught, reaching : (n, K, N, N) share of each light that reaches a voxel's hairs, with and without the factor sin θ
+    floor : (n, N, N) irradiance of the skin
+    """
+
+    lights: Array
+    caught: Single
+    reaching: Single
+    floor: Single
+
+    def of(self, some: slice | NDArray[np.intp]) -> Unscattered:
+        """Some of the lamps."""
+        return Unscattered(self.lights[some], self.caught[some], self.reaching[some], self.floor[some])
+
+    @property
+    def flux(self) -> Single:
+        """∫I·ω dω, (n, 3, K, N, N)."""
+        directions = self.lights.astype(np.float32)[:, :, None, None, None]
+        return np.asarray(self.reaching[:, None] * directions)
+
+
+def scatter(slabs: Slabs, light: Unscattered, *, albedo: float, skin: float, faint: bool = False) -> Single:
+    """M: light scattered at least twice, the last time to the eye straight above, (n, K, N, N), for n lights.
+
+    albedo, skin : shares of the light that a hair and the skin scatter, the skin evenly
+    faint : some of the lights are much fainter than others, and count as much
+
+    Lights from neighbouring directions come in much the same: the sources are written in as few of their principal
+    components as `LOST` allows, and only those are scattered. With `faint` these are components of the slabs' means,
+    each light's brought to the same strength, and `LOST_FAINT` is what may be left out of them.
+    """
+    count, layers, size = light.caught.shape[:3]
+    fields = (light.caught, light.flux, light.floor)
+    sources = np.concatenate([field.reshape(count, -1) for field in fields], 1)
+    basis, back = _fewer(sources, layers, faint)
+    parts = (back @ sources).reshape(-1, 4 * layers + 1, size, size)
+    arriving = Arriving(
+        phi=np.moveaxis(parts[:, :layers], 0, 1),
+        flux=np.moveaxis(parts[:, layers:-1].reshape(-1, 3, layers, size, size), 0, 2),
+        floor=parts[:, -1],
+    )
+    medium = Medium(slabs, skin)
+    arriving = medium.entering(arriving)
+    scattered = np.moveaxis(medium.all_orders(arriving, albedo), 0, 1)
+    multiple: Single = np.maximum(basis @ scattered.reshape(len(parts), -1), 0)
+    return multiple.reshape(light.caught.shape)
+
+
+def between_hairs(slabs: Slabs, light: Unscattered, *, albedo: float, skin: float) -> Arriving:
+    """Light that arrives at the hairs after it has been scattered at least once; parameters as of `scatter`."""
+    medium = Medium(slabs, skin)
+    direct = medium.entering(Arriving(np.moveaxis(light.caught, 0, 1), np.moveaxis(light.flux, 0, 2), light.floor))
+    found = Arriving(*(np.zeros_like(part) for part in (direct.phi, direct.flux, light.floor)))
+    for arriving, _, weight in medium.orders(direct, albedo):
+        for total, part in ((found.phi, arriving.phi), (found.flux, arriving.flux), (found.floor, arriving.floor)):
+            np.add(total, part * np.float32(weight), out=total)
+    return found
+
+
+def sent(arriving: Arriving, tangent: Single, eye: Array) -> Single:
+    """Light from the hairs towards an eye in this direction, ∫I·D dω, (K, B, N, N)."""
+    return _sent(arriving.phi, _perpendicular(arriving.flux, tangent), sine(tangent, eye), eye)
+
+
+def _perpendicular(flux: Single, tangent: Single) -> Single:
+    """F⊥, (3, K, B, N, N)."""
+    across = np.moveaxis(tangent, -1, 0)[:, :, None]
+    return np.asarray(flux - across * (flux * across).sum(0))
+
+
+def _sent(phi: Single, perpendicular: Single, width: Single, way: Array) -> Single:
+    source = np.einsum("a,akbrc->kbrc", way.astype(np.float32), perpendicular)
+    source *= np.float32(np.pi / 2) / width[:, None]
+    source += np.float32(4 / np.pi) * phi
+    return np.asarray(source)
+
+
+def _fewer(sources: Single, layers: int, faint: bool) -> tuple[Single, Single]:
+    """Matrices basis (n, m) and back (m, n): basis·back·sources is nearly what the sources of n lights are, m ≤ n."""
+    seen, strength = sources, np.ones(len(sources), np.float32)
+    if faint:
+        seen = sources.reshape(len(sources), 4 * layers + 1, -1).mean(-1)
+        strength = np.maximum(np.linalg.norm(seen, axis=1), np.float32(1e-12))
+        seen = seen / strength[:, None]
+    energy, vectors = np.linalg.eigh((seen @ seen.T).astype(np.float64))
+    left_out = np.cumsum(np.maximum(energy, 0)) / max(energy.sum(), 1e-30)
+    kept = vectors[:, left_out > (LOST_FAINT if faint else LOST)].astype(np.float32)
+    return (kept * strength[:, None] if faint else kept), (kept / strength[:, None]).T if faint else kept.T
+
+
+class Medium:
+    """Slabs of hair over a skin that reflects evenly, and the directions in which light crosses them."""
+
+    def __init__(self, slabs: Slabs, skin: float) -> None:
+        self.sigma, self.thick, self.tangent, self.skin = slabs.sigma, slabs.thick, slabs.tangent, skin
+        layers, size = slabs.sigma.shape[:2]
+        self.aside = np.zeros((layers, 2)) if slabs.aside is None else slabs.aside * size
+        self.directions, self.solid_angles = hemisphere_rule()
+
+    def escape(self) -> Single:
+        """Share of what a voxel's hairs scatter evenly that leaves its slab, (K, N, N).
+
+        The mean of sin θ·(1 − e^−τ)/τ over the sphere, 1 for thin slabs.
+        """
+        share = np.zeros_like(self.sigma)
+        for way, solid_angle in zip(self.directions, self.solid_angles, strict=True):
+            width = sine(self.tangent, way)
+            depth = np.maximum(self.sigma * width * np.float32(self.thick / abs(way[2])), np.float32(1e-4))
+            share += np.float32(solid_angle * 2 / np.pi**2) * width * -np.expm1(-depth) / depth
+        return np.minimum(share, 1)
+
+    def entering(self, direct: Arriving) -> Arriving:
+        """Light of the lamps that hairs catch, counted where it enters the slabs, as scattered light is.
+
+        It leaves a slab thinned by `escape`, and T of the lights has only `THINNED` of that.
+        """
+        escape: Single = (self.escape() ** THINNED)[:, None]
+        return Arriving(direct.phi / escape, direct.flux / escape, direct.floor)
+
+    def all_orders(self, arriving: Arriving, albedo: float) -> Single:
+        """Sum over all orders of what the hairs send to the eye, (K, B, N, N)."""
+        seen = np.zeros_like(arriving.phi)
+        for _, to_eye, weight in self.orders(arriving, albedo):
+            seen += to_eye * np.float32(weight)
+        return seen
+
+    def orders(self, arriving: Arriving, albedo: float) -> Iterator[tuple[Arriving, Single, float]]:
+        """Arriving light, light to the eye, and weight of each order; the last stands for all after it."""
+        total = before = 0.0
+        for _ in range(MAX_ORDERS):
+            arriving, to_eye = self.scattered(arriving, albedo)
+            size = float(np.abs(to_eye).sum())
+            total += size
+            if size <= SPENT * total:
+                ratio = min(size / before, 0.95) if before else 0.0
+                yield arriving, to_eye, 1 / (1 - ratio)
+                return
+            yield arriving, to_eye, 1.0
+            before = size
+
+    def scattered(self, arriving: Arriving, albedo: float) -> tuple[Arriving, Single]:
+        """Light that arrives everywhere after it is scattered once more, and ∫I·D dω of it, towards the eye.
+
+        A voxel's own light does not count: how a hair lights itself is in D already.
+        """
+        phi, flux = np.zeros_like(arriving.phi), np.zeros_like(arriving.flux)
+        to_eye = np.zeros_like(arriving.phi)
+        floor = np.zeros_like(arriving.floor)
+        irradiance = arriving.floor.copy()
+        perpendicular = _perpendicular(arriving.flux, self.tangent)
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            for travel in (-self.directions, self.directions):
+                upward = travel[0, 2] > 0
+                enters = irradiance * np.float32(self.skin / np.pi) if upward else floor
+                sweep = partial(self.sweep, arriving.phi, perpendicular, np.float32(albedo / (4 * np.pi)), enters)
+                for (light, end), way, solid_angle in zip(
+                    pool.map(sweep, travel), travel, self.solid_angles, strict=True
+                ):
+                    light *= np.float32(solid_angle)  # noqa: PLW2901 — in place, it is large
+                    phi += light * sine(self.tangent, way)[:, None]
+                    to_eye += light * cylinder(self.tangent, -way)[:, None]
+                    for axis in range(3):
+                        flux[axis] -= light * np.float32(way[axis])
+                    if not upward:
+                        irradiance += np.float32(solid_angle * -way[2]) * end
+        return Arriving(phi, flux, floor), to_eye
+
+    def sweep(
+        self, phi: Single, perpendicular: Single, share: np.float32, light: Single, way: Array
+    ) -> tuple[Single, Single]:
+        """Radiance that arrives at the slabs, (K, B, N, N), and at the end, (B, N, N), of light that travels one way.
+
+        `light` enters below when it goes up, above when it goes down.
+        """
+        layers, size = self.sigma.shape[0], self.sigma.shape[1]
+        width = sine(self.tangent, way)
+        source = _sent(phi, perpendicular, width, way) * share
+        passes: Single = np.exp(self.sigma * width * np.float32(-self.thick / abs(way[2])))
+        # The light at x comes from x + shift in the slab before; half of it at the skin and above all slabs.
+        shift = -way[:2] / abs(way[2]) * self.thick * size
+        arriving = np.empty_like(source)
+        upward = way[2] > 0
+        before = np.zeros(2) if upward else self.aside[-1]
+        for step, k in enumerate(range(layers) if upward else range(layers - 1, -1, -1)):
+            light = _shifted(light, shift * (1.0 if step else 0.5) + self.aside[k] - before)
+            before = self.aside[k]
+            arriving[k] = light
+            light = source[k] + (light - source[k]) * passes[k]
+        return arriving, _shifted(light, shift / 2 if upward else shift / 2 - before)
+
+
+def hemisphere_rule() -> tuple[Array, Array]:
+    """Unit directions of the upper hemisphere, (m, 3), and their solid angles, (m,), which sum to 2π.
+
+    Every ring is turned against the one before it.
+    """
+    node, weight = np.polynomial.legendre.leggauss(ELEVATIONS)
+    z = np.repeat((node + 1) / 2, AZIMUTHS)
+    turn = np.repeat(np.arange(ELEVATIONS) / ELEVATIONS, AZIMUTHS)
+    azimuth = 2 * np.pi * (np.tile(np.arange(AZIMUTHS), ELEVATIONS) + turn) / AZIMUTHS
+    across = np.sqrt(1 - z * z)
+    directions = np.stack([across * np.cos(azimuth), across * np.sin(azimuth), z], -1)
+    return directions, np.repeat(weight, AZIMUTHS) * np.pi / AZIMUTHS
+
+
+def _shifted(light: Single, shift: Array) -> Single:
+    """Periodic fields (..., N, N) read at x + shift."""
+    columns, rows = (_shift_matrix(part, light.shape[-1]) for part in shift)
+    return np.asarray(rows @ light @ columns.T)
+
+
+def _shift_matrix(shift: float, size: int) -> Single:
+    """The matrix, (size, size), that reads a periodic row of texels at x + shift, linearly between two."""
+    whole = int(np.floor(shift))
+    part = np.float32(shift - whole)
+    texel = np.arange(size)
+    matrix = np.zeros((size, size), np.float32)
+    matrix[texel, (texel + whole) % size] = 1 - part
+    matrix[texel, (texel + whole + 1) % size] += part
+    return matrix

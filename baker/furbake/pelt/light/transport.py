@@ -1,0 +1,247 @@
+"""Light through the fur: every layer sampled under many light directions (paper, section 3, "sampling each layer").
+
+Directions are unit vectors (lu, lv, lz) towards the light in the tile's frame. The unit of L is
+4π · radiance / (albedo · irradiance perpendicular to the light).
+
+L = T·D + M: T is the transmittance along the bent paths of `paths` (straight ones on a flat patch), D the hair's own
+scattering (`fibre`), M what is scattered more than once (`scatter`). How a hair shades itself is in D: T starts half a
+fine slab from a voxel's middle and is divided by what its own hair leaves of it from there on. M is worked out in flat
+slabs with the hairs as thin and as long as on the body.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from furbake.pelt.hairs.drawn import through_own
+from furbake.pelt.hairs.volume import Volume, average_down, doubled, pool, slab_means
+from furbake.pelt.light.depth import Depth
+from furbake.pelt.light.fibre import cylinder, sine
+from furbake.pelt.light.paths import BODY_RADIUS, lowest, spread, thinned
+from furbake.pelt.light.scatter import Slabs, Unscattered, scatter
+
+__all__ = ["BODY_RADIUS", "LOWEST", "LOWEST_FLAT", "hemisphere", "lowest", "sample", "sample_apart"]
+
+Array = NDArray[np.float64]
+Single = NDArray[np.float32]
+
+LOWEST, LOWEST_FLAT = 0.02, 0.1
+"""lz of the lowest light of a fit. None is below the horizon: polynomials follow no light there, only mean curves do.
+
+Light along a flat patch crosses it without end and leaves it black at once, which no polynomial follows and no body
+shows. Flat patches are sampled from a little higher.
+"""
+
+HIDDEN = 0.02
+"""Weight of occluded hairs in the mean of their texel (visible = 1)."""
+
+MERGED = 2
+"""Fine slabs that a bent ray crosses as one where a stored slab has twice as many or more: T changes little between."""
+
+SINGLE_SHARE = 0.8
+"""Share of the time that single scattering takes, for the progress."""
+
+
+def hemisphere(count: int, turn: float = 0.0, lowest: float = LOWEST) -> Array:
+    """`count` evenly spread directions with lz ≥ `lowest`, (count, 3): a Fibonacci spiral turned by `turn` radians."""
+    i = np.arange(count) + 0.5
+    z = lowest + (1 - lowest) * (1 - i / count)
+    angle = np.pi * (3 - np.sqrt(5)) * i + turn
+    across = np.sqrt(1 - z * z)
+    return np.stack([across * np.cos(angle), across * np.sin(angle), z], -1)
+
+
+def joined(slabs: Single, count: int) -> Single:
+    """Means of every `count` slabs, (K, N, N) → (K / count, N, N)."""
+    return slabs if count == 1 else np.asarray(slabs.reshape(-1, count, *slabs.shape[1:]).mean(1))
+
+
+def parted(slabs: Single, count: int) -> Single:
+    """Linear between the middles of slabs at those of `count` times as many, (K, N, N) → (K · count, N, N)."""
+    if count == 1:
+        return slabs
+    place = (np.arange(len(slabs) * count) + 0.5) / count - 0.5
+    low = np.clip(np.floor(place).astype(np.intp), 0, max(len(slabs) - 2, 0))
+    share = np.clip(place - low, 0, 1).astype(np.float32)[:, None, None]
+    return np.asarray(slabs[low] * (1 - share) + slabs[np.minimum(low + 1, len(slabs) - 1)] * share)
+
+
+@dataclass(frozen=True)
+class Setting:
+    """Hairs and skin under the lights, and the body below them.
+
+    albedo, skin : shares of the light that hairs and skin scatter on; L is in units of the former
+    flat : without the curve of the body, over black skin: a patch that other renderers can check
+    beta : radius of the body, lengths of its fur
+    """
+
+    albedo: float = 0.85
+    skin: float = 0.25
+    flat: bool = False
+    beta: float = BODY_RADIUS
+
+    @property
+    def radius(self) -> float | None:
+        """Radius of the body, lengths of its fur; None where it is flat."""
+        return None if self.flat else self.beta
+
+
+def sample(
+    fine: Volume,
+    layers: int,
+    size: int,
+    lights: Array,
+    setting: Setting = Setting(),
+    *,
+    progress: Callable[[float], None] = lambda fraction: None,
+) -> Single:
+    """L of every stored texel under every light, (n, layers, size, size) float32: T·D + M of `sample_apart`."""
+    single, multiple, _ = sample_apart(fine, layers, size, lights, setting, progress=progress)
+    return single + multiple
+
+
+def sample_apart(
+    fine: Volume,
+    layers: int,
+    size: int,
+    lights: Array,
+    setting: Setting = Setting(),
+    *,
+    darker: tuple[float, NDArray[np.intp]] | None = None,
+    progress: Callable[[float], None] = lambda fraction: None,
+) -> tuple[Single, Single, Single | None]:
+    """T·D and M of every stored texel under every light, (n, layers, size, size) float32 each.
+
+    fine : the oversampled volume; results are averaged down
+    lights : (n, 3) as low as `lowest(beta)`; lower ones reach nothing
+    darker : share of albedo and skin, and indices of lights under which M is sampled once more with these
+    """
+    half = (layers, size // 2, size // 2)
+    single = np.empty((len(lights), layers, size, size), np.float32)
+    caught, reaching = (np.empty((len(lights), *half), np.float32) for _ in range(2))
+    floor = np.empty((len(lights), *half[1:]), np.float32)
+    beam = Beam(fine, layers, size, setting.radius)
+    with ThreadPoolExecutor(os.cpu_count()) as workers:
+        for i, fields in enumerate(workers.map(beam, lights)):
+            single[i], caught[i], reaching[i], floor[i] = fields
+            progress((i + 1) / len(lights) * SINGLE_SHARE)
+    slabs, light = beam.slabs(), Unscattered(lights, caught, reaching, floor)
+    albedo, skin = setting.albedo, 0.0 if setting.flat else setting.skin
+
+    def more(share: float, some: slice | NDArray[np.intp]) -> Single:
+        multiple = scatter(slabs, light.of(some), albedo=share * albedo, skin=share * skin, faint=not setting.flat)
+        return doubled(multiple)
+
+    multiple = more(1.0, slice(None))
+    progress(1.0)
+    return single, multiple, None if darker is None else more(*darker)
+
+
+def mean_share(part: Single, whole: Single) -> Array:
+    """Mean of each slab's `part` over that of its `whole`, (K, N, N) both → (K,); 1 where both are 0."""
+    some, all_of_it = (field.sum((1, 2), dtype=np.float64) + 1e-9 for field in (part, whole))
+    return np.asarray(some / all_of_it)
+
+
+def transmitted(
+    sigma: Single,
+    width: Single,
+    radius: Array,
+    slab: float,
+    light: Array,
+    beta: float | None,
+    *,
+    aside: Array | None = None,
+    merged: int = 1,
+) -> tuple[Single, Single]:
+    """T of voxels, (K, N, N), and the skin's irradiance, (N, N), under a light.
+
+    sigma : (K, N, N) extinction across the hairs; width : sine between hairs and light, as of `sine`
+    radius : (K,) of the hairs, tile widths; slab : thickness, tile widths
+    beta : radius of the body, None: flat; aside : as of `Volume`
+    merged : slabs that a ray crosses as one
+
+    What a hair does to its own light is divided out of T: it is in D.
+    """
+    caught = sigma * width
+    slabs = len(caught) // merged
+    depth = Depth(joined(caught, merged), slab * merged, beta, None if aside is None else slab_means(aside, slabs))
+    clear, floor = depth.through(light)
+    own = through_own(radius, caught.shape[-1], slab * merged / 2, mean_share(caught, sigma))
+    return parted(clear, merged) / own.astype(np.float32)[:, None, None], floor * np.float32(max(light[2], 0))
+
+
+def mean_direction(parts: list[Single]) -> Single:
+    """Unit vectors, (..., 3), of three components; upright where all are 0."""
+    vectors = np.stack(parts, -1)
+    vectors[..., 2] += 1e-9
+    vectors /= np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return vectors
+
+
+class Beam:
+    """One light through the oversampled volume, before anything is scattered twice."""
+
+    def __init__(self, fine: Volume, layers: int, size: int, beta: float | None) -> None:
+        """beta : radius of the body; None: flat."""
+        self.beta, self.layers, self.size, self.half, self.slab = beta, layers, size, size // 2, fine.slab
+        self.aside, self.height = fine.aside, fine.height
+        coverage = fine.coverage.astype(np.float32)
+        clear = np.cumprod(1 - coverage[::-1], axis=0, dtype=np.float32)[::-1]
+        above = np.concatenate([clear[1:], np.ones_like(clear[:1])])
+        # Hairs that the eye sees through all that lies above count most in their texel.
+        shares = (coverage * (above + HIDDEN)).astype(np.float32)
+        self.shares = shares.reshape(layers, -1, *coverage.shape[1:])
+        self.breadth, self.sigma = fine.breadth.astype(np.float32), fine.extinction.astype(np.float32)
+        self.tangent = fine.tangent.astype(np.float32)
+        if beta is not None:
+            middle = (np.arange(len(self.sigma)) + 0.5) / len(self.sigma)
+            self.tangent, longer = spread(self.tangent, middle, beta)
+            self.breadth *= longer
+            self.sigma *= longer
+        self.hair: Single = np.maximum(self.stored(self.breadth), np.float32(1e-6))
+        per_slab = len(self.sigma) // layers
+        self.merged = MERGED if per_slab >= 2 * MERGED and per_slab % MERGED == 0 else 1
+        self.radius = fine.radius
+
+    def __call__(self, light: Array) -> tuple[Single, Single, Single, Single]:
+        """T·D averaged down, (K, N, N); T·sin θ and T on average over the hairs, (K, N/2, N/2); the skin's irradiance.
+
+        A hair that the light runs along catches less of it and shades less: its σ counts times the sine between the
+        two.
+        """
+        passed, skin = self.reach(light)
+        single = average_down(passed * cylinder(self.tangent, light), self.shares, self.size)
+        return single, *self.caught(passed, light), pool(skin, self.half)
+
+    def caught(self, passed: Single, light: Array) -> tuple[Single, Single]:
+        """T·sin θ and T on average over the hairs, (K, N/2, N/2); passed : T of the fine voxels."""
+        lit = passed * self.breadth
+        return self.stored(lit * sine(self.tangent, light)) / self.hair, self.stored(lit) / self.hair
+
+    def reach(self, light: Array) -> tuple[Single, Single]:
+        """T of the fine voxels, (K, N, N), and the skin's irradiance, (N, N)."""
+        width = sine(self.tangent, light)
+        return transmitted(
+            self.sigma, width, self.radius, self.slab, light, self.beta, aside=self.aside, merged=self.merged
+        )
+
+    def slabs(self) -> Slabs:
+        """The stored slabs at half the resolution, as thin as hair is on the body, for `scatter`."""
+        tangent = mean_direction([self.stored(self.breadth * self.tangent[..., axis]) for axis in range(3)])
+        sigma = self.stored(self.breadth)
+        if self.beta is not None:
+            sigma *= thinned((np.arange(self.layers) + 0.5) / self.layers, self.beta).astype(np.float32)[:, None, None]
+        aside = None if self.aside is None else slab_means(self.aside, self.layers)
+        return Slabs(sigma, self.height / self.layers, tangent, aside)
+
+    def stored(self, fine: Single) -> Single:
+        """Means over blocks of fine voxels, to stored slabs at half the stored resolution."""
+        mean: Single = pool(fine.reshape(self.layers, -1, *fine.shape[1:]).mean(1), self.half)
+        return mean

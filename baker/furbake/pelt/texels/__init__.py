@@ -1,0 +1,1 @@
+"""Samples of light to coefficients, and these to bytes."""

@@ -1,0 +1,132 @@
+"""From a mesh and options to a folder: one call per stage, in reading order."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext
+from dataclasses import dataclass, field
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from furbake.asset.gltf import FurModel, write_gltf
+from furbake.asset.store import atomic_file, atomic_folder
+from furbake.body import Body, prepare
+from furbake.identity import bake_key, describe_input, library_versions
+from furbake.options import BakeOptions
+from furbake.pelt.pelt import Pelt
+from furbake.surface.place.fins import Fins, build_fins
+from furbake.tile.lighting import write_samples
+from furbake.tile.tile import Fitted, Tile
+
+STAGES = ("mesh", "strands", "volume", "light", "fit", "fins", "write")
+
+Progress = Callable[[str, float], None]
+
+
+@dataclass(frozen=True)
+class BakeResult:
+    """Folder of the asset, contents of `bake.json`, seconds of every stage, and notices of repairs."""
+
+    folder: Path
+    record: dict[str, Any]
+    seconds: dict[str, float]
+    notices: tuple[str, ...] = ()
+
+
+@dataclass
+class _Clock:
+    """Report each stage to the caller, and time it."""
+
+    progress: Progress
+    seconds: dict[str, float] = field(default_factory=dict)
+
+    @contextmanager
+    def stage(self, name: str) -> Iterator[Callable[[float], None]]:
+        start = time.perf_counter()
+        self.progress(name, 0.0)
+        yield lambda fraction: self.progress(name, fraction)
+        self.seconds[name] = time.perf_counter() - start
+        self.progress(name, 1.0)
+
+
+def bake(
+    model: str,
+    out: Path,
+    options: BakeOptions | None = None,
+    *,
+    force: bool = False,
+    samples: Path | None = None,
+    progress: Progress = lambda stage, fraction: None,
+) -> BakeResult:
+    """Bake `model` (a file or the name of a built-in shape) into the folder `out`, whole or not at all.
+
+    samples : optional file for the physics itself, for others to check
+    progress : called with a stage of `STAGES` and the fraction of it that is done
+
+    Raises OptionError, MeshError or StoreError, each with one sentence.
+    """
+    options = options or BakeOptions()
+    options.check()
+    clock = _Clock(progress)
+    with atomic_folder(out, force) as folder, atomic_file(samples) if samples else nullcontext() as archive:
+        with clock.stage("mesh"):
+            body = prepare(model, options)
+        with clock.stage("strands"):
+            tile = Tile.grow(options, body.length / body.tile)
+        with clock.stage("volume"):
+            dry = tile.dry_volume()
+        with clock.stage("light") as step:
+            sampled = tile.sample(dry, step)
+        with clock.stage("fit") as step:
+            fitted = tile.fit(sampled, step)
+        with clock.stage("fins"):
+            fins = _fins(body, options, fitted[0][0])
+            if fins is not None:
+                fitted = tile.fit_fins(dry, fitted)
+        with clock.stage("write"):
+            record = _record(model, options, body, fitted)
+            furry = FurModel(
+                skin=body.skin,
+                charts=body.charts,
+                fur=body.fur,
+                pelts=tuple(pelt for pelt, _ in fitted),
+                length=body.length,
+                fins=fins,
+                ground=None if body.ground is body.skin else body.ground,
+                features=body.features,
+            )
+            record["asset"] = write_gltf(folder, furry)
+            (folder / "bake.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
+            if archive is not None:
+                write_samples(archive, sampled[0], tile.strands)
+    return BakeResult(out, record, clock.seconds, body.skin.notices)
+
+
+def _fins(body: Body, options: BakeOptions, dry: Pelt) -> Fins | None:
+    """Fins of a body; None where they are not wanted, and on a body that is all creases."""
+    if not options.fins:
+        return None
+    lean = float(dry.drift[-1, 1])
+    fins = build_fins(body.ground, body.direction, body.tile, lean, options.seed, body.length)
+    return fins if len(fins.faces) else None
+
+
+def _record(model: str, options: BakeOptions, body: Body, fitted: Fitted) -> dict[str, Any]:
+    """`bake.json` without the written files: versions, options, input and figures."""
+    record: dict[str, Any] = {
+        "furbake": version("furbake"),
+        "libraries": library_versions(),
+        "options": options.as_record(),
+        "input": describe_input(model, body.skin),
+        "key": bake_key(model, options),
+        "fit": fitted[0][1],
+    }
+    if len(fitted) > 1:
+        record["states"] = [
+            {"name": pelt.state.name, "wetness": pelt.state.wetness, "dirt": pelt.state.dirt, "fit": figures}
+            for pelt, figures in fitted
+        ]
+    return record

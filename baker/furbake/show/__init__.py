@@ -1,0 +1,1 @@
+"""Pictures and pages of a bake: swatch, report, and data of the lesson."""

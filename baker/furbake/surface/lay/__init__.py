@@ -1,0 +1,1 @@
+"""Direction of the fur, and the textured patches along it."""

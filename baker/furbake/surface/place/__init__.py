@@ -1,0 +1,1 @@
+"""Fur from place to place: length, colour, comb, fins and features."""

@@ -1,0 +1,1 @@
+"""A tile of fur: from options to pelts; knows no mesh."""

@@ -1,0 +1,120 @@
+"""Samples of a tile of fur: its strands in slabs, and their light under many directions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from furbake.options import BakeOptions
+from furbake.pelt.hairs.states import Fur, PeltState
+from furbake.pelt.hairs.strands import Strands, grow
+from furbake.pelt.hairs.volume import Volume, coarsen, fine_shape, voxelise
+from furbake.pelt.light.transport import LOWEST, LOWEST_FLAT, Setting, hemisphere, sample
+from furbake.pelt.means import Measured, measure
+
+Floats = NDArray[np.float64]
+Single = NDArray[np.float32]
+
+
+FINE_SHARE = 0.8
+"""Share of the time that the samples of the fit take, for the progress."""
+
+
+@dataclass(frozen=True)
+class Lighting:
+    """Directions, the held-out ones among them, and L under each.
+
+    lights : (n, 3), held_out : (n,) bool, samples : (n, K, N, N) float32
+    bodies : mean light of the slabs on bodies of other radii, and from below the horizon; () where it is not measured
+    """
+
+    lights: Floats
+    held_out: NDArray[np.bool_]
+    samples: Single
+    bodies: tuple[Measured, ...] = ()
+
+
+@dataclass(frozen=True)
+class Sampled:
+    """A state of the fur: the stored slabs, and the light in them."""
+
+    state: PeltState
+    volume: Volume
+    lighting: Lighting
+
+
+def grown(options: BakeOptions) -> tuple[Strands, Volume, Volume]:
+    """Dry fur on no body: its strands, the oversampled volume and the slabs that are stored of it."""
+    height = options.own_height
+    strands = grow(options.coat, height, options.seed)
+    fine = voxelise(strands, height, *fine_shape(options.layers, options.size, height), options.coat.opacity)
+    return strands, fine, coarsen(fine, options.layers, options.size)
+
+
+def light(
+    fine: Volume,
+    options: BakeOptions,
+    step: Callable[[float], None] = lambda fraction: None,
+    held_out: int | None = None,
+) -> Lighting:
+    """Sample the oversampled volume under the lights of the fit and others between them, by default half as many."""
+    lowest = LOWEST_FLAT if options.flat else LOWEST
+    fitted = hemisphere(options.lights, lowest=lowest)
+    others = hemisphere(held_out or max(8, options.lights // 2), turn=1.0, lowest=lowest)
+    lights = np.concatenate([fitted, others])
+    apart = np.arange(len(lights)) >= len(fitted)
+    if options.curves == "none" or options.flat:
+        return Lighting(lights, apart, under(lights, fine, options, step))
+    samples = under(lights, fine, options, lambda fraction: step(FINE_SHARE * fraction))
+    bodies = measure(fine, options.layers, options.size, options.coat)
+    step(1.0)
+    return Lighting(lights, apart, samples, bodies)
+
+
+def under(
+    lights: Floats, fine: Volume, options: BakeOptions, step: Callable[[float], None] = lambda fraction: None
+) -> Single:
+    """L of the stored texels under `lights` (n, 3), (n, K, N, N), as these options have it sampled."""
+    coat, layers, size = options.coat, options.layers, options.size
+    setting = Setting(coat.albedo, coat.skin, options.flat)
+    return sample(fine, layers, size, lights, setting, progress=step)
+
+
+def parts(step: Callable[[float], None], count: int) -> Iterator[Callable[[float], None]]:
+    """Progress of `count` equal parts of a stage."""
+
+    def part(number: int) -> Callable[[float], None]:
+        return lambda fraction: step((number + fraction) / count)
+
+    return map(part, range(count))
+
+
+def sampled(
+    fur: Fur, fine: Volume, options: BakeOptions, step: Callable[[float], None] = lambda fraction: None
+) -> Sampled:
+    """A state of the fur as stored slabs, and the light in it; fine : its oversampled volume."""
+    options = replace(options, coat=fur.coat)
+    # Mud has no curves of its own.
+    lighting = light(fine, replace(options, curves="none") if fur.state.dirt else options, step)
+    return Sampled(fur.state, coarsen(fine, options.layers, options.size), lighting)
+
+
+def write_samples(archive: BinaryIO, dry: Sampled, strands: Strands) -> None:
+    """The physics of the dry fur for others to check, as a NumPy archive."""
+    volume, lighting = dry.volume, dry.lighting
+    np.savez_compressed(
+        archive,
+        sigma=volume.sigma,
+        tangent=volume.tangent,
+        tint=volume.tint,
+        height=volume.height,
+        lights=lighting.lights,
+        held_out=lighting.held_out,
+        L=lighting.samples,
+        strands=strands.points,
+        radius=strands.radius,
+    )

@@ -1,0 +1,84 @@
+"""From options to pelts: the stages of a bake that know no mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from furbake.options import BakeOptions
+from furbake.pelt.bent import fit_bends
+from furbake.pelt.eye import fit_eye
+from furbake.pelt.hairs.states import Fur, chosen, in_state
+from furbake.pelt.hairs.strands import Strands, grow
+from furbake.pelt.hairs.volume import Volume
+from furbake.pelt.pelt import Pelt
+from furbake.tile.fitting import fit_pelts
+from furbake.tile.lighting import Sampled, parts, sampled
+from furbake.tile.sides import fit_sides
+
+Step = Callable[[float], None]
+Fitted = list[tuple[Pelt, dict[str, Any]]]
+"""Pelts of all states, dry first, and the figures of each that `bake.json` reports."""
+
+
+@dataclass(frozen=True)
+class Tile:
+    """A tile of fur in all its states.
+
+    height : of the dry fur, tile widths; strands : of the dry fur; furs : the states, dry first
+    """
+
+    options: BakeOptions
+    height: float
+    strands: Strands
+    furs: tuple[Fur, ...]
+
+    @classmethod
+    def grow(cls, options: BakeOptions, height: float) -> Tile:
+        """Strands of every state that the options ask for."""
+        strands = grow(options.coat, height, options.seed)
+        states = chosen(options.states, options.dirt)
+        return cls(
+            options,
+            height,
+            strands,
+            tuple(in_state(state, options.coat, strands, height, options.seed) for state in states),
+        )
+
+    def dry_volume(self) -> Volume:
+        """The oversampled volume of the dry state, for `sample` and `fit_fins`."""
+        return self._voxels(self.furs[0])
+
+    def sample(self, dry: Volume, step: Step) -> list[Sampled]:
+        """Stored slabs of all states and the light in them."""
+        share = zip(self.furs, parts(step, len(self.furs)), strict=True)
+        return [sampled(fur, self._volume(fur, dry), self.options, part) for fur, part in share]
+
+    def fit(self, samples: Sequence[Sampled], step: Step) -> Fitted:
+        """Pelts of all states; the first has the laws of bent hairs and of light and eye."""
+        options = self.options
+        (pelt, figures), *others = fit_pelts(samples, options)
+        if not options.flat:
+            pelt = replace(pelt, bent=fit_bends(pelt, self.strands, options.coat, step))
+        if options.curves != "none":
+            eye = fit_eye(self.strands, self.height, options.layers, options.size, options.coat, flat=options.flat)
+            if eye is not None:
+                pelt = replace(pelt, eye=eye.weights, surge=eye.surge)
+        return [(pelt, figures), *others]
+
+    def fit_fins(self, dry: Volume, fitted: Fitted) -> Fitted:
+        """The same pelts with their fins."""
+        volumes = ((fur, self._volume(fur, dry)) for fur in self.furs)
+        sides = fit_sides(volumes, [pelt for pelt, _ in fitted], self.options)
+        return [
+            (replace(pelt, fin=fin), figures | {"fin": found})
+            for (pelt, figures), (fin, found) in zip(fitted, sides, strict=True)
+        ]
+
+    def _volume(self, fur: Fur, dry: Volume) -> Volume:
+        """Oversampled volume of a state. Only the dry one is kept: all of them at once take much memory."""
+        return dry if fur is self.furs[0] else self._voxels(fur)
+
+    def _voxels(self, fur: Fur) -> Volume:
+        return fur.voxels(self.options.layers, self.options.size)

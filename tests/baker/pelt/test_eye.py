@@ -1,0 +1,149 @@
+"""The law of light and eye: its terms, what rays share, and what its numbers mend."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from furbake.asset.gltf import EXTENSION, FurModel, write_gltf
+from furbake.asset.read import read_asset
+from furbake.asset.stored import read_pelt
+from furbake.asset.validate import validate
+from furbake.options import BakeOptions, preset
+from furbake.pelt.bent import MIN_FACTOR
+from furbake.pelt.eye import WIDTHS, factor, fit_eye, fit_surge, rings, seen_from, shared_depth, surge, terms
+from furbake.pelt.hairs.strands import grow
+from furbake.pelt.hairs.volume import fine_shape, voxelise
+from furbake.pelt.light.fibre import ABOVE
+from furbake.pelt.pelt import Pelt
+from furbake.pipeline import bake
+from furbake.surface.place.vertex_fur import VertexFur
+from furbake.surface.shapes import builtin
+
+SMALL = replace(preset("paper"), size=16, layers=6)
+MIDDLE = (np.arange(6) + 0.5) / 6
+
+
+def test_terms() -> None:
+    """In the order of the format; nothing of an eye straight above, and what is below the horizon is held on it."""
+    light, eye, lean = np.array([0.36, -0.48, 0.8]), np.array([0.6, 0.64, 0.48]), np.array([3.0, 4.0])
+    a, b, p, z, q = 0.36 * 0.6 - 0.48 * 0.64, 0.36 * 0.6 - 0.48 * 0.8, 0.36 + 0.64 * 0.8, 0.8, 1 - 0.48**2
+    expected = [q, a, q * b, p * b, q * z, q * b * b, p, a * a, p * a * b, a * z, q * b * z, q * a * b]
+    np.testing.assert_allclose(terms(light, eye, lean), expected, atol=1e-12)
+    assert not terms(rings((0.5, -0.2), 5), ABOVE, lean).any()
+    low, level = np.array([0.48, 0.64, -0.6]), np.array([0.6, 0.8, 0.0])
+    np.testing.assert_allclose(terms(low, eye, lean), terms(level, eye, lean), atol=1e-12)
+    np.testing.assert_allclose(terms(light, low, lean), terms(light, level, lean), atol=1e-12)
+
+
+def test_factor_is_held() -> None:
+    numbers = np.zeros((3, 12))
+    numbers[0, 0] = -10.0
+    eyes = rings((0.5,), 3)
+    told = factor(np.repeat(ABOVE[None], 4, 0), eyes, np.zeros(2), MIDDLE, numbers)
+    np.testing.assert_allclose(told, np.repeat([[1.0], [MIN_FACTOR], [MIN_FACTOR], [MIN_FACTOR]], 6, 1))
+
+
+@pytest.mark.parametrize("angle", [0.0, 15.0, 40.0, 100.0])
+def test_rays_share_the_discs_that_both_meet(angle: float) -> None:
+    """Against discs that are strewn at random around a point, by counting which of two rays they stop."""
+    chance, radius, filled, reach = np.random.default_rng(3), 0.05, 0.15, 0.4
+    trials, half = 6000, np.radians(angle / 2)
+    count = chance.poisson(filled / (np.pi * radius**2), trials)
+    clear = np.ones((trials, 2), bool)
+    ways = np.array([[np.cos(half), np.sin(half)], [np.cos(half), -np.sin(half)]])
+    for trial, discs in enumerate(count):
+        centre = chance.random((discs, 2)) - 0.5
+        along = np.clip(centre @ ways.T, 0, reach)
+        nearest = np.linalg.norm(centre[:, None] - along[..., None] * ways, axis=-1)
+        # The hair itself is no other hair: discs over the point are left out.
+        clear[trial] = ~((nearest < radius) & (np.linalg.norm(centre, axis=1) >= radius)[:, None]).any(0)
+    depths, joint = -np.log(clear.mean(0)), clear.all(1).mean()
+    one, turn, hair = (np.full(1, value, np.float32) for value in (depths.min(), ways[0] @ ways[1], filled))
+    shared = shared_depth(one[:, None, None], turn[:, None, None], hair)
+    told = float(np.exp(-depths.sum() + shared.item()))
+    assert told == pytest.approx(joint, rel=0.15)
+    apart = float(np.exp(-depths.sum()))
+    if angle < 20:  # without what is shared it would be far off
+        assert joint > 1.3 * apart
+
+
+def test_surge_is_found_again() -> None:
+    eyes = np.repeat(rings((0.9, 0.4), 2)[1:], 4, 0)
+    angles = np.tile(np.radians([0, 4, 9, 20]), 4)
+    level = np.hypot(eyes[:, 0], eyes[:, 1])
+    up = np.column_stack([-eyes[:, :2] / level[:, None] * eyes[:, 2:], level])
+    lights = np.cos(angles)[:, None] * eyes + np.sin(angles)[:, None] * up
+    numbers = np.array([0.3, 0.2, WIDTHS[20]])
+    found = fit_surge(lights, eyes, np.repeat(np.arange(4), 4), 1.1 * surge(lights, eyes, numbers))
+    np.testing.assert_allclose(found, numbers, atol=2e-3)
+
+
+def test_numbers_mend_what_eyes_aside_see() -> None:
+    """Under lights and eyes that no fit has seen; twice the same numbers; above nothing changes."""
+    height = SMALL.height_share
+    strands = grow(SMALL.coat, height, SMALL.seed)
+    law = fit_eye(strands, height, 6, 16, SMALL.coat)
+    assert law is not None
+    fine = voxelise(strands, height, *fine_shape(6, 16, height), SMALL.coat.opacity)
+    lights, eyes = rings((0.75, 0.45, 0.2), 4, 0.7), rings((0.7, 0.35), 5, 0.2)
+    hairs, texels = seen_from(fine, 6, 16, lights, eyes, SMALL.coat)
+    pairs = np.repeat(lights, len(eyes), 0), np.tile(eyes, (len(lights), 1))
+    told = factor(*pairs, fine.drift[-1] / height, MIDDLE, law.weights).reshape(hairs.shape)
+    seen = hairs.sum(-1)
+    before, after = (np.abs(np.log(part.sum(-1) / seen))[:, 1:] for part in (texels, texels * told))
+    assert after.mean() < 0.4 * before.mean()
+    assert after.mean() < 0.16
+    np.testing.assert_allclose(texels.sum(-1)[:, 0] / seen[:, 0], 1, atol=0.5)  # 16 texels a side are coarse
+    again = fit_eye(strands, height, 6, 16, SMALL.coat)
+    assert again is not None
+    np.testing.assert_array_equal(law.weights, again.weights)
+    np.testing.assert_array_equal(law.surge, again.surge)
+
+
+def test_the_side_towards_the_light_is_the_brighter_one() -> None:
+    strands = grow(SMALL.coat, SMALL.height_share, SMALL.seed)
+    law = fit_eye(strands, SMALL.height_share, 6, 16, SMALL.coat)
+    assert law is not None
+    light = np.array([[0.0, -0.8, 0.6]])
+    there, against = (
+        float(factor(light, np.array([[0.0, side, 0.6]]), np.array([0.0, 1.0]), np.array([0.8]), law.weights).item())
+        for side in (-0.8, 0.8)
+    )
+    assert there > 1.3 * against
+
+
+@pytest.mark.parametrize("curves", ["slab", "none"])
+def test_a_bake_stores_them_beside_mean_curves(tmp_path: Path, tiny: BakeOptions, curves: str) -> None:
+    bake("plane", tmp_path / "fur", replace(tiny, curves=curves, fins=False))  # type: ignore[arg-type]
+    asset = read_asset(tmp_path / "fur")
+    pelt = read_pelt(asset)
+    assert validate(tmp_path / "fur") == []
+    if curves == "none":
+        assert pelt.eye is None
+        assert pelt.surge is None
+        return
+    assert pelt.eye is not None
+    assert pelt.surge is not None
+    assert asset.fur["eye"] == pelt.eye.tolist()
+    assert asset.fur["surge"] == pelt.surge.tolist()
+
+
+def test_stored_and_read_back(tmp_path: Path, make_pelt: Callable[..., Pelt]) -> None:
+    surface = builtin("plane")
+    charts, fur = surface.natural.charts(1.0), VertexFur.even(len(surface.vertices))
+    numbers = np.round(np.random.default_rng(1).normal(size=(3, 12)), 3)
+    peak = np.array([0.25, -0.125, 0.0625])
+    write_gltf(tmp_path, FurModel(surface, charts, fur, (replace(make_pelt(), eye=numbers, surge=peak),), 0.5))
+    pelt = read_pelt(read_asset(tmp_path))
+    np.testing.assert_array_equal(pelt.eye, numbers)
+    np.testing.assert_array_equal(pelt.surge, peak)
+    document = json.loads((tmp_path / "model.gltf").read_text("utf-8"))
+    document["extensions"][EXTENSION]["eye"].pop()
+    (tmp_path / "model.gltf").write_text(json.dumps(document), "utf-8")
+    assert any("eye" in problem for problem in validate(tmp_path))

@@ -1,0 +1,176 @@
+"""Light that met several hairs: what is stored of it, held against transport between hairs of other colours."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from furbake import bake
+from furbake.asset.read import read_asset
+from furbake.asset.stored import read_pelt
+from furbake.asset.validate import validate
+from furbake.options import BakeOptions, preset
+from furbake.pelt.hairs.ramp import Ramp
+from furbake.pelt.hairs.states import DIRTY, PeltState, in_state, moistened
+from furbake.pelt.hairs.strands import grow
+from furbake.pelt.hairs.volume import Volume, coarsen
+from furbake.pelt.light.paths import BODY_RADIUS
+from furbake.pelt.light.transport import Setting, sample_apart
+from furbake.pelt.means import Measured, coarser, directions, mean_light
+from furbake.pelt.multiple import Multiple, multiple_of, shares_of, shrinking, terms
+from furbake.pelt.pelt import Pelt
+from furbake.show.swatch import radiance
+from furbake.tile.fitting import fit_pelt, fit_pelts
+from furbake.tile.lighting import grown, light, sampled
+
+RNG = np.random.default_rng(8)
+
+
+def small(name: str) -> BakeOptions:
+    return replace(preset(name), layers=8, size=16, lights=16)
+
+
+@pytest.fixture(scope="module", params=["fox", "teddy"])
+def baked(request: pytest.FixtureRequest) -> tuple[BakeOptions, Volume, Pelt]:
+    options = small(request.param)
+    _, fine, volume = grown(options)
+    return options, fine, fit_pelt(volume, light(fine, options), options)[0]
+
+
+def told(pelt: Pelt) -> Multiple:
+    assert pelt.multiple is not None
+    return pelt.multiple
+
+
+@pytest.mark.parametrize("colour", [0.05, 0.3, 0.6])
+def test_fur_of_other_greys_is_as_bright_as_transport_has_it(
+    baked: tuple[BakeOptions, Volume, Pelt], colour: float
+) -> None:
+    options, fine, pelt = baked
+    coat, multiple = options.coat, told(pelt)
+    lights = directions(BODY_RADIUS, 16)
+    lights = lights[lights[:, 2] > 0]
+    wide = coarser(fine, 8, 16)
+    alpha = coarsen(wide, 8, 16).coverage
+    share = colour / coat.albedo
+    darker = share, np.arange(len(lights))
+    single, white, dark = sample_apart(wide, 8, 16, lights, Setting(coat.albedo, coat.skin), darker=darker)
+    assert dark is not None
+    above = np.cumprod((1 - alpha)[::-1], axis=0)[::-1]
+    seen = (np.concatenate([above[1:], np.ones_like(above[:1])]) * alpha).mean((1, 2))
+    direct, many, right = (mean_light(part, alpha) for part in (single, white, dark))
+    stored = (direct + many) * (1 + multiple.share(lights) * (multiple.gain(np.array([colour])) - 1))
+    truth, found, before = ((part @ seen).sum() for part in (direct + right, stored, direct + many))
+    assert found == pytest.approx(truth, rel=0.06)
+    assert before > 1.2 * truth
+
+
+def test_stored_numbers_are_those_of_the_slabs(baked: tuple[BakeOptions, Volume, Pelt]) -> None:
+    options, _, pelt = baked
+    multiple = told(pelt)
+    assert multiple.albedo == options.coat.albedo
+    assert multiple.seen.sum() == pytest.approx(1, abs=1e-3)
+    # Light deep in the fur has met more hairs, and meets more of them.
+    share = multiple.share(np.array([[0.0, 0.6, 0.8]]))[0]
+    assert share[0] > 0.7
+    assert share[-1] < 0.5
+    assert multiple.ratio[0] > multiple.ratio[-1] > 0.2
+    assert (multiple.colour is not None) == options.colour_plane
+    np.testing.assert_allclose(multiple.gain(np.array([multiple.albedo])), 1, atol=1e-9)
+
+
+def test_known_shares_and_ratios_come_back() -> None:
+    numbers = np.array([[0.9, -0.3, 0.02], [0.3, 0.2, -0.1]])
+    albedo, ratio = 0.8, np.array([0.9, 0.4])
+    bodies = []
+    for beta in (1.0, BODY_RADIUS, 16.0):
+        lights = directions(beta)
+        light = RNG.uniform(0.2, 2, (len(lights), 2))
+        many = terms(lights, beta) @ numbers.T * light
+        grown = (1 - 0.5 * ratio * albedo) / (0.5 * (1 - ratio * albedo))
+        bodies.append(Measured(beta, lights, light, albedo, many, grown if beta == BODY_RADIUS else None))
+    np.testing.assert_allclose(shares_of(bodies), numbers, atol=1e-6)
+    np.testing.assert_allclose(shrinking(bodies), ratio, atol=1e-6)
+
+
+def test_nothing_is_told_without_curves_or_of_a_flat_patch() -> None:
+    options = small("paper")
+    for other in (replace(options, curves="none"), replace(options, flat=True)):
+        _, fine, volume = grown(other)
+        assert fit_pelt(volume, light(fine, other), other)[0].multiple is None
+
+
+def test_states_have_numbers_of_their_own_and_mud_those_of_the_dry() -> None:
+    options = small("paper")
+    strands = grow(options.coat, options.own_height, options.seed)
+    furs = [
+        in_state(state, options.coat, strands, options.own_height, options.seed)
+        for state in (PeltState(), moistened("soaked", 1.0), DIRTY)
+    ]
+    found = fit_pelts([sampled(fur, fur.voxels(8, 16), options) for fur in furs], options)
+    dry, soaked, dirty = (told(pelt) for pelt, _ in found)
+    assert dirty is dry
+    assert soaked.albedo < dry.albedo
+    assert np.abs(soaked.shares - dry.shares).max() > 0.02
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("multiple") / "asset"
+    bake("sphere", path, replace(small("fox"), layers=4, size=8, lights=8))
+    return path
+
+
+def test_files_hold_them(folder: Path) -> None:
+    assert validate(folder) == []
+    multiple = told(read_pelt(read_asset(folder)))
+    stored: dict[str, Any] = read_asset(folder).fur["pelts"][0]["multiple"]
+    assert multiple.shares.shape == (4, 3)
+    np.testing.assert_allclose(multiple.colour, stored["colour"])
+    np.testing.assert_allclose(multiple.ratio, stored["ratio"])
+
+
+@pytest.mark.parametrize(
+    ("edit", "problem"),
+    [
+        (lambda told: told["ratio"].pop(), "pelts[0].multiple.ratio has 3 rows, expected 4"),
+        (lambda told: told.pop("colour"), "one of pelts[0].multiple and pelts[0] has no colour, expected both or none"),
+    ],
+)
+def test_validate_says_what_is_wrong(folder: Path, tmp_path: Path, edit: Any, problem: str) -> None:
+    copy = tmp_path / "asset"
+    copy.mkdir()
+    for file in folder.iterdir():
+        (copy / file.name).write_bytes(file.read_bytes())
+    document = json.loads((copy / "model.gltf").read_text("utf-8"))
+    edit(document["extensions"]["FUR_ptm_shells"]["pelts"][0]["multiple"])
+    (copy / "model.gltf").write_text(json.dumps(document), "utf-8")
+    assert any(problem in line for line in map(str, validate(copy)))
+
+
+def test_no_bodies_tell_nothing(baked: tuple[BakeOptions, Volume, Pelt]) -> None:
+    _, fine, pelt = baked
+    assert pelt.curves is not None
+    assert pelt.weights is not None
+    assert multiple_of((), pelt.curves, pelt.weights, coarsen(fine, 8, 16), None) is None
+
+
+def test_the_pelt_on_the_cpu_is_darker_between_dark_hairs(baked: tuple[BakeOptions, Volume, Pelt]) -> None:
+    _, _, pelt = baked
+    multiple = replace(told(pelt), tint=np.ones(8), colour=None)
+    lights = np.array([[0.6, 0.0, 0.8]])
+
+    def shown(grey: float, known: bool) -> float:
+        ramp = Ramp((grey,) * 3, (grey,) * 3, (grey,) * 3)
+        plain = replace(
+            pelt, ramp=ramp, colour=None, tint=np.full_like(pelt.tint, 255), multiple=multiple if known else None
+        )
+        return float(radiance(plain, lights, 16).mean())
+
+    assert shown(multiple.albedo, True) == pytest.approx(shown(multiple.albedo, False), rel=1e-6)
+    assert 0.35 < shown(0.2, True) / shown(0.2, False) < 0.75

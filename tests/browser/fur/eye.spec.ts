@@ -1,0 +1,106 @@
+/** The law of light and eye in the shaders: its terms, powers of the height and surge, and a sky beside lamps all around. */
+
+import { readFile } from 'node:fs/promises';
+import type { Page } from '@playwright/test';
+import { wayOf } from '../../../web/fur/light/bent.ts';
+import { expect, test } from '../harness.ts';
+import type { Stage } from '../inPage/stage.ts';
+import { openStage, repository, served } from '../library.ts';
+
+declare const stage: Stage;
+
+type Vector = [number, number, number];
+
+const golden = 'tests/golden/ptm-6-curves';
+const zeros = () => [0, 1, 2].map(() => new Array<number>(12).fill(0));
+const dot = (a: Vector, b: Vector) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+
+/** T, B and N of skin that is turned against the plane, in the plane's own axes: it is seen along the third. */
+const [sine, cosine] = [0.6, 0.8];
+const frame: [Vector, Vector, Vector] = [
+	[0.28 * cosine, 0.96, -0.28 * sine],
+	[-0.96 * cosine, 0.28, 0.96 * sine],
+	[sine, 0, cosine],
+];
+/** From the plane's axes to those of its mesh, which lies in x and z. */
+const ofMesh = ([right, up, out]: Vector) => [right, out, -up];
+const attributes = {
+	normal: ofMesh(frame[2]),
+	tangent: [...ofMesh(frame[0]), 1],
+	// Hairs so short that they stand where they would untilted.
+	_fur: [1, 1e-4, 1, 0],
+};
+
+async function openEyes(page: Page): Promise<(laws: object[]) => Promise<string[]>> {
+	await openStage(page);
+	const gltf = JSON.parse(await readFile(`${repository}${golden}/model.gltf`, 'utf8'));
+	return async (laws) => {
+		for (const [i, law] of laws.entries())
+			await page.route(new RegExp(`model\\.gltf\\?eye=${i}$`), (route) => {
+				const fur = { ...gltf.extensions.FUR_ptm_shells, ...law };
+				return route.fulfill({ json: { ...gltf, extensions: { FUR_ptm_shells: fur } } });
+			});
+		return laws.map((_, i) => served(`${golden}/model.gltf?eye=${i}`));
+	};
+}
+
+/** Mean light of layer 3 under a lamp. */
+async function lit(page: Page, url: string, lamp: Vector): Promise<number> {
+	const drawn = await page.evaluate(([u, a, l]) => stage.vertices(u, 3, a, { lamp: l }), [
+		url,
+		attributes,
+		lamp,
+	] as const);
+	return drawn.light.reduce((sum, light) => sum + light, 0) / drawn.light.length;
+}
+
+test('every number meets its term and power of the height', async ({ page }) => {
+	const open = await openEyes(page);
+	const { drift } = JSON.parse(await readFile(`${repository}${golden}/model.gltf`, 'utf8')).extensions.FUR_ptm_shells;
+	const m = wayOf({ drift });
+	const lamp: Vector = [0.48, 0.36, 0.8];
+	const [l, v] = [lamp, [0, 0, 1] as Vector].map((way) => frame.map((axis) => dot(axis, way)) as Vector) as [
+		Vector,
+		Vector,
+	];
+	const [a, b, p, z, q] = [
+		l[0] * v[0] + l[1] * v[1],
+		l[0] * m[0] + l[1] * m[1],
+		v[0] * m[0] + v[1] * m[1],
+		l[2],
+		1 - v[2] ** 2,
+	];
+	const terms = [q, a, q * b, p * b, q * z, q * b * b, p, a * a, p * a * b, a * z, q * b * z, q * a * b];
+	const s = 3.5 / 4;
+	// One number by itself, such that the light is 1.25 times what it was.
+	const laws = terms.map((term, f) => {
+		const eye = zeros();
+		const row = eye[f % 3];
+		if (row) row[f] = 0.25 / (term * s ** (f % 3));
+		return { eye };
+	});
+	const urls = await open([{}, ...laws]);
+	const plain = await lit(page, urls[0] ?? '', lamp);
+	expect(plain).toBeGreaterThan(0.1);
+	for (const [f] of terms.entries())
+		expect((await lit(page, urls[f + 1] ?? '', lamp)) / plain, `term ${f}`).toBeCloseTo(1.25, 3);
+});
+
+test('light of a lamp beside the eye surges, more where it is seen from aside', async ({ page }) => {
+	const open = await openEyes(page);
+	const [plain = '', surging = ''] = await open([{}, { eye: zeros(), surge: [0.2, 0.5, 0.1] }]);
+	const most = 0.2 + 0.5 * (1 - cosine ** 2);
+	for (const angle of [0, 0.1, 0.5]) {
+		const lamp: Vector = [Math.sin(angle), 0, Math.cos(angle)];
+		const gain = 1 + most / (1 + (2 - 2 * Math.cos(angle)) / 0.01);
+		expect((await lit(page, surging, lamp)) / (await lit(page, plain, lamp)), `${angle}`).toBeCloseTo(gain, 2);
+	}
+});
+
+test('the factor is never less than a tenth', async ({ page }) => {
+	const open = await openEyes(page);
+	const dark = zeros();
+	if (dark[0]) dark[0][0] = -10;
+	const [plain = '', held = ''] = await open([{}, { eye: dark }]);
+	expect((await lit(page, held, [0, 0, 1])) / (await lit(page, plain, [0, 0, 1]))).toBeCloseTo(0.1, 3);
+});

@@ -1,0 +1,54 @@
+/** Fur that moves on the GPU moves as on the CPU, and leaves the renderer as it was. */
+
+import { openModule } from '../../../web/tools/browser.mjs';
+import { expect, site, test } from '../harness.ts';
+import { served } from '../library.ts';
+
+declare const loaded: typeof import('../inPage/motion.ts');
+
+test.beforeEach(({ page }) => openModule(page, site, served('tests/browser/inPage/motion.ts')));
+
+for (const name of ['torus-512', 'bunny'])
+	test(`${name}: CPU and GPU agree to 1e-3, from the frame on in which the GPU takes over`, async ({ page }) => {
+		const result = await page.evaluate((url) => loaded.agree(url, 3), served(`public/models/${name}/model.gltf`));
+		test.info().annotations.push({ type: 'springs', description: JSON.stringify(result) });
+		expect(result.processors).toEqual(['cpu', 'gpu']);
+		expect(result.swung).toBeGreaterThan(0.4);
+		expect(result.jump).toBeLessThan(1e-5);
+		expect(result.apart).toBeLessThan(1e-3);
+		expect(result.error).toBe(0);
+	});
+
+test('the renderer is as before, and a lost context leaves hairs at rest', async ({ page }) => {
+	const result = await page.evaluate((url) => loaded.leaves(url), served('public/models/torus-512/model.gltf'));
+	expect(result.kept).toEqual({
+		target: true,
+		box: [3, 4, 5, 6],
+		view: [0, 0, 40, 30, 0, 0, 40, 30],
+		scissor: true,
+		autoClear: true,
+		alpha: 0.5,
+	});
+	expect(result.swung).toBeGreaterThan(0.1);
+	expect(result.after).toBeLessThan(0.05);
+	expect(result.asleep).toBe(true);
+	expect(result.error).toBe(0);
+});
+
+test('what the GPU would do more slowly stays on the CPU', async ({ page }) => {
+	const { processor, swung, error } = await page.evaluate(
+		(url) => loaded.slower(url),
+		served('public/models/torus-512/model.gltf'),
+	);
+	expect([processor, error]).toEqual(['cpu', 0]);
+	expect(swung).toBeGreaterThan(0.1);
+});
+
+test('a motion that ends leaves the body as it was baked, and what is dressed on it', async ({ page }) => {
+	const { bent, processor, error } = await page.evaluate(
+		(url) => loaded.ends(url),
+		served('public/models/torus-512/model.gltf'),
+	);
+	expect(bent).toEqual([true, true, false, false, true, true, false, false]);
+	expect([processor, error]).toEqual(['gpu', 0]);
+});

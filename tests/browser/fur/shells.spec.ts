@@ -1,0 +1,142 @@
+/** Shells: which texels they show, how many there are, and where their light is summed. */
+
+import { expect, test } from '../harness.ts';
+import type { Stage } from '../inPage/stage.ts';
+import { floats, openStage, readAsset, served } from '../library.ts';
+
+declare const stage: Stage;
+
+/** What shell `number` at height `s` shows: its slab, and how far hairs have drifted from that slab's middle. */
+function shownAt(number: number, count: number, s: number, drift: readonly (readonly [number, number])[]) {
+	const layers = drift.length;
+	const knots = [[0, 0, 0], ...drift.map(([u, v], k) => [(k + 0.5) / layers, u, v])] as [number, number, number][];
+	const after = Math.min(Math.max(knots.findIndex(([height]) => height > s) % knots.length, 1), knots.length - 1);
+	const top = knots.every(([height]) => height <= s) ? knots.length - 1 : after;
+	const [from, to] = [knots[top - 1], knots[top]] as [[number, number, number], [number, number, number]];
+	const t = (s - from[0]) / (to[0] - from[0]);
+	const nudge = count < layers ? 0.4 * (((0.618034 * number) % 1) - 0.5) : 1e-4;
+	const slab = Math.min(Math.max(Math.floor(s * layers + nudge), 0), layers - 1);
+	const at = [1, 2].map((axis) => (from[axis] ?? 0) + t * ((to[axis] ?? 0) - (from[axis] ?? 0)));
+	return { slab, shear: at.map((value, axis) => value - (drift[slab]?.[axis] ?? 0)) };
+}
+
+test('a shell between slabs shows the nearer one, sheared so that hairs run on; all of them stand for the whole fur', async ({
+	page,
+}) => {
+	await openStage(page);
+	const folder = 'tests/golden/ptm-6';
+	const { fur } = await readAsset(folder);
+	const { drift, layers } = fur;
+	const url = served(`${folder}/model.gltf`);
+	const shell = (number: number, count: number, shift: number[]) =>
+		page.evaluate(([u, n, c, s]) => stage.shell(u, n, c, s), [url, number, count, shift] as const);
+	for (const [number, count, slabs, s] of [
+		[0, 12, 1 / 3, 0.5 / 12], // below the first slab's middle
+		[5, 12, 1 / 3, 5.5 / 12],
+		[11, 12, 1 / 3, 11.5 / 12], // beyond the last slab's middle
+		[1, 2, 2, 0.75], // fewer shells than slabs
+		[0, 6, 1, 0.5 / 6], // alone in its slab
+		[2, 6, 1 / 2, 2.5 / 6], // in one that it shares
+		[6, 6.25, 0.25 / 1.25, 6.125 / 6.25], // the outermost of a broken number
+	] as const) {
+		const { slab, shear } = shownAt(number, count, s, drift);
+		const [shown, straight] = await Promise.all([
+			shell(number, count, [0, 0]),
+			shell(
+				slab,
+				layers,
+				shear.map((value) => -value),
+			),
+		]);
+		const coverage = floats(straight);
+		expect(Math.max(...coverage)).toBeGreaterThan(0.5);
+		floats(shown).forEach((alpha, i) => {
+			expect(alpha, `texel ${i} of shell ${number} of ${count}`).toBeCloseTo(1 - (1 - (coverage[i] ?? 0)) ** slabs, 3);
+		});
+	}
+});
+
+/** Of two pictures over a mid grey as a display shows them, dB. */
+function psnr(a: Float32Array, b: Float32Array): number {
+	const shown = (rgba: Float32Array, i: number) => {
+		const linear = (rgba[i] ?? 0) + 0.2 * (1 - (rgba[i | 3] ?? 0));
+		return Math.min(Math.max(linear, 0), 1) ** (1 / 2.2);
+	};
+	let [sum, count] = [0, 0];
+	a.forEach((_, i) => {
+		if ((a[i | 3] ?? 0) + (b[i | 3] ?? 0) === 0 || i % 4 === 3) return;
+		sum += (shown(a, i) - shown(b, i)) ** 2;
+		count++;
+	});
+	return -10 * Math.log10(sum / count);
+}
+
+const BUNNY = '/models/bunny/model.gltf';
+
+test('the number of shells changes without a jump', async ({ page }) => {
+	await openStage(page);
+	// Past a whole number, and past one at which all shells lie where two slabs meet.
+	const counts = [...[19.6, 19.7, 19.8, 19.9, 20, 20.1, 20.2], ...[7.8, 7.9, 8, 8.1, 8.2]];
+	const pictures = await page.evaluate(([url, settings]) => stage.pictures(url, 200, settings), [
+		BUNNY,
+		counts.map((shells) => ({ shells })),
+	] as const);
+	const steps = pictures.slice(1).flatMap(({ rgba }, i) => {
+		const step = Math.abs((counts[i + 1] ?? 0) - (counts[i] ?? 0));
+		return step < 0.2 ? [{ few: (counts[i] ?? 0) < 12, dB: psnr(floats(rgba), floats(pictures[i]?.rgba ?? '')) }] : [];
+	});
+	test.info().annotations.push({ type: 'steps', description: steps.map(({ dB }) => dB.toFixed(1)).join(', ') });
+	for (const { few, dB } of steps) expect(dB).toBeGreaterThan(few ? 29 : 36);
+});
+
+test('lamps summed per vertex look as if summed per fragment, even on 512 triangles', async ({ page }) => {
+	await openStage(page);
+	const [vertex, fragment] = await page.evaluate(
+		(url) =>
+			stage.pictures(url, 240, [
+				{ shells: 24, lampsPerFragment: false },
+				{ shells: 24, lampsPerFragment: true },
+			]),
+		'/models/torus-512/model.gltf',
+	);
+	const [a, b] = [floats(vertex?.rgba ?? ''), floats(fragment?.rgba ?? '')];
+	let [sum, count] = [0, 0];
+	a.forEach((value, i) => {
+		if (i % 4 === 3 || !a[i | 3]) return;
+		const encode = (linear: number) => 255 * Math.min(Math.max(linear, 0), 1) ** (1 / 2.2);
+		sum += (encode(value) - encode(b[i] ?? 0)) ** 2;
+		count++;
+	});
+	const rmse = Math.sqrt(sum / count);
+	test.info().annotations.push({ type: 'rmse', description: `${rmse.toFixed(2)} of 255` });
+	expect(rmse).toBeLessThanOrEqual(3);
+	expect(rmse, 'that it is another program').toBeGreaterThan(0);
+});
+
+for (const [model, trim] of [
+	['torus-4608', 1],
+	['bunny', 1],
+	['bunny', 0.5],
+] as const)
+	test(`lamps and sky found once for all shells of a vertex light ${model}, ${trim} of its length, as if found at each`, async ({
+		page,
+	}) => {
+		await openStage(page);
+		const [once, each] = await page.evaluate(
+			([url, cut]) =>
+				stage.pictures(
+					url,
+					240,
+					[true, false].map((bodyLight) => ({ shells: 24, bodyLight, trim: cut })),
+				),
+			[`/models/${model}/model.gltf`, trim] as const,
+		);
+		const [a, b] = [floats(once?.rgba ?? ''), floats(each?.rgba ?? '')];
+		const dB = psnr(a, b);
+		test.info().annotations.push({ type: 'PSNR', description: `${dB.toFixed(1)} dB` });
+		expect(dB).toBeGreaterThan(51);
+		expect(
+			a.some((value, i) => value !== b[i]),
+			'that it is another program',
+		).toBe(true);
+	});

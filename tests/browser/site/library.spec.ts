@@ -1,0 +1,150 @@
+import { execFile } from 'node:child_process';
+import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { promisify } from 'node:util';
+import { build } from 'vite';
+import { root } from '../../../web/tools/process.mjs';
+import { difference, expect, type Picture, picture, test } from '../harness.ts';
+import { type Host, serveFolder } from '../host.ts';
+import { licencesIn } from './licences.ts';
+
+const run = promisify(execFile);
+const npm = (...args: string[]) =>
+	process.env.npm_execpath
+		? run(process.execPath, [process.env.npm_execpath, ...args], { cwd: root })
+		: run('npm', args, { cwd: root, shell: process.platform === 'win32' });
+
+/** A folder of someone else's, in which the package is installed as it would be from a registry. */
+let app = '';
+let packed: string[] = [];
+let host: Host;
+
+test.use({ viewport: { width: 240, height: 180 } });
+
+test.beforeAll(async () => {
+	app = mkdtempSync(join(tmpdir(), 'furbake-app-'));
+	const { stdout } = await npm('pack', '--json', '--pack-destination', app);
+	const [{ filename, files }] = JSON.parse(stdout);
+	packed = files.map(({ path }: { path: string }) => path);
+	writeFileSync(join(app, 'package.json'), '{ "private": true, "type": "module" }');
+	await npm(
+		'install',
+		'--prefix',
+		app,
+		'--offline',
+		'--legacy-peer-deps',
+		'--no-audit',
+		'--no-fund',
+		join(app, filename),
+	);
+	mkdirSync(join(app, 'node_modules', '@types'));
+	for (const name of ['three', join('@types', 'three')])
+		symlinkSync(join(root, 'node_modules', name), join(app, 'node_modules', name), 'junction');
+	cpSync(join(root, 'web', 'example'), join(app, 'example'), { recursive: true });
+	cpSync(join(root, 'web', 'example.html'), join(app, 'index.html'));
+});
+
+test.afterAll(() => {
+	host?.close();
+	rmSync(app, { recursive: true, force: true });
+});
+
+test('the package holds the library, its types and its licences, and nothing else', () => {
+	expect(packed).toEqual(
+		expect.arrayContaining([
+			'LICENSE',
+			'README.md',
+			'package.json',
+			'lib/index.js',
+			'lib/index.d.ts',
+			'lib/reference.js',
+			'lib/reference.d.ts',
+			'lib/shared.js',
+			'lib/licenses.md',
+		]),
+	);
+	const others = packed.filter((path) => !/^lib\/.*\.d\.ts$/.test(path));
+	expect(others).toHaveLength(7);
+	const parts = licencesIn(readFileSync(join(app, 'node_modules', 'furbake', 'lib', 'licenses.md'), 'utf8'));
+	expect([...parts.keys()]).toEqual(['@cfworker/json-schema', 'fflate']);
+	for (const [name, text] of parts) expect(text, name).toContain('Permission is hereby granted');
+});
+
+/** Uses of both entry points in another app. */
+const USES = `
+import { dressFur, type Fur, FurMotion, FurWeather, furMethod, updateFurs } from 'furbake';
+import { type Basis, lightMoments } from 'furbake/reference';
+
+export function grow(fur: Fur, pelt: Fur): () => boolean {
+	const other = dressFur(fur, pelt);
+	other.motion = new FurMotion(fur, { frequency: 3 });
+	other.weather = new FurWeather(fur, { drying: 20 });
+	furMethod(fur, 'lengyel').apply();
+	fur.length = 0.5 * fur.asset.length;
+	return () => fur.update(0.1) || updateFurs([fur, other], 0);
+}
+
+const basis: Basis = { kind: 'ptm' };
+export const moments: number[] = lightMoments(basis, [0.6, 0, 0.8], 0.5);
+`;
+
+test('example and uses compile strictly against the packed types', async () => {
+	writeFileSync(join(app, 'example', 'uses.ts'), USES);
+	const compilerOptions = {
+		target: 'es2023',
+		lib: ['es2023', 'dom'],
+		module: 'nodenext',
+		strict: true,
+		exactOptionalPropertyTypes: true,
+		noEmit: true,
+		skipLibCheck: false,
+		types: [],
+	};
+	writeFileSync(join(app, 'tsconfig.json'), JSON.stringify({ compilerOptions, include: ['example'] }));
+	const tsc = join(root, 'node_modules', '@typescript', 'native', 'bin', 'tsc');
+	const { stdout } = await run(process.execPath, [tsc, '-p', app]).catch((error) => error);
+	expect(stdout).toBe('');
+});
+
+test('the arithmetic on the CPU is an entry point of its own, which Node runs', async () => {
+	const code = `import { lightMoments } from 'furbake/reference';
+		console.log(JSON.stringify(lightMoments({ kind: 'ptm' }, [0.6, 0, 0.8], 0.5)))`;
+	const { stdout } = await run(process.execPath, ['--input-type=module', '-e', code], { cwd: app });
+	expect(JSON.parse(stdout)).toEqual([0.36, 0, 0, 0.6, 0, 1]);
+});
+
+test('the example, built by another app, grows fur under the pointer as lamp', async ({ page }) => {
+	await build({
+		root: app,
+		base: './',
+		configFile: false,
+		logLevel: 'error',
+		publicDir: join(root, 'public'),
+		build: { modulePreload: { polyfill: false }, chunkSizeWarningLimit: 1200 },
+	});
+	host = await serveFolder(join(app, 'dist'), '/');
+	/** The picture once the model is in it. */
+	const shown = async () => {
+		await page.goto(host.address);
+		await page.locator('canvas').waitFor();
+		await page.mouse.move(20, 40);
+		await expect.poll(async () => covered(await picture(page))).toBeGreaterThan(0.1);
+		return picture(page);
+	};
+	const furry = await shown();
+	await page.mouse.move(220, 40);
+	await expect.poll(async () => difference(furry, await picture(page))).toBeGreaterThan(2);
+
+	await page.route('**/model.gltf', async (route) => {
+		const { extensions: _, ...plain } = await (await route.fetch()).json();
+		await route.fulfill({ json: plain });
+	});
+	expect(difference(furry, await shown()), 'from the skin alone').toBeGreaterThan(5);
+});
+
+/** Share of the picture that is not its ground. */
+function covered({ brightness }: Picture): number {
+	const ground = brightness[0] ?? 0;
+	return brightness.filter((value) => Math.abs(value - ground) > 8).length / brightness.length;
+}

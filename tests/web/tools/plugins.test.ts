@@ -1,0 +1,107 @@
+import { readFileSync } from 'node:fs';
+import { describe, expect, it } from 'vitest';
+import { bareShader, fontsPlugin, sharePlugin, siteAddress } from '../../../web/tools/site/plugins.mjs';
+
+const page = `<html><head><title>furbake · learn</title>
+	<meta name="description" content="Strands &amp; slices." /></head></html>`;
+
+/** What the plugin puts into a page: content or address by name. */
+function tags(site: string | undefined, path: string): Record<string, string> {
+	const { transformIndexHtml } = sharePlugin(site) as unknown as {
+		transformIndexHtml: (html: string, context: { path: string }) => { attrs: Record<string, string> }[];
+	};
+	return Object.fromEntries(
+		transformIndexHtml(page, { path }).map(({ attrs }) => [
+			[attrs.property ?? attrs.name ?? attrs.rel ?? 'base', attrs.hreflang].filter(Boolean).join(' '),
+			attrs.content ?? attrs.href ?? '',
+		]),
+	);
+}
+
+describe('siteAddress', () => {
+	it('ends in a slash, without query', () => {
+		expect(siteAddress('https://example.org/furbake?a#b')?.href).toBe('https://example.org/furbake/');
+		expect(siteAddress(undefined)).toBeUndefined();
+		expect(siteAddress('')).toBeUndefined();
+	});
+
+	it.each(['example.org', 'ftp://example.org/', '/furbake/'])('refuses %s', (site) => {
+		expect(() => siteAddress(site)).toThrow(`SITE_URL: got ${site}, expected the address of the site`);
+	});
+});
+
+describe('bareShader', () => {
+	it('leaves directives on lines of their own, and no words', () => {
+		const source =
+			'// what\n\n#define A 2.0 // why\n\tfloat a = A / 2.0; /* b\n c */\n\n\n\treturn a * a;\n}\n#endif\nint b;\n';
+		expect(bareShader(source)).toBe('#define A 2.0\nfloat a=A/2.0;return a*a;}\n#endif\nint b;');
+	});
+
+	it('keeps signs apart, and what goes on on the next line', () => {
+		expect(bareShader('a = b - -c + d;\nvec2 e = vec2(1.0,\n\t-1.0);')).toBe('a=b - -c+d;vec2 e=vec2(1.0,\n-1.0);');
+	});
+});
+
+describe('fontsPlugin', () => {
+	it('makes files of fonts in style sheets, beside them, and of nothing else', () => {
+		const { generateBundle } = fontsPlugin() as unknown as {
+			generateBundle: (options: unknown, bundle: Record<string, unknown>) => void;
+		};
+		const sheet = {
+			type: 'asset',
+			fileName: 'assets/a.css',
+			source: `a{src:url("data:application/font-woff2;charset=utf-8;base64,${btoa('font')}")format("woff2");background:url(data:image/png;base64,AAAA)}`,
+		};
+		const emitted: string[] = [];
+		const context = {
+			emitFile({ source }: { source: Buffer }) {
+				emitted.push(source.toString());
+				return 'id';
+			},
+			getFileName: () => 'assets/font-1.woff2',
+		};
+		generateBundle.call(context, {}, { sheet });
+		expect(sheet.source).toBe('a{src:url(./font-1.woff2)format("woff2");background:url(data:image/png;base64,AAAA)}');
+		expect(emitted).toEqual(['font']);
+	});
+});
+
+describe('sharePlugin', () => {
+	it("takes a shared link's words from the page", () => {
+		const found = tags(undefined, '/learn.html');
+		expect(found).toMatchObject({
+			'og:title': 'furbake · learn',
+			'og:description': 'Strands & slices.',
+			'og:image': './og.jpg',
+			'twitter:card': 'summary_large_image',
+			manifest: './manifest.webmanifest',
+		});
+		expect(found).not.toHaveProperty('canonical');
+	});
+
+	it('gives whole addresses where the site has one', () => {
+		expect(tags('https://example.org/fur', '/learn.html')).toMatchObject({
+			'og:image': 'https://example.org/fur/og.jpg',
+			'og:url': 'https://example.org/fur/learn.html',
+			canonical: 'https://example.org/fur/learn.html',
+			'alternate zh-Hans': 'https://example.org/fur/learn.html?lang=zh',
+			'alternate x-default': 'https://example.org/fur/learn.html',
+		});
+		expect(tags('https://example.org/fur', '/index.html').canonical).toBe('https://example.org/fur/');
+	});
+
+	it('lets the page of lost addresses find its files from anywhere', () => {
+		expect(tags('https://example.org/fur', '/404.html')).toEqual({ base: '/fur/' });
+		expect(tags(undefined, '/404.html')).toEqual({});
+	});
+});
+
+describe('public/og.jpg', () => {
+	it('is of the size that pages say, and light enough for those who show it', () => {
+		const bytes = readFileSync(new URL('../../../public/og.jpg', import.meta.url));
+		// The frame header of a baseline JPEG: length, precision, height, width.
+		const frame = bytes.indexOf(Buffer.from([0xff, 0xc0]));
+		expect([bytes.readUInt16BE(frame + 7), bytes.readUInt16BE(frame + 5)]).toEqual([1200, 630]);
+		expect(bytes.length).toBeLessThan(150_000);
+	});
+});

@@ -1,0 +1,42 @@
+/** Views that can come true: takes out what the model on show does not support. */
+
+import { isRival, type View } from '../state/view.ts';
+import type { Words } from '../words/en.ts';
+import { type MenuEntry, pelts } from './menu.ts';
+import { hasEigen } from './outfits.ts';
+
+/** Picks a sentence out of a language's words. */
+export type Reason = (words: Words) => string;
+
+/** @returns the view without what cannot be shown, and why */
+export function adjust(
+	asked: View,
+	entry: MenuEntry | undefined,
+	menu: readonly MenuEntry[],
+): { view: View; reasons: Reason[] } {
+	let view = asked;
+	const reasons: Reason[] = [];
+	const leaveOut = (patch: Partial<View>) => {
+		view = { ...view, ...patch };
+	};
+	const { preset } = view;
+	if (preset && !pelts(menu).some(({ pelt }) => pelt === preset)) {
+		const names = pelts(menu).map(({ pelt }) => pelt);
+		reasons.push((words) => words.wrongPreset(preset, names.join(', ')));
+		leaveOut({ preset: undefined });
+	}
+	const withoutEigen = ({ method, split }: View): Partial<View> => ({
+		...(method === 'eigen' && { method: undefined }),
+		...(split?.method === 'eigen' && { split: undefined }),
+	});
+	if (!hasEigen(view, entry, menu) && Object.keys(withoutEigen(view)).length > 0) {
+		reasons.push((words) => words.noEigenHere);
+		leaveOut(withoutEigen(view));
+	}
+	const rival = isRival(view.method ?? 'ptm');
+	if ((view.crowd ?? 1) > 1 && (view.split || rival)) {
+		reasons.push((words) => words.rivalLeftOut);
+		leaveOut({ split: undefined, ...(rival && { method: undefined }) });
+	}
+	return { view, reasons };
+}

@@ -1,0 +1,244 @@
+/** The model on show, in its fur and its environment, as the view asks for them. */
+
+import { FUR_VERSION } from '../../fur/index.ts';
+import type { OwnModel } from '../open/drop.ts';
+import { notice, withdraw } from '../say/notice.ts';
+import type { Progress } from '../say/progress.ts';
+import type { Model } from '../stage/model.ts';
+import type { Picture } from '../stage/picture.ts';
+import type { Store } from '../state/store.ts';
+import type { EnvironmentName, Triple } from '../state/view.ts';
+import { en } from '../words/drop.en.ts';
+import { zh } from '../words/drop.zh.ts';
+import { language, words } from '../words/index.ts';
+import { Dressing } from './dressing.ts';
+import { Dynamics } from './dynamics.ts';
+import { loadModel, sourceAt } from './load.ts';
+import { Looks } from './looks.ts';
+import { firstView, folderOf, loadMenu, type MenuEntry, offered } from './menu.ts';
+import { Pending } from './pending.ts';
+import { Surroundings } from './surroundings.ts';
+
+const dropWords = { en, zh }[language];
+
+export class Exhibit {
+	menu: MenuEntry[] = [];
+	/** Name or address of the model on show, with a slash in front for a visitor's own; '' for none. */
+	shown = '';
+	/** True for a visitor's own model, which no link can name. */
+	own = false;
+	readonly looks: Looks;
+	readonly dynamics: Dynamics;
+	/** Called when something else is on show, or what was asked for has failed. */
+	changed: () => void = () => {};
+	readonly #picture: Picture;
+	readonly #store: Store;
+	readonly #progress: Progress;
+	readonly #pending: Pending;
+	readonly #surroundings: Surroundings;
+	readonly #dressing: Dressing;
+	#latest = 0;
+
+	/** @param store of the view that is asked for; what cannot be had is taken out of it */
+	constructor(picture: Picture, store: Store, progress: Progress) {
+		this.#picture = picture;
+		this.#store = store;
+		this.#progress = progress;
+		this.#pending = new Pending(picture);
+		this.#surroundings = new Surroundings(picture.stage);
+		const { renderer, key } = picture.stage;
+		this.looks = new Looks({ renderer, light: key });
+		this.dynamics = new Dynamics(this.looks, picture.stage, picture.calm);
+		this.#dressing = new Dressing(picture, store, this.looks, this.dynamics, this);
+	}
+
+	get entry(): MenuEntry | undefined {
+		return this.menu.find(({ name }) => name === this.shown);
+	}
+
+	/** Title of the model on show; undefined for none. */
+	get title(): string | undefined {
+		const { entry, shown } = this;
+		return entry ? (words.titles[entry.name] ?? entry.title) : shown.replace(/^\//, '') || undefined;
+	}
+
+	/** Name of the environment on show. */
+	get environment(): EnvironmentName | 'none' {
+		return this.#surroundings.name;
+	}
+
+	/** Opens with what the view asks for. */
+	async open(): Promise<void> {
+		const view = this.#store.get();
+		try {
+			this.menu = await loadMenu();
+		} catch (error) {
+			notice((error as Error).message, 'error');
+		}
+		const first = this.menu[0]?.name ?? '';
+		let name = view.model ?? first;
+		if (!folderOf(name, this.menu, document.baseURI) && first) {
+			const names = offered(this.menu).map((item) => item.name);
+			notice(words.wrongModel(name, names.join(', '), first));
+			this.#store.change({ model: undefined });
+			name = first;
+		}
+		this.changed();
+		const { camera } = this.#picture;
+		if (view.camera) camera.chosen = true;
+		camera.orbit = view.camera ?? firstView(undefined).camera;
+		await this.change(async () => {
+			await Promise.all([this.#surround(view.env ?? 'none'), this.#show(name)]);
+		});
+	}
+
+	/** Shows another model; the view names it once it is on show. */
+	async show(name: string): Promise<void> {
+		await this.change(() => this.#show(name));
+		if (this.shown === name) this.#store.change({ model: name });
+	}
+
+	/** Shows a visitor's own model, which has no address. */
+	receive(own: OwnModel): Promise<void> {
+		return this.change(() => this.#show(own.name, own));
+	}
+
+	/** Changes the environment; the view names it once its light falls on the model. */
+	async surround(name: EnvironmentName | 'none'): Promise<void> {
+		await this.change(() => this.#surround(name));
+		if (this.environment === name) this.#store.change({ env: name === 'none' ? undefined : name });
+	}
+
+	/** Dresses the model by the view. */
+	dress(): Promise<void> {
+		return this.change(() => this.#dressing.dress());
+	}
+
+	/** Styles what is on show by the view. @returns when that can be seen */
+	style(): Promise<void> {
+		return this.#dressing.style() ? this.dress() : Promise.resolve();
+	}
+
+	/** Puts light and camera as they are before a visitor has touched them. */
+	aim(): void {
+		const picture = this.#picture;
+		const { camera, light } = this.#store.get();
+		if (!picture.camera.chosen) picture.camera.orbit = camera ?? this.#firstCamera();
+		picture.setLight(light ?? this.#firstLight(), !light);
+		picture.fit();
+	}
+
+	/** Runs a change that may take long; the page is loading meanwhile. */
+	change(what: () => Promise<void>): Promise<void> {
+		return this.#pending.run(what);
+	}
+
+	/** Reports the page's state once everything is on show. */
+	settle(): Promise<void> {
+		return this.#pending.settle();
+	}
+
+	/** Moves hairs, body and fades on. @returns milliseconds until another frame is wanted: 0 at once, Infinity none */
+	step(seconds: number): number {
+		return Math.min(this.dynamics.step(seconds), this.looks.step(seconds));
+	}
+
+	#firstLight(): Triple {
+		return this.#surroundings.sun ?? firstView(this.entry).light;
+	}
+
+	#firstCamera(): Triple {
+		return firstView(this.entry, this.#store.get().crowd).camera;
+	}
+
+	/** Changes the environment; says why and keeps the one before where that fails. */
+	async #surround(name: EnvironmentName | 'none'): Promise<void> {
+		const picture = this.#picture;
+		try {
+			if (!(await this.#surroundings.change(name))) return;
+			if (picture.stage.model && !this.#store.get().light) picture.light.put(this.#firstLight(), true);
+			picture.updateLight();
+			picture.reportTextureMemory();
+		} catch (error) {
+			const { environment } = this;
+			this.#store.change({ env: environment === 'none' ? undefined : environment });
+			notice(words.placeNotShown(name, (error as Error).message), 'error');
+		}
+		this.changed();
+	}
+
+	/** Loads and shows a model; says why and keeps the one before where that fails. */
+	async #show(name: string, own?: OwnModel): Promise<void> {
+		const turn = ++this.#latest;
+		const { stage } = this.#picture;
+		const first = stage.model === undefined;
+		// No name of the menu has a slash in front.
+		const shown = own ? `/${name}` : name;
+		// The skin alone is better than nothing, and worse than the model before.
+		let early: Model | undefined;
+		// A skin on show stays until the next model is there, which may never come: so its fur grows.
+		const late = () => turn !== this.#latest && (!early || early !== stage.model);
+		const skin = (model: Model) => {
+			if (turn !== this.#latest) return;
+			early = model;
+			this.#present(model, shown);
+			void this.#picture.drawn().then(() => performance.mark('furbake:skin'));
+		};
+		const manager = this.#progress.begin();
+		try {
+			const folder = folderOf(name, this.menu, document.baseURI);
+			if (!folder && !own) throw new Error(words.notAFolder);
+			const source = own?.source ?? sourceAt(folder as URL, manager);
+			const model = await loadModel(source, stage.limits, first ? { skin } : {});
+			if (late()) return model.dispose();
+			if (own) this.#store.change({ model: undefined });
+			if (model !== early) this.#present(model, shown);
+			this.own = own !== undefined;
+			if (turn === this.#latest) withdraw('model');
+			this.#describe(model, own, name);
+			await this.#dressing.dress(first);
+		} catch (error) {
+			if (late()) return;
+			if (early) this.#clear();
+			notice(words.notShown(name, (error as Error).message), 'error', 'model');
+		} finally {
+			own?.source.release();
+		}
+		this.changed();
+	}
+
+	/** Says why a model has no fur, where that is so. */
+	#describe({ fur, newer }: Model, own: OwnModel | undefined, name: string): void {
+		const title = this.title ?? name;
+		if (newer) notice(dropWords.newer(title, newer, FUR_VERSION), 'note', 'model');
+		else if (own?.command) notice(dropWords.bakeIt(title, own.command), 'advice', 'model');
+		else if (!fur) notice(words.noFur(title), 'note', 'model');
+	}
+
+	/** Puts a model on show, as it is. */
+	#present(model: Model, name: string): void {
+		const picture = this.#picture;
+		const { stage, camera, light, lamp } = picture;
+		const view = this.#store.get();
+		const first = stage.model === undefined;
+		this.dynamics.clear();
+		this.looks.clear();
+		stage.setModel(model);
+		stage.setCrowd(1, undefined);
+		this.shown = name;
+		lamp.visible = view.ui;
+		if (!camera.chosen) camera.orbit = view.camera ?? this.#firstCamera();
+		if (first || light.drifting) light.put(view.light ?? this.#firstLight(), !view.light);
+		picture.updateLight();
+		picture.fit();
+	}
+
+	/** Takes the model away. */
+	#clear(): void {
+		this.dynamics.clear();
+		this.looks.clear();
+		this.#picture.stage.setModel(undefined);
+		this.shown = '';
+		this.own = false;
+	}
+}

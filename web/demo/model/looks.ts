@@ -1,0 +1,285 @@
+/** Looks of the body on show: a pelt lit by a method, or two side by side. */
+
+import type { Scene, Texture } from 'three';
+import {
+	dressFur,
+	type Fur,
+	type FurFade,
+	type FurMethod,
+	type FurMethodName,
+	type FurMethodOptions,
+	type FurMotion,
+	type FurWeather,
+	furMethod,
+	updateFurs,
+} from '../../fur/index.ts';
+import type { Store } from '../state/store.ts';
+import type { View } from '../state/view.ts';
+import { paint } from './colours.ts';
+
+export interface Outfit {
+	/** Pelt in the place of the body's own; undefined: its own. */
+	pelt: Fur | undefined;
+	/** Share of the body's second tip colour on a pelt, 0..1. */
+	tips: number;
+	/** Strength of its highlights; undefined: the usual. */
+	gloss: number | undefined;
+	method: FurMethodName;
+}
+
+interface Look {
+	fur: Fur;
+	gloss: number | undefined;
+	/** Method of comparison that lights it, if any. */
+	rival: FurMethod | undefined;
+}
+
+/** Coarseness of the shells in the first frame. */
+const FIRST_COARSENESS = 4;
+/** Usual strength of highlights and of light from behind: as bright as traced hairs, see pelt/README.md. */
+export const DEFAULT_LOOK = { gloss: 0.25, backlight: 40 };
+
+/** Seconds of a fade between looks; largest share of it in a frame, so that slow frames do not jump. */
+const FADE_TIME = 0.6;
+const MAX_FADE_STEP = 0.2;
+
+export class Looks {
+	#body: Fur | undefined;
+	/** Furs made for this body so far, by pelt. */
+	readonly #furs = new Map<Fur, Fur[]>();
+	#looks: Look[] = [];
+	/** Looks that are being faded out. */
+	#leavingLooks: readonly Look[] = [];
+	#fade: FurFade | undefined;
+	#onFaded: () => void = () => {};
+	readonly #methodOptions: FurMethodOptions;
+
+	/** @param methodOptions renderer and lamp of the methods of comparison */
+	constructor(methodOptions: FurMethodOptions) {
+		this.#methodOptions = methodOptions;
+	}
+
+	/** The model's own fur, on which all looks stand, shown or not. */
+	get body(): Fur | undefined {
+		return this.#body;
+	}
+
+	/** States that any fur on show has beside dry and clean. */
+	get states(): { wet: boolean; dirt: boolean } {
+		const furs = this.#looks.map(({ fur }) => fur.states);
+		return { wet: furs.some(({ wet }) => wet), dirt: furs.some(({ dirt }) => dirt) };
+	}
+
+	/** Fur on the left, or on all of the picture. */
+	get fur(): Fur | undefined {
+		return this.#looks[0]?.fur;
+	}
+
+	/**
+	 * Shows a body in one outfit, or in two side by side.
+	 *
+	 * @param view style of both
+	 */
+	show(body: Fur, outfits: readonly Outfit[], view: View): void {
+		this.finishFade();
+		if (body !== this.#body) this.clear();
+		this.#body = body;
+		const before = this.#looks;
+		this.#setLooks(body, outfits, view);
+		this.#showOnlyLooks(before);
+		this.style(view);
+	}
+
+	/**
+	 * Fades the body on show over to other outfits; `step` moves the fade on.
+	 *
+	 * @param outfits other than those on show
+	 * @param fade makes the fade, at share 0
+	 * @returns at the end of the fade
+	 */
+	fadeTo(
+		outfits: readonly Outfit[],
+		view: View,
+		scene: Scene,
+		fade: (from: readonly Fur[], to: readonly Fur[]) => FurFade,
+	): Promise<void> {
+		this.finishFade();
+		const body = this.#body as Fur;
+		this.#leavingLooks = this.#looks;
+		this.#setLooks(body, outfits, view);
+		for (const { fur, rival } of this.#looks) {
+			fur.visible = true;
+			rival?.apply();
+		}
+		this.style(view);
+		const furs = (looks: readonly Look[]) => looks.map(({ fur }) => fur);
+		this.#fade = fade(furs(this.#leavingLooks), furs(this.#looks));
+		scene.add(this.#fade);
+		return new Promise((resolve) => {
+			this.#onFaded = resolve;
+		});
+	}
+
+	/** Makes the furs of outfits without showing them. @param compile called with each of their furs, in its style */
+	async prepare(outfits: readonly Outfit[], view: View, compile: (fur: Fur) => Promise<void>): Promise<void> {
+		const body = this.#body as Fur;
+		for (const [fur, { gloss }] of this.#fursOf(body, outfits)) {
+			if (body !== this.#body) return;
+			fur.visible = this.#looks.some((look) => look.fur === fur);
+			style(fur, gloss, view);
+			await compile(fur);
+		}
+	}
+
+	/** Moves the fade on. @returns milliseconds until another frame is wanted: 0 at once, Infinity none */
+	step(seconds: number): number {
+		const fade = this.#fade;
+		if (!fade) return Number.POSITIVE_INFINITY;
+		fade.share += Math.min(seconds / FADE_TIME, MAX_FADE_STEP);
+		if (fade.share > 1 - 1e-6) this.finishFade();
+		return 0;
+	}
+
+	/** Ends the fade at once. */
+	finishFade(): void {
+		if (!this.#fade) return;
+		this.#fade.dispose();
+		this.#fade = undefined;
+		const before = this.#leavingLooks;
+		this.#leavingLooks = [];
+		this.#showOnlyLooks(before);
+		this.#onFaded();
+	}
+
+	/** Furs of outfits on a body, in their order. */
+	#fursOf(body: Fur, outfits: readonly Outfit[]): [fur: Fur, outfit: Outfit][] {
+		const counts = new Map<Fur, number>();
+		return outfits.map((outfit) => {
+			const { pelt = body, tips } = outfit;
+			const nth = counts.get(pelt) ?? 0;
+			counts.set(pelt, nth + 1);
+			return [this.#furOf(body, pelt, tips, nth), outfit];
+		});
+	}
+
+	/** Makes the looks of a body, without showing them. */
+	#setLooks(body: Fur, outfits: readonly Outfit[], view: View): void {
+		this.#looks = this.#fursOf(body, outfits).map(([fur, { gloss, method }]) => {
+			// Rivals copy the switches of the fur's own material: style that first.
+			style(fur, gloss, view);
+			return { fur, gloss, rival: method === 'ptm' ? undefined : furMethod(fur, method, this.#methodOptions) };
+		});
+	}
+
+	/** Shows the present looks only, and frees those before. */
+	#showOnlyLooks(before: readonly Look[]): void {
+		// After the new ones are made: programs in use by both are not compiled again.
+		for (const { rival } of before) rival?.dispose();
+		for (const { rival } of this.#looks) rival?.apply();
+		for (const fur of [...(this.#body ? [this.#body] : []), ...[...this.#furs.values()].flat()])
+			fur.visible = this.#looks.some((look) => look.fur === fur);
+		// Both cast the same shadow.
+		this.#looks.forEach(({ fur }, i) => {
+			fur.shells.castShadow = i === 0;
+		});
+	}
+
+	/** Fur of a pelt on the body; the nth, as two looks may share a pelt. */
+	#furOf(body: Fur, pelt: Fur, tips: number, nth: number): Fur {
+		if (pelt === body && nth === 0) return body;
+		const furs = this.#furs.get(pelt) ?? [];
+		this.#furs.set(pelt, furs);
+		const index = pelt === body ? nth - 1 : nth;
+		let fur = furs[index];
+		if (!fur) {
+			fur = dressFur(body, pelt, { tips });
+			furs[index] = fur;
+		}
+		return fur;
+	}
+
+	/** Styles hairs and shells of all looks by the view. */
+	style(view: View): void {
+		for (const { fur, gloss, rival } of this.#looks) {
+			style(fur, gloss, view);
+			// Fins know their own light only, and would be a seam around fur lit by another method.
+			if (fur.fins) fur.fins.visible = (view.fins ?? true) && !rival;
+		}
+	}
+
+	/**
+	 * Shows the first fur of all with few shells and without fins, whose programs the first frame can spare; then by the
+	 * view of that time.
+	 *
+	 * @param drawn draws a frame
+	 */
+	async showFirst(store: Store, drawn: () => Promise<void>): Promise<void> {
+		const { shells, fins } = this.fur ?? {};
+		if (!shells || store.get().shells) return drawn();
+		shells.coarseness = FIRST_COARSENESS;
+		if (fins) fins.visible = false;
+		await drawn();
+		shells.coarseness = 1;
+		this.style(store.get());
+	}
+
+	/** Moves all looks on in this motion and weather, and redraws maps of methods. @param still swing without motion */
+	update(
+		seconds: number,
+		motion: FurMotion | undefined,
+		weather: FurWeather | undefined,
+		still: Texture | undefined,
+	): void {
+		const furs = [...this.#looks, ...this.#leavingLooks].map(({ fur }) => fur);
+		for (const fur of furs) {
+			fur.motion = motion;
+			fur.weather = weather;
+			if (!motion) fur.swing = still;
+		}
+		updateFurs(furs, seconds);
+	}
+
+	/** Fetches the states of the furs on show. */
+	async loadStates(): Promise<void> {
+		await Promise.all(this.#looks.map(({ fur }) => fur.loadStates()));
+	}
+
+	/** @param share of the picture's width where the second look begins; without a second one nothing is cut */
+	setSplit(share: number): void {
+		const [left, right] = this.#looks;
+		if (left) left.fur.clip = right && { from: 0, to: share };
+		if (right) right.fur.clip = { from: share, to: 1 };
+	}
+
+	/** Call while the context is lost: frees what no scene holds, maps of methods and unused materials. */
+	loseContext(): void {
+		this.finishFade();
+		for (const { fur, rival } of this.#looks) {
+			if (!rival) continue;
+			rival.dispose();
+			fur.material.dispose();
+			rival.apply();
+		}
+	}
+
+	/** Frees all looks; call before the body is disposed of. */
+	clear(): void {
+		this.finishFade();
+		for (const { rival } of this.#looks) rival?.dispose();
+		this.#looks = [];
+		for (const fur of [...this.#furs.values()].flat()) fur.dispose();
+		this.#furs.clear();
+		this.#body = undefined;
+	}
+}
+
+function style(fur: Fur, gloss = DEFAULT_LOOK.gloss, { shells, length = 1, density = 1, colour }: View): void {
+	const { material } = fur.shells;
+	material.gloss = gloss;
+	material.backlight = DEFAULT_LOOK.backlight;
+	material.density = density;
+	fur.length = length * fur.asset.length;
+	if (shells) fur.shells.shellCount = shells;
+	else fur.shells.automatic = true;
+	paint(fur, colour);
+}

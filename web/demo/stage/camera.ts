@@ -1,0 +1,123 @@
+/** Camera that orbits the model, and fits it into windows of any shape. */
+
+import { MathUtils, MOUSE, PerspectiveCamera, Spherical, TOUCH, Vector3 } from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import type { Triple } from '../state/view.ts';
+
+const FIELD_OF_VIEW = 26; // degrees, of the window's height
+/** Radius that fits into the window, in radii of the model: leaves room for fur and lamp. */
+const MARGIN = 1.2;
+const MIN_DISTANCE = 0.25; // in units of the distance at which the model fits
+const MAX_DISTANCE = 4;
+
+const offset = new Vector3();
+const spherical = new Spherical();
+
+export class OrbitCamera extends PerspectiveCamera {
+	readonly #controls: OrbitControls;
+	#fit = 1;
+	/** Radius of the framed sphere, and of one body in it. */
+	#radius = 1;
+	#bodyRadius = 1;
+	/** Asked orbit that the framed model does not allow; a crowd that comes later may. */
+	#asked: Triple | undefined;
+	/** True once a visitor or a link has chosen the orbit. */
+	chosen = false;
+
+	/** @param moved called whenever the camera has moved */
+	constructor(canvas: HTMLCanvasElement, still: boolean, moved: () => void) {
+		super(FIELD_OF_VIEW);
+		this.position.z = 1;
+		this.#controls = new OrbitControls(this, canvas);
+		this.#controls.enablePan = false;
+		this.#controls.enableDamping = !still;
+		this.#controls.dampingFactor = 0.12;
+		this.#controls.addEventListener('start', () => {
+			this.chosen = true;
+			this.#asked = undefined;
+		});
+		this.#controls.addEventListener('change', () => {
+			this.#fitDepth();
+			moved();
+		});
+		this.dragTurns = false;
+	}
+
+	/** True while the left button or one finger turns the camera, not the light. */
+	get dragTurns(): boolean {
+		return this.#controls.mouseButtons.LEFT === MOUSE.ROTATE;
+	}
+
+	set dragTurns(value: boolean) {
+		this.#controls.mouseButtons = {
+			LEFT: value ? MOUSE.ROTATE : null,
+			MIDDLE: MOUSE.DOLLY,
+			RIGHT: MOUSE.ROTATE,
+		};
+		this.#controls.touches = { ONE: value ? TOUCH.ROTATE : null, TWO: TOUCH.DOLLY_ROTATE };
+	}
+
+	/** Azimuth and elevation in degrees, distance in units of the one at which the model fits. */
+	get orbit(): Triple {
+		if (this.#asked) return this.#asked;
+		const { theta, phi, radius } = spherical.setFromVector3(offset.subVectors(this.position, this.#controls.target));
+		return [MathUtils.radToDeg(theta), 90 - MathUtils.radToDeg(phi), radius / this.#fit];
+	}
+
+	set orbit(orbit: Triple) {
+		// Set first: listeners to the move read it.
+		this.#asked = orbit;
+		this.#setOrbit(orbit);
+		const { minDistance, maxDistance } = this.#controls;
+		const distance = orbit[2] * this.#fit;
+		if (distance >= minDistance && distance <= maxDistance) this.#asked = undefined;
+	}
+
+	#setOrbit([azimuth, elevation, distance]: Triple): void {
+		const phi = MathUtils.degToRad(90 - elevation);
+		spherical.set(distance * this.#fit, phi, MathUtils.degToRad(azimuth)).makeSafe();
+		this.position.setFromSpherical(spherical).add(this.#controls.target);
+		this.#controls.update();
+	}
+
+	/**
+	 * Fits a model into a window, keeping angles and relative distance.
+	 *
+	 * @param closest radius of one body, where `radius` is that of a crowd
+	 */
+	frame(centre: Vector3, radius: number, width: number, height: number, closest = radius): void {
+		const orbit = this.orbit;
+		this.aspect = width / height;
+		const vertical = Math.tan(MathUtils.degToRad(FIELD_OF_VIEW / 2));
+		const narrow = Math.atan(vertical * Math.min(this.aspect, 1));
+		this.#fit = (MARGIN * radius) / Math.sin(narrow);
+		this.#radius = radius;
+		this.#bodyRadius = closest;
+		this.#controls.target.copy(centre);
+		this.#controls.minDistance = (this.#fit * MIN_DISTANCE * closest) / radius;
+		this.#controls.maxDistance = this.#fit * MAX_DISTANCE;
+		this.orbit = orbit;
+		this.#fitDepth();
+	}
+
+	/** Fits near and far plane to the scene, for the sake of depth precision. */
+	#fitDepth(): void {
+		const distance = this.position.distanceTo(this.#controls.target);
+		this.near = Math.max(distance - 4 * this.#radius, this.#bodyRadius / 50);
+		this.far = distance + 6 * this.#radius;
+		this.updateProjectionMatrix();
+	}
+
+	/** Turns by degrees and scales the distance by a factor, for the keyboard. */
+	turn(azimuth: number, elevation: number, factor: number): void {
+		this.#asked = undefined;
+		const [a, e, d] = this.orbit;
+		this.chosen = true;
+		this.#setOrbit([a + azimuth, MathUtils.clamp(e + elevation, -89.9, 89.9), d * factor]);
+	}
+
+	/** Glides to rest; called once per frame. @returns true if the camera has moved */
+	glide(): boolean {
+		return this.#controls.enableDamping && this.#controls.update();
+	}
+}

@@ -1,0 +1,117 @@
+/** Overlay of figures: frame rate, CPU and GPU time of frames, and what they draw. */
+
+import Stats from 'stats-gl';
+import type { Words } from '../words/index.ts';
+import type { Stage } from './stage.ts';
+import type { GpuTimer } from './timer.ts';
+
+const READING_INTERVAL = 250; // milliseconds between two readings
+
+/** A figure with its graph. */
+class Meter {
+	readonly #panel: InstanceType<typeof Stats.Panel>;
+	readonly #digits: number;
+	#longest = 0;
+
+	constructor(parent: HTMLElement, name: string, colour: string, dark: string, digits: number) {
+		this.#panel = new Stats.Panel(name, colour, dark);
+		this.#digits = digits;
+		parent.append(this.#panel.canvas as HTMLCanvasElement);
+	}
+
+	show(value: number): void {
+		if (!Number.isFinite(value)) return;
+		this.#longest = Math.max(this.#longest, value);
+		this.#panel.update(value, this.#longest, this.#digits);
+		this.#panel.updateGraph(value, this.#longest);
+	}
+}
+
+/** Panels of stats-gl with a loop of its own: that of stats-gl makes objects and a GPU query per frame. */
+export class Overlay {
+	/** Shells of the single body; undefined for a crowd, or no fur. */
+	shells: { shellCount: number } | undefined;
+	#textures = 0;
+	readonly #stage: Stage;
+	readonly #timer: GpuTimer;
+	readonly #words: Words;
+	readonly #speed = document.createElement('div');
+	readonly #counts = document.createElement('div');
+	readonly #fps: Meter;
+	readonly #cpu: Meter;
+	readonly #gpu: Meter | undefined;
+	readonly #whole: Intl.NumberFormat;
+	#read = Number.NEGATIVE_INFINITY;
+	#frames = 0;
+	#busy = 0;
+
+	/** @param timer shows its latest time; the picture reads it */
+	constructor(parent: HTMLElement, stage: Stage, timer: GpuTimer, words: Words, language: string) {
+		this.#stage = stage;
+		this.#timer = timer;
+		this.#words = words;
+		this.#whole = new Intl.NumberFormat(language, { maximumFractionDigits: 0 });
+		const graphs = document.createElement('div');
+		graphs.className = 'graphs';
+		graphs.setAttribute('aria-hidden', 'true');
+		this.#fps = new Meter(graphs, 'FPS', '#0ff', '#002', 0);
+		this.#cpu = new Meter(graphs, 'CPU', '#0f0', '#020', 1);
+		if (timer.works) this.#gpu = new Meter(graphs, 'GPU', '#ff0', '#220', 1);
+		parent.append(graphs, this.#speed, this.#counts);
+	}
+
+	/** Bytes of all textures of the scene. */
+	set textures(bytes: number) {
+		this.#textures = bytes;
+	}
+
+	/**
+	 * Draws one frame and measures it.
+	 *
+	 * @param render draws it
+	 * @param interval milliseconds since the one before; NaN after a rest
+	 */
+	frame(render: () => void, interval: number): void {
+		const start = performance.now();
+		if (Number.isNaN(interval)) {
+			this.#read = start;
+			this.#frames = 0;
+			this.#busy = 0;
+			this.#speed.textContent = '…';
+		}
+		render();
+		const now = performance.now();
+		this.#busy += now - start;
+		this.#frames++;
+		if (now < this.#read + READING_INTERVAL) return;
+		const { perSecond, milliseconds } = this.#words;
+		const time = (now - this.#read) / this.#frames;
+		this.#fps.show(1000 / time);
+		this.#cpu.show(this.#busy / this.#frames);
+		this.#gpu?.show(this.#timer.latest);
+		this.#read = now;
+		this.#frames = 0;
+		this.#busy = 0;
+		this.#speed.textContent = `${perSecond(this.#whole.format(1000 / time))} · ${milliseconds(time.toFixed(1))}`;
+		this.#count();
+	}
+
+	/** Shows that the picture is at rest. */
+	rest(): void {
+		this.#speed.textContent = this.#words.atRest;
+		this.#count();
+	}
+
+	#count(): void {
+		const { drawCalls, triangles, shellCount, textures, resolution } = this.#words;
+		const { calls, triangles: drawn } = this.#stage.renderer.info.render;
+		const { shells } = this;
+		this.#counts.textContent = [
+			drawCalls(this.#whole.format(calls)),
+			triangles(this.#whole.format(drawn)),
+			...(shells === undefined ? [] : [shellCount(this.#whole.format(Math.ceil(shells.shellCount)))]),
+			textures((this.#textures / 2 ** 20).toFixed(1)),
+			resolution(Math.round(this.#stage.scale * 100)),
+		].join(' · ');
+	}
+}

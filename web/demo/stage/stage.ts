@@ -1,0 +1,265 @@
+/** Stage: renderer, lights, backdrop and the model on show. */
+
+import {
+	Color,
+	type DataTexture,
+	DirectionalLight,
+	Group,
+	HalfFloatType,
+	HemisphereLight,
+	Material,
+	Mesh,
+	NeutralToneMapping,
+	Object3D,
+	type PerspectiveCamera,
+	Scene,
+	Sphere,
+	UnsignedByteType,
+	Vector3,
+	WebGLRenderer,
+	WebGLRenderTarget,
+} from 'three';
+import { type Fur, FurEdgeEffect, type FurLimits, fitFurShadow, furLimits } from '../../fur/index.ts';
+import { luminance } from '../../fur/reference.ts';
+import { backdrop, CastShadow, ContactShadow } from '../../page/backdrop.ts';
+import { disposeAll } from '../../page/dispose.ts';
+import { Crowd } from './crowd.ts';
+import type { Environment } from './environment.ts';
+import { Lamps } from './lamps.ts';
+import type { Model } from './model.ts';
+import { heightOf, stand } from './stand.ts';
+
+const MAX_PIXEL_RATIO = 2;
+
+/** Irradiance of the key light: 2.8π gives a white matt surface that faces it a brightness of 2.8. */
+const KEY_POWER = 2.8 * Math.PI;
+const KEY_COLOUR = new Color(1, 0.95, 0.87).multiplyScalar(KEY_POWER);
+
+const irradiance = new Vector3();
+const sky = new Color();
+
+export class Stage {
+	readonly renderer: WebGLRenderer;
+	/** Target in the scene's own format, for materials that are compiled beside it. */
+	readonly sample: WebGLRenderTarget;
+	readonly scene = new Scene();
+	readonly key = new DirectionalLight();
+	readonly sky = new HemisphereLight(0xffffff, 0xffffff, 0.7 * Math.PI);
+	readonly #lamps = new Lamps(KEY_POWER);
+	/** Centre and radius of what is on show. */
+	readonly centre = new Vector3();
+	radius = 1;
+	/** Radius of one body, in a crowd too. */
+	bodyRadius = 1;
+	model: Model | undefined;
+	#crowd: Crowd | undefined;
+	readonly #edges = new FurEdgeEffect();
+	/** True where the renderer can smooth edges. */
+	readonly #smooth: boolean;
+	readonly #shadow = new ContactShadow();
+	readonly #cast = new CastShadow();
+	readonly #backdrop: DataTexture;
+	/** Lights of the environment. */
+	readonly #environmentLights = new Group();
+	#environment: Environment | undefined;
+	/** Offset of the body from its place, world. */
+	readonly #offset = new Vector3();
+	readonly #toLamp = new Vector3();
+	/** Size of the window, CSS pixels. */
+	#width = 1;
+	#height = 1;
+	#scale = 1;
+
+	constructor(canvas: HTMLCanvasElement) {
+		const attributes: WebGLContextAttributes = { antialias: false, powerPreference: 'high-performance' };
+		// The renderer needs its output type beforehand; the canvas gives it this same context.
+		const gl = canvas.getContext('webgl2', attributes) as WebGL2RenderingContext | null;
+		const half = gl?.getExtension('EXT_color_buffer_float') ?? gl?.getExtension('EXT_color_buffer_half_float');
+		const outputBufferType = half ? HalfFloatType : UnsignedByteType;
+		this.renderer = new WebGLRenderer({ canvas, outputBufferType, ...attributes });
+		// Effects need a target that is tone mapped last.
+		this.#smooth = Boolean(half);
+		if (half) this.renderer.setEffects([this.#edges]);
+		this.sample = new WebGLRenderTarget(1, 1, { type: outputBufferType });
+		this.renderer.toneMapping = NeutralToneMapping;
+		this.renderer.shadowMap.enabled = true;
+		// A frame is several renders (scene, output): counts add up over them.
+		this.renderer.info.autoReset = false;
+		this.sky.color.setRGB(0.55, 0.65, 0.8);
+		this.sky.groundColor.setRGB(0.28, 0.24, 0.2);
+		this.#backdrop = backdrop(Boolean(half));
+		this.#shadow.visible = this.#cast.visible = false;
+		this.scene.add(this.key, this.key.target, this.#lamps, this.sky, this.#environmentLights, this.#shadow, this.#cast);
+		this.setEnvironment(undefined);
+	}
+
+	/** Shows a model instead of the one before, which is disposed of; undefined shows none. */
+	setModel(model: Model | undefined): void {
+		this.#clearCrowd();
+		if (this.model) {
+			this.scene.remove(this.model.object);
+			this.model.dispose();
+		}
+		this.model = model;
+		this.#offset.setScalar(0);
+		this.#shadow.visible = this.#cast.visible = model !== undefined;
+		if (model) this.scene.add(model.object);
+	}
+
+	#clearCrowd(): void {
+		this.#crowd?.dispose();
+		this.#crowd = undefined;
+	}
+
+	/**
+	 * Shows that many bodies of the model, and fits light and camera to all of them.
+	 *
+	 * @param fur of the bodies; a model without fur stands alone
+	 */
+	setCrowd(count: number, fur: Fur | undefined): void {
+		const { model } = this;
+		if (!model) return;
+		if (fur) this.#smoothOutlines(model.object, fur);
+		const many = fur !== undefined && count > 1;
+		if (!many || this.#crowd?.fur !== fur) this.#clearCrowd();
+		if (many && !this.#crowd) {
+			this.#crowd = new Crowd(model, fur);
+			this.#crowd.pictureHeight = this.renderer.domElement.height;
+			this.scene.add(this.#crowd);
+		}
+		const crowd = this.#crowd;
+		if (crowd) crowd.count = count;
+		model.object.visible = this.#shadow.visible = this.#cast.visible = !many;
+		this.bodyRadius = model.radius;
+		this.radius = crowd?.radius ?? model.radius;
+		model.box.getCenter(this.centre);
+		const length = fur?.shells.furLength ?? 0.05 * model.radius;
+		this.#shadow.fit(model.box, fur ? length : 0);
+		this.#cast.fit(model.box, fur ? length : 0);
+		this.#turnLight();
+		fitFurShadow(this.key, new Sphere(this.centre, (crowd?.reach ?? this.radius) + length), length);
+	}
+
+	/** Smooths the edges of eyes, noses and the like between hairs. */
+	#smoothOutlines(object: Object3D, fur: Fur): void {
+		if (!this.#smooth) return;
+		for (const child of object.children) {
+			if (child === fur.skin || child === fur.shells.parent || !(child instanceof Mesh)) continue;
+			if (child.material instanceof Material && !child.material.transparent) this.#edges.mark(child.material);
+		}
+	}
+
+	/**
+	 * Moves the single body about its foot, with its shadow and the light's view of it.
+	 *
+	 * @param offset from its place, in radii of the body
+	 * @param yaw turn about the upright axis, radians
+	 */
+	moveBody(offset: Vector3, yaw: number): void {
+		const { model } = this;
+		if (!model) return;
+		this.#offset.copy(offset).multiplyScalar(model.radius);
+		stand(model, this.#offset, yaw);
+		this.#shadow.follow(this.#offset, yaw, heightOf(model));
+		this.#turnLight();
+	}
+
+	/** Keeps the lamp's direction while its target moves. */
+	#turnLight(): void {
+		this.setLight(this.#toLamp.subVectors(this.key.position, this.key.target.position).normalize());
+	}
+
+	/** @param environment replaces sky, lamp colour and backdrop; undefined: the page's own */
+	setEnvironment(environment: Environment | undefined): void {
+		this.#environment?.background.dispose();
+		this.#environment = environment;
+		this.sky.visible = !environment;
+		this.key.color.copy(environment?.key.colour ?? KEY_COLOUR);
+		this.scene.background = environment?.background ?? this.#backdrop;
+		this.#environmentLights.clear();
+		if (environment) this.#environmentLights.add(environment.probe);
+		for (const { direction, colour } of environment?.others ?? []) {
+			const lamp = new DirectionalLight(colour);
+			lamp.position.copy(direction);
+			this.#environmentLights.add(lamp);
+		}
+		this.#turnLight();
+	}
+
+	/** @param direction unit vector from the model to the lamp, world axes */
+	setLight(direction: Vector3): void {
+		const target = this.key.target.position.copy(this.centre).add(this.#offset);
+		this.key.position.copy(target).addScaledVector(direction, 4 * this.radius);
+		this.#lamps.turn(direction);
+		this.#cast.follow(target, this.radius, direction, this.#shareOnGround(direction.y));
+	}
+
+	/** Share of the dragged lamp in the light on the ground. @param sine of its elevation */
+	#shareOnGround(sine: number): number {
+		const lamp = luminance(this.key.color) * this.key.intensity * Math.max(sine, 0);
+		const { probe } = this.#environment ?? {};
+		if (probe) sky.setRGB(...probe.sh.getIrradianceAt(Object3D.DEFAULT_UP, irradiance).toArray());
+		else sky.copy(this.sky.color).multiplyScalar(this.sky.intensity);
+		return lamp / Math.max(lamp + luminance(sky), 1e-6);
+	}
+
+	/** Number of lamps, 1 to 8, the dragged one included. */
+	set lamps(count: number) {
+		this.#lamps.lit = count;
+		this.key.intensity = this.#lamps.share;
+	}
+
+	/** Factor of the picture's light, before tone mapping. */
+	set exposure(factor: number) {
+		this.renderer.toneMappingExposure = factor;
+	}
+
+	get gl(): WebGL2RenderingContext {
+		return this.renderer.getContext() as WebGL2RenderingContext;
+	}
+
+	get limits(): FurLimits {
+		return furLimits(this.gl);
+	}
+
+	/** @param width of the window in CSS pixels */
+	resize(width: number, height: number): void {
+		this.#width = width;
+		this.#height = height;
+		this.#setSize();
+	}
+
+	/** Drawn share of the resolution, per side. */
+	get scale(): number {
+		return this.#scale;
+	}
+
+	set scale(scale: number) {
+		if (scale === this.#scale) return;
+		this.#scale = scale;
+		this.#setSize();
+	}
+
+	#setSize(): void {
+		const ratio = Math.min(devicePixelRatio, MAX_PIXEL_RATIO) * this.#scale;
+		// At least one pixel of the narrowest window.
+		this.renderer.setPixelRatio(Math.max(ratio, 1 / Math.min(this.#width, this.#height)));
+		this.renderer.setSize(this.#width, this.#height, false);
+		if (this.#crowd) this.#crowd.pictureHeight = this.renderer.domElement.height;
+	}
+
+	/** Call while the context is lost: three would ask the next one to delete objects of this one. */
+	loseContext(): void {
+		disposeAll(this.scene);
+		this.key.shadow.dispose();
+		// A change of size frees the targets of the output.
+		this.renderer.setSize(1, 1, false);
+		this.#setSize();
+	}
+
+	render(camera: PerspectiveCamera): void {
+		if (this.gl.isContextLost()) return;
+		this.renderer.info.reset();
+		this.renderer.render(this.scene, camera);
+	}
+}

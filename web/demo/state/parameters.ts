@@ -1,0 +1,258 @@
+/** The table of parameters: a row each, which drives the address, the panel and the table in the docs. */
+
+import {
+	type Abilities,
+	type Control,
+	choice,
+	menu,
+	type NumberName,
+	type Slider,
+	slider,
+	sliderOf,
+	swatch,
+	toggle,
+	toggleOf,
+} from './controls.ts';
+import * as values from './values.ts';
+import {
+	ENVIRONMENTS,
+	type EnvironmentName,
+	isRival,
+	LANGUAGE_NAMES,
+	MAX_CROWD,
+	MAX_LAMPS,
+	METHODS,
+	type Method,
+	PLANES,
+	type View,
+} from './view.ts';
+
+/** Part of the page that follows a change: model, environment, fur, or the style of what is on show. */
+export type Part = 'model' | 'environment' | 'fur' | 'style';
+
+export interface Parameter<Type> {
+	value: values.Value<Type>;
+	/** For the docs: a value, and what it means. */
+	doc: readonly [example: string, meaning: string];
+	/** without it: the style */
+	part?: Part;
+	controls?: readonly Control[];
+}
+
+type Table = { readonly [Name in keyof View]-?: Parameter<NonNullable<View[Name]>> };
+
+/** Shells that the slider reaches; the address may ask for more. */
+const MAX_SLIDER_SHELLS = 128;
+/** Wind blows to the right until a direction is chosen, degrees. */
+const RIGHT = 90;
+/** Share of the width at which a second method begins at first. */
+const MIDDLE = 0.5;
+
+const hasFur = ({ fur }: Abilities) => fur;
+const isAlone = ({ fur, alone }: Abilities) => fur && alone;
+const isAllowed = (method: string, { eigen, alone }: Abilities) =>
+	method === 'none' || (method === 'eigen' ? eigen : alone || !isRival(method as Method));
+const windOf = (strength: number, direction: number): Partial<View> => ({
+	wind: strength === 0 && direction === RIGHT ? undefined : [strength, direction],
+});
+
+interface Ranged extends Pick<Parameter<number>, 'doc' | 'part'>, Pick<Slider, 'folder' | 'label' | 'range' | 'step'> {
+	initial: number;
+	enabled?: Slider['enabled'];
+}
+
+/** A number with a slider over its whole range; whole numbers where the step is 1. */
+function ranged(name: NumberName, { doc, part, initial, ...control }: Ranged): Parameter<number> {
+	const value = control.step === 1 ? values.whole(control.range[1]) : values.number(...control.range);
+	return { value, doc, part, controls: [sliderOf(name, initial, control)] };
+}
+
+/** In the order in which an address has them; those of a folder of the panel in its order. */
+export const parameters: Table = {
+	model: {
+		value: values.model,
+		doc: ['bunny', 'Model of the menu, or path of a baked folder'],
+		part: 'model',
+		controls: [
+			menu('body', 'model', {
+				get: (_, shown) => shown.model,
+				set: (name) => ({ model: name }),
+			}),
+		],
+	},
+	preset: {
+		value: values.preset,
+		doc: ['fox', 'Pelt of that preset in the place of the model’s own'],
+		part: 'fur',
+		controls: [
+			menu('body', 'preset', {
+				enabled: hasFur,
+				get: (view) => view.preset ?? '',
+				set: (name) => ({ preset: name || undefined }),
+			}),
+		],
+	},
+	method: {
+		value: values.choice(METHODS),
+		doc: ['ptm', 'Lighting method of the hairs'],
+		part: 'fur',
+		controls: [
+			choice('light', 'method', {
+				enabled: hasFur,
+				names: METHODS,
+				titles: 'methods',
+				allowed: isAllowed,
+				get: (view) => view.method ?? 'ptm',
+				set: (method) => ({ method: method === 'ptm' ? undefined : (method as Method) }),
+			}),
+		],
+	},
+	split: {
+		value: values.split,
+		doc: ['lengyel,0.5', 'Another method right of that share of the window’s width'],
+		part: 'fur',
+		controls: [
+			choice('light', 'split', {
+				enabled: isAlone,
+				names: ['none', ...METHODS],
+				titles: 'methods',
+				allowed: isAllowed,
+				get: (view) => view.split?.method ?? 'none',
+				set: (method, { split }) => ({
+					split: method === 'none' ? undefined : { method: method as Method, share: split?.share ?? MIDDLE },
+				}),
+			}),
+		],
+	},
+	light: {
+		value: values.light,
+		doc: ['-0.9,0.45,0.2', 'Direction to the lamp: x to the right, y up, z towards the first camera; any length'],
+	},
+	lights: ranged('lights', {
+		...{ folder: 'light', label: 'lights', range: [1, MAX_LAMPS], step: 1, initial: 1 },
+		doc: ['3', 'Lamps; the others stand around the first'],
+	}),
+	camera: {
+		value: values.camera,
+		doc: ['-20,10,0.9', 'Azimuth and elevation in degrees; distance, 1 where the model fits a window of any shape'],
+	},
+	shells: {
+		value: values.whole(256),
+		doc: ['48', 'Number of drawn shells; without it as many as the picture needs'],
+		controls: [
+			toggle('hair', 'automatic', {
+				enabled: isAlone,
+				get: (view) => view.shells === undefined,
+				set: (automatic, _, shown) => ({ shells: automatic ? undefined : shown.shells }),
+			}),
+			slider('hair', 'shells', {
+				range: [1, MAX_SLIDER_SHELLS],
+				step: 1,
+				get: (view, shown) => view.shells ?? shown.shells,
+				set: (shells) => ({ shells }),
+				enabled: (able, { shells }) => isAlone(able) && shells !== undefined,
+				// The automatic number changes with every zoom: the overlay shows it.
+				visible: (view) => view.shells !== undefined,
+			}),
+		],
+	},
+	fins: {
+		value: values.flag,
+		doc: ['0', 'Fins at the outline, or none'],
+		controls: [toggleOf('fins', true, { folder: 'hair', label: 'fins', enabled: ({ fins }) => fins })],
+	},
+	length: ranged('length', {
+		...{ folder: 'hair', label: 'length', range: [0.2, 1.5], step: 0.01, initial: 1, enabled: hasFur },
+		doc: ['0.4', 'Length of the hairs over what was baked; below 1 they are cut'],
+	}),
+	density: ranged('density', {
+		...{ folder: 'hair', label: 'density', range: [0.2, 2], step: 0.01, initial: 1, enabled: hasFur },
+		doc: ['0.8', 'Density of the hairs over what was baked'],
+	}),
+	colour: {
+		value: values.colours,
+		doc: ['402010,e8b98a', 'Colours of root and tip as they are seen, sRGB'],
+		controls: [
+			swatch('hair', 'root', {
+				enabled: ({ root }) => root,
+				get: ({ colour }, shown) => `#${(colour ?? shown.colour)[0]}`,
+				set: (root, { colour }, shown) => ({ colour: [root.slice(1), (colour ?? shown.colour)[1]] }),
+			}),
+			swatch('hair', 'tip', {
+				enabled: hasFur,
+				get: ({ colour }, shown) => `#${(colour ?? shown.colour)[1]}`,
+				set: (tip, { colour }, shown) => ({ colour: [(colour ?? shown.colour)[0], tip.slice(1)] }),
+			}),
+		],
+	},
+	planes: {
+		value: values.choice(PLANES, 'planes'),
+		doc: ['64', 'Texels of the fur: as the model was baked, its preset’s own, or these where the device is up to it'],
+	},
+	env: {
+		value: values.choice(['none', ...ENVIRONMENTS]),
+		doc: ['sunset', 'Environment whose light falls on the model; none is the page’s own sky'],
+		part: 'environment',
+		controls: [
+			choice('light', 'environment', {
+				names: ['none', ...ENVIRONMENTS],
+				titles: 'environments',
+				get: (_, shown) => shown.env,
+				set: (name) => ({ env: name === 'none' ? undefined : (name as EnvironmentName) }),
+			}),
+		],
+	},
+	exposure: ranged('exposure', {
+		...{ folder: 'light', label: 'exposure', range: [0.25, 4], step: 0.01, initial: 1 },
+		doc: ['1.2', 'Exposure of the picture, a factor of its light'],
+	}),
+	crowd: ranged('crowd', {
+		...{ folder: 'body', label: 'crowd', range: [1, MAX_CROWD], step: 1, initial: 1, enabled: hasFur },
+		doc: ['100', 'Bodies of the model, on a meadow'],
+		part: 'fur',
+	}),
+	wind: {
+		value: values.wind,
+		doc: ['0.5,90', 'Strength of the wind, 1 a storm; degrees that it blows to, 90 to the right'],
+		controls: [
+			slider('weather', 'wind', {
+				range: [0, 1],
+				step: 0.01,
+				enabled: hasFur,
+				get: ({ wind }) => wind?.[0] ?? 0,
+				set: (strength, { wind }) => windOf(strength, wind?.[1] ?? RIGHT),
+			}),
+			slider('weather', 'direction', {
+				range: [0, 360],
+				step: 1,
+				enabled: hasFur,
+				get: ({ wind }) => wind?.[1] ?? RIGHT,
+				set: (direction, { wind }) => windOf(wind?.[0] ?? 0, direction),
+			}),
+		],
+	},
+	wet: ranged('wet', {
+		...{ folder: 'weather', label: 'wetness', range: [0, 1], step: 0.01, initial: 0, enabled: ({ wet }) => wet },
+		doc: ['0.5', 'Wetness of all of the fur'],
+	}),
+	dirt: ranged('dirt', {
+		...{ folder: 'weather', label: 'dirt', range: [0, 1], step: 0.01, initial: 0, enabled: ({ dirt }) => dirt },
+		doc: ['0.3', 'Dirt on all of the fur'],
+	}),
+	turn: {
+		value: values.flag,
+		doc: ['1', 'The body turns as on a turntable'],
+		controls: [
+			toggleOf('turn', false, {
+				...{ folder: 'weather', label: 'turntable' },
+				enabled: ({ model, alone, calm }) => model && alone && !calm,
+			}),
+		],
+	},
+	still: { value: values.flag, doc: ['1', 'Nothing moves by itself, and wind bends the fur without gusts'] },
+	ui: { value: values.flag, doc: ['0', 'The picture alone'] },
+	lang: { value: values.choice(LANGUAGE_NAMES, 'lang'), doc: ['zh', 'Language; without it what the browser prefers'] },
+};
+
+/** Names of all parameters, in the table's order. */
+export const NAMES = Object.keys(parameters) as (keyof View)[];

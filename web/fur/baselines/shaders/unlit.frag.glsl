@@ -1,0 +1,14 @@
+// Colour without light: the cost of shells alone.
+
+uniform float brightness; // radiance of a white hair
+
+in vec3 vAt;
+
+out vec4 fragColour;
+
+void main() {
+	vec2 hair = furCoverage(vAt);
+	vec3 colour = hairColour(vAt, hair.y);
+	if (hair.x < alphaCut) discard;
+	fragColour = furOutput(colour * (brightness * 4.0 * PI), shellOpacity(hair.x));
+}

@@ -1,0 +1,63 @@
+import { BufferGeometry } from 'three';
+import { Fur } from './Fur.ts';
+import type { FurAsset } from './format.ts';
+
+/** Another geometry of the same vertices. */
+function shareGeometry(source: BufferGeometry): BufferGeometry {
+	const into = new BufferGeometry();
+	into.setIndex(source.index);
+	for (const [name, attribute] of Object.entries(source.attributes)) into.setAttribute(name, attribute);
+	into.userData = source.userData;
+	return into;
+}
+
+/** Detach shared attributes before disposing of such a geometry, which would delete them on the GPU. */
+function unshareGeometry(geometry: BufferGeometry): void {
+	geometry.setIndex(null);
+	for (const name of Object.keys(geometry.attributes)) geometry.deleteAttribute(name);
+}
+
+/** Options of `dressFur`. */
+export interface FurDressOptions {
+	/** Strength of the body's second tip colour (on its belly, in patches), 0..1; 0 suits a pelt of one colour. */
+	tips?: number;
+}
+
+/**
+ * A body in the fur of another asset: its meshes with the other's planes, basis, colours and light curves. Length and tile
+ * size keep their ratio to the body's largest side.
+ *
+ *     const fox = dressFur(bunny, pelt); // both loaded: `gltf.userData.fur`
+ *     bunny.visible = false;
+ *
+ * The result is visible, stands beside the body's own fur and copies its present settings (gloss and the like). It uses the
+ * body's geometry and the pelt's textures without owning them: body and pelt have to outlive it. The pelt's model needs no
+ * scene. Comb and length map are the body's. The model's own texture coordinates (`--uv own`) may show a seam where they
+ * close; lapped ones don't.
+ */
+export function dressFur(body: Fur, pelt: Fur, { tips = 1 }: FurDressOptions = {}): Fur {
+	const { ground } = body;
+	const length = (pelt.asset.length * ground.skin.extent) / pelt.ground.skin.extent;
+	const tile = length / pelt.asset.height;
+	const { skin, shells, fins } = body.asset;
+	const { fins: _, ...own } = pelt.asset;
+	const tiles = ((body.asset.tiles ?? 1) * (body.asset.length / body.asset.height)) / tile;
+	const asset: FurAsset = { ...own, skin, shells, tiles, length, ...(fins !== undefined && { fins }) };
+	const quads = body.fins && shareGeometry(body.fins.geometry);
+	const dressed = new Fur(
+		asset,
+		pelt.pelt,
+		{ ...ground, surface: body.shells.geometry, quads, quadPlacement: undefined },
+		() => {
+			unshareGeometry(dressed.shells.geometry);
+			if (quads) unshareGeometry(quads);
+		},
+	);
+	dressed.swing = body.swing;
+	dressed.motion = body.motion;
+	dressed.weather = body.weather;
+	const { gloss, sharpness, backlight, environment, lampsPerFragment, multisampled } = body.material;
+	const look = { gloss, sharpness, backlight, environment, lampsPerFragment, multisampled };
+	Object.assign(dressed.material, look, { tipShare: tips });
+	return dressed;
+}

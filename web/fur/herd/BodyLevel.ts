@@ -1,0 +1,222 @@
+/** Draws of many bodies of a fur: shells and fins of one level of detail, and the hull that casts their shadow. */
+
+import {
+	type BufferGeometry,
+	type Camera,
+	Color,
+	FrontSide,
+	InstancedBufferAttribute,
+	InstancedBufferGeometry,
+	type IUniform,
+	Material,
+	Mesh,
+	type Scene,
+	ShaderMaterial,
+	type Sphere,
+	UniformsLib,
+	UniformsUtils,
+	type WebGLRenderer,
+} from 'three';
+import type { Fur } from '../Fur.ts';
+import { beginClip, endClip, type FurColumns } from '../shells/clip.ts';
+import { followHue } from '../shells/hue.ts';
+import { Places } from './Places.ts';
+
+/** Copy of a fur's material for many bodies; shares all uniforms but the lights and its own. */
+export class BodyMaterial extends ShaderMaterial {
+	readonly #source: ShaderMaterial;
+	#version = -1;
+
+	constructor(source: ShaderMaterial, own: Record<string, IUniform> = {}) {
+		super();
+		this.#source = source;
+		this.vertexShader = source.vertexShader;
+		this.fragmentShader = source.fragmentShader;
+		this.glslVersion = source.glslVersion;
+		this.lights = source.lights;
+		this.defaultAttributeValues = source.defaultAttributeValues;
+		// The renderer writes a scene's lights into them, and the fur itself may be in another scene.
+		const lights = source.lights ? UniformsUtils.clone(UniformsLib.lights) : {};
+		const hue = source.uniforms.lampHue && { lampHue: { value: new Color(1, 1, 1) } };
+		this.uniforms = { ...source.uniforms, ...lights, ...hue, ...own };
+		this.follow();
+	}
+
+	/** Use the lamps of this scene, not of the fur's. */
+	override onBeforeRender(_renderer: WebGLRenderer, scene: Scene, _camera: Camera): void {
+		followHue(this, scene);
+	}
+
+	/** Copy the source's compiled parts and blending. */
+	follow(): void {
+		if (this.#version === this.#source.version) return;
+		this.#version = this.#source.version;
+		Material.prototype.copy.call(this, this.#source);
+		const { ONE_HUE } = this.defines;
+		const { BODY_LIGHT: _, ...parts } = this.#source.defines;
+		this.defines = { ...parts, BODIES: '' };
+		if (ONE_HUE === undefined) delete this.defines.ONE_HUE;
+		else this.defines.ONE_HUE = ONE_HUE;
+		this.needsUpdate = true;
+	}
+}
+
+/** Instances of bodies, `each` per body, of a geometry that shares the vertices of another. */
+class Draw extends Mesh<InstancedBufferGeometry, ShaderMaterial> {
+	/** Columns of the picture, as in `Fur`. */
+	clip: FurColumns | undefined;
+	readonly #places: Places;
+	readonly #source: BufferGeometry;
+	readonly #each: number;
+
+	constructor(source: BufferGeometry, material: ShaderMaterial, capacity: number, each: number, bounds: Sphere) {
+		const geometry = new InstancedBufferGeometry();
+		geometry.setIndex(source.index);
+		for (const [name, attribute] of Object.entries(source.attributes)) geometry.setAttribute(name, attribute);
+		geometry.boundingSphere = bounds;
+		super(geometry, material);
+		this.#source = source;
+		this.#places = new Places(capacity, each);
+		this.#each = each;
+		geometry.setAttribute('body', this.#places);
+		this.frustumCulled = false;
+	}
+
+	/** Draws `count` bodies from `drawn[first]` on. */
+	put(drawn: Uint32Array, first: number, count: number, matrices: Float32Array, moved: boolean): void {
+		// Attribute that the vertices may have received since.
+		const follicle = this.#source.getAttribute('follicle');
+		if (follicle && !this.geometry.hasAttribute('follicle')) this.geometry.setAttribute('follicle', follicle);
+		this.visible = count > 0;
+		this.#places.put(drawn, first, 1, count, matrices, moved);
+		this.geometry.instanceCount = count * this.#each;
+	}
+
+	override onBeforeRender(renderer: WebGLRenderer): void {
+		beginClip(renderer, this.clip);
+	}
+
+	override onAfterRender(renderer: WebGLRenderer): void {
+		endClip(renderer, this.clip);
+	}
+
+	/** Frees all but attributes shared with the fur's own geometry. */
+	override dispose(): void {
+		super.dispose();
+		this.removeFromParent();
+		this.geometry.setIndex(null);
+		for (const name of Object.keys(this.#source.attributes)) this.geometry.deleteAttribute(name);
+		this.geometry.dispose();
+	}
+}
+
+/** One level of detail: all fins in one draw, all shells in another. */
+export class BodyLevel {
+	/** Body-major: all shells of the farthest body, the innermost first, then those of the next. */
+	readonly shells: Draw;
+	readonly fins: Draw | undefined;
+	readonly #fur: Fur;
+	readonly #material: BodyMaterial;
+	/** Shells and alpha cut of each body, in the order of the draw. */
+	readonly #details: InstancedBufferAttribute;
+
+	/**
+	 * @param most largest number of shells of a body
+	 * @param capacity largest number of bodies
+	 * @param finMaterial the caller's
+	 * @param bounds of all bodies
+	 */
+	constructor(fur: Fur, most: number, capacity: number, finMaterial: BodyMaterial | undefined, bounds: Sphere) {
+		const { shells, fins } = fur;
+		this.#fur = fur;
+		// Equally distant objects are drawn by age: create fins before their shells.
+		this.fins = fins && finMaterial && new Draw(fins.geometry, finMaterial, capacity, 1, bounds);
+		this.#material = new BodyMaterial(shells.material, { shellCount: { value: most } });
+		this.shells = new Draw(shells.geometry, this.#material, capacity, most, bounds);
+		this.#details = new InstancedBufferAttribute(new Float32Array(2 * capacity), 2, false, most);
+		this.shells.geometry.setAttribute('bodyDetail', this.#details);
+		this.shells.name = `fur, up to ${most} shells`;
+		if (this.fins) this.fins.name = `fins of fur, up to ${most} shells`;
+	}
+
+	/**
+	 * Draws `count` bodies from `drawn[first]` on.
+	 *
+	 * @param matrices matrices of all bodies
+	 * @param details shells and alpha cut of all bodies
+	 * @param moved whether the matrices have changed
+	 */
+	put(
+		drawn: Uint32Array,
+		first: number,
+		count: number,
+		matrices: Float32Array,
+		details: Float32Array,
+		moved: boolean,
+	): void {
+		const fur = this.#fur;
+		this.#material.follow();
+		this.shells.receiveShadow = fur.shells.receiveShadow;
+		this.shells.clip = fur.clip;
+		this.shells.put(drawn, first, count, matrices, moved);
+		const { array } = this.#details;
+		for (let i = 0; i < 2 * count; i++) {
+			const detail = details[2 * (drawn[first + (i >> 1)] as number) + (i & 1)] as number;
+			if (array[i] === detail) continue;
+			array[i] = detail;
+			this.#details.needsUpdate = true;
+		}
+		if (!this.fins || !fur.fins) return;
+		this.fins.receiveShadow = fur.fins.receiveShadow;
+		this.fins.clip = fur.clip;
+		this.fins.put(drawn, first, fur.fins.visible ? count : 0, matrices, moved);
+	}
+
+	/** Frees everything but the fur's. */
+	dispose(): void {
+		this.shells.dispose();
+		this.fins?.dispose();
+		this.#material.dispose();
+	}
+}
+
+/** Shadow caster of all bodies, visible or not; draws nothing into the picture. */
+export class BodyHull extends Draw {
+	override readonly customDepthMaterial: BodyMaterial;
+	readonly #fur: Fur;
+	readonly #all: Uint32Array;
+	#count = 0;
+
+	/** @param material any in use already; nothing is drawn with it */
+	constructor(fur: Fur, material: ShaderMaterial, capacity: number, bounds: Sphere) {
+		super(fur.shells.geometry, material, capacity, 1, bounds);
+		this.#fur = fur;
+		this.customDepthMaterial = new BodyMaterial(fur.shells.customDepthMaterial);
+		this.#all = Uint32Array.from({ length: capacity }, (_, i) => i);
+		this.name = 'hull';
+	}
+
+	putAll(count: number, matrices: Float32Array, moved: boolean): void {
+		const { castShadow, customDepthMaterial } = this.#fur.shells;
+		customDepthMaterial.follow();
+		this.customDepthMaterial.follow();
+		this.castShadow = castShadow;
+		this.put(this.#all, 0, count, matrices, moved);
+		this.#count = count;
+		this.geometry.instanceCount = 0;
+	}
+
+	override onBeforeShadow(): void {
+		this.customDepthMaterial.side = FrontSide;
+		this.geometry.instanceCount = this.#count;
+	}
+
+	override onAfterShadow(): void {
+		this.geometry.instanceCount = 0;
+	}
+
+	override dispose(): void {
+		super.dispose();
+		this.customDepthMaterial.dispose();
+	}
+}

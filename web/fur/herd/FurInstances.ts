@@ -1,0 +1,299 @@
+import {
+	type Camera,
+	Frustum,
+	InstancedMesh,
+	Matrix4,
+	type Mesh,
+	Object3D,
+	type OrthographicCamera,
+	Sphere,
+	Vector4,
+	type WebGLRenderer,
+} from 'three';
+import type { Fur } from '../Fur.ts';
+import { FurFins } from '../shells/FurFins.ts';
+import { FurShells } from '../shells/FurShells.ts';
+import { cutFor, pixelsPerUnit, shellsFor } from '../shells/lod.ts';
+import { BodyHull, BodyLevel, BodyMaterial } from './BodyLevel.ts';
+import { cullBodies, cutLevels, levelOf, measurePowers, sortFarFirst } from './bodies.ts';
+import { Places } from './Places.ts';
+import { gatherPieces, type Piece, placement } from './pieces.ts';
+
+/** Default number of shells per body of each level. */
+const LEVELS = [96, 48, 24, 12, 8] as const;
+
+const clip = new Matrix4();
+const matrix = new Matrix4();
+const frustum = new Frustum();
+const sphere = new Sphere();
+const viewport = new Vector4();
+const eye: [number, number, number, number] = [0, 0, 0, 1];
+
+/** A piece of the skin, for all bodies. */
+interface InstancedPiece {
+	piece: Piece;
+	mesh: InstancedMesh;
+	places: Places;
+	/** Matrices of all bodies. */
+	matrices: Float32Array;
+}
+
+/**
+ * Many bodies of one furry asset: at most three draws per level of detail in use, however many bodies there are.
+ *
+ *     const herd = new FurInstances(gltf.userData.fur, 100);
+ *     for (let i = 0; i < 100; i++) herd.setMatrixAt(i, matrix.makeTranslation(3 * i, 0, 0));
+ *     scene.add(herd);
+ *
+ * Geometry, textures and uniforms are shared with the fur: settings there show on all bodies, and it has to outlive them.
+ * Meshes beside the skin (eyes, say) are included. The fur itself may be hidden, or in no scene. Of several furs of a body,
+ * pass the visible one: the skin is copied with its present shade.
+ *
+ * The renderer calls `update` before it draws, as with three's LOD. Bodies outside the camera's frustum (by the sphere of
+ * skin and fur) are culled; the others are sorted into levels by the length of their fur on screen. Opaque pieces are drawn
+ * nearest first; then the levels from far to near, each with its fins before its shells, bodies from far to near and the
+ * shells of each inside out: fur blends over the fur behind it. The scene sorts all of it as one transparent object in the
+ * middle of its bodies. Nothing is uploaded while neither camera nor bodies move.
+ */
+export class FurInstances extends Object3D {
+	/** Flag by which the renderer decides to call `update`. */
+	readonly isLOD = true;
+	/** Whether the renderer calls `update` before every picture. */
+	autoUpdate = true;
+	/** Largest number of bodies. */
+	readonly capacity: number;
+	/** Largest number of shells per body of each level, the finest first. */
+	readonly levels: readonly number[];
+	/** Height of the picture in pixels, for the choice of levels; updated by every draw, so set it before the first. */
+	height = 720;
+	/** Fewest shells of a body: one for two slabs, where the fur by itself has one for each. */
+	fewestShells: number;
+
+	readonly #fur: Fur;
+	/** Bounding sphere of one body with its fur, in its own axes; radius of its shells. */
+	readonly #sphere = new Sphere();
+	#radius = 0;
+	/** Length of the longest hairs and width of a texel, in the body's axes. */
+	#length = 0;
+	readonly #texel: number;
+	/** Shells' axes → body's. */
+	readonly #furMatrix: Matrix4;
+	readonly #skins: InstancedPiece[];
+	readonly #levels: BodyLevel[];
+	readonly #finMaterial: BodyMaterial | undefined;
+	readonly #hull: BodyHull;
+	/** Bounding sphere of all bodies. Shared by all draws, so that the renderer takes them for equally distant. */
+	readonly #bounds = new Sphere();
+
+	#count: number;
+	#moved = true;
+	readonly #matrices: Float32Array;
+	readonly #furMatrices: Float32Array;
+	readonly #spheres: Float32Array;
+	readonly #powers: Float64Array;
+	readonly #order: Uint32Array;
+	readonly #seen: Uint8Array;
+	/** Shells and alpha cut of each body. */
+	readonly #details: Float32Array;
+	readonly #level: Uint8Array;
+	readonly #drawn: Uint32Array;
+	readonly #ends: Uint32Array;
+
+	/** @param levels largest number of shells per body of each level, falling, whole numbers from 1 to 256 */
+	constructor(fur: Fur, capacity: number, levels: readonly number[] = LEVELS) {
+		super();
+		this.name = 'fur instances';
+		this.#fur = fur;
+		this.capacity = this.#count = capacity;
+		this.levels = levels;
+		this.#matrices = new Float32Array(capacity * 16);
+		this.#furMatrices = new Float32Array(capacity * 16);
+		this.#spheres = new Float32Array(capacity * 4);
+		this.#powers = new Float64Array(capacity);
+		this.#order = Uint32Array.from({ length: capacity }, (_, i) => i);
+		this.#seen = new Uint8Array(capacity);
+		this.#details = new Float32Array(2 * capacity);
+		this.#level = new Uint8Array(capacity);
+		this.#drawn = new Uint32Array(capacity);
+		this.#ends = new Uint32Array(levels.length);
+
+		const { shells, fins, skin } = fur;
+		const root = skin.parent ?? skin;
+		this.#furMatrix = placement(shells, root);
+		this.#texel = fur.asset.length / (fur.asset.height * fur.asset.size);
+		this.fewestShells = fur.asset.layers / 2;
+		this.#fit();
+
+		const meshes: Mesh[] = [];
+		root.traverse((part) => {
+			if ((part as Mesh).isMesh && !(part instanceof FurShells || part instanceof FurFins)) meshes.push(part as Mesh);
+		});
+		this.#skins = gatherPieces(meshes, (mesh) => placement(mesh, root)).map((piece) => this.#makeSkin(piece));
+		this.#finMaterial = fins && new BodyMaterial(fins.material);
+		// Equally distant objects are drawn by age: create the coarsest level first.
+		const coarseFirst = levels
+			.toReversed()
+			.map((count) => new BodyLevel(fur, count, capacity, this.#finMaterial, this.#bounds));
+		this.#levels = coarseFirst.toReversed();
+		this.add(...this.#skins.map(({ mesh }) => mesh));
+		for (const { fins, shells } of coarseFirst) this.add(...(fins ? [fins] : []), shells);
+		this.#hull = new BodyHull(fur, (coarseFirst[0] as BodyLevel).shells.material, capacity, this.#bounds);
+		this.add(this.#hull);
+
+		const home = new Matrix4();
+		for (let i = 0; i < capacity; i++) this.setMatrixAt(i, home);
+	}
+
+	/** Update to the fur's present length. */
+	#fit(): void {
+		const { shells, fins } = this.#fur;
+		const bounds = (fins ?? shells).geometry.boundingSphere ?? new Sphere();
+		this.#length = shells.furLength;
+		this.#sphere.copy(bounds).applyMatrix4(this.#furMatrix);
+		this.#radius = (shells.geometry.boundingSphere?.radius ?? 0) * (this.#sphere.radius / bounds.radius);
+	}
+
+	#makeSkin(piece: Piece): InstancedPiece {
+		const { geometry, material, mesh: own } = piece;
+		const mesh = new InstancedMesh(geometry, material, 0);
+		const places = new Places(this.capacity);
+		mesh.instanceMatrix = places;
+		mesh.name = own.name;
+		mesh.castShadow = own.castShadow;
+		mesh.receiveShadow = own.receiveShadow;
+		mesh.frustumCulled = false;
+		mesh.boundingSphere = this.#bounds;
+		mesh.onBeforeRender = (renderer) => this.#learn(renderer);
+		return { piece, mesh, places, matrices: new Float32Array(this.capacity * 16) };
+	}
+
+	/** Number of bodies drawn, the first of all. */
+	override get count(): number {
+		return this.#count;
+	}
+
+	override set count(value: number) {
+		const count = Math.min(Math.max(Math.round(value), 0), this.capacity);
+		if (count === this.#count) return;
+		this.#count = count;
+		// Reset the order, so that it holds exactly the bodies left.
+		for (let i = 0; i < this.capacity; i++) this.#order[i] = i;
+		this.#moved = true;
+	}
+
+	/**
+	 * Places a body.
+	 *
+	 * @param given the body's axes (those of the loaded scene) → these bodies' own; uniform scale
+	 */
+	setMatrixAt(i: number, given: Matrix4): void {
+		given.toArray(this.#matrices, 16 * i);
+		matrix.multiplyMatrices(given, this.#furMatrix).toArray(this.#furMatrices, 16 * i);
+		for (const { piece, matrices } of this.#skins)
+			matrix.multiplyMatrices(given, piece.matrix).toArray(matrices, 16 * i);
+		this.#place(i, given);
+	}
+
+	#place(i: number, given: Matrix4): void {
+		sphere.copy(this.#sphere).applyMatrix4(given);
+		sphere.center.toArray(this.#spheres, 4 * i);
+		this.#spheres[4 * i + 3] = sphere.radius;
+		this.#moved = true;
+	}
+
+	/** Matrix last given to `setMatrixAt`. */
+	getMatrixAt(i: number, target: Matrix4): Matrix4 {
+		return target.fromArray(this.#matrices, 16 * i);
+	}
+
+	/** Number of shells of body `i` by the last `update`; may be fractional. */
+	getShellsAt(i: number): number {
+		return this.#details[2 * i] as number;
+	}
+
+	/** Culls, sorts and picks levels for the next draw by this camera. World matrices have to be up to date. */
+	update(camera: Camera): void {
+		const count = this.#count;
+		if (this.#length !== this.#fur.shells.furLength) {
+			this.#fit();
+			for (let i = 0; i < this.capacity; i++) this.#place(i, this.getMatrixAt(i, matrix));
+		}
+		if (this.#moved) this.#measure();
+		matrix.multiplyMatrices(camera.matrixWorldInverse, this.matrixWorld);
+		clip.multiplyMatrices(camera.projectionMatrix, matrix);
+		const { coordinateSystem, reversedDepth } = camera as OrthographicCamera;
+		frustum.setFromProjectionMatrix(clip, coordinateSystem, reversedDepth);
+		cullBodies(this.#spheres, count, frustum.planes, this.#seen);
+
+		// Camera in these axes: its position, or the direction to it where rays are parallel.
+		const parallel = camera.projectionMatrix.elements[15] === 1;
+		const scale = this.matrixWorld.getMaxScaleOnAxis();
+		matrix.invert();
+		const from = parallel ? 8 : 12;
+		for (let axis = 0; axis < 3; axis++) eye[axis] = matrix.elements[from + axis] as number;
+		eye[3] = parallel ? 0 : 1;
+		measurePowers(this.#spheres, count, eye, this.#powers);
+		sortFarFirst(this.#order, count, this.#powers);
+
+		for (let i = 0; i < count; i++) {
+			this.#detail(i, camera, scale);
+			this.#level[i] = levelOf(this.#details[2 * i] as number, this.levels);
+		}
+		cutLevels(this.#order, count, this.#seen, this.#level, this.#drawn, this.#ends);
+
+		const total = this.#ends[0] ?? 0;
+		for (const { piece, mesh, places, matrices } of this.#skins) {
+			piece.follow();
+			places.put(this.#drawn, total - 1, -1, total, matrices, this.#moved);
+			mesh.count = total;
+			mesh.visible = total > 0;
+		}
+		for (let l = 0; l < this.#levels.length; l++) {
+			const first = this.#ends[l + 1] ?? 0;
+			const bodies = (this.#ends[l] as number) - first;
+			this.#levels[l]?.put(this.#drawn, first, bodies, this.#furMatrices, this.#details, this.#moved);
+		}
+		this.#finMaterial?.follow();
+		this.#hull.putAll(count, this.#furMatrices, this.#moved);
+		this.#moved = false;
+	}
+
+	/** Number of shells and alpha cut that the fur by itself would have there. @param scale these axes → the world's */
+	#detail(i: number, camera: Camera, scale: number): void {
+		const radius = this.#spheres[4 * i + 3] as number;
+		const unit = (scale * radius) / this.#sphere.radius;
+		const away = eye[3] ? scale * Math.sqrt((this.#powers[i] as number) + radius * radius) : 1;
+		const near = Math.max(away - this.#radius * unit, 0.1 * away);
+		const { automatic, shellCount, coarseness } = this.#fur.shells;
+		const fewest = this.fewestShells * this.#fur.material.trim;
+		const wanted = shellsFor(this.#length * unit * pixelsPerUnit(camera, this.height, near), fewest) / coarseness;
+		this.#details[2 * i] = Math.min(Math.max(automatic ? wanted : shellCount, 1), this.levels[0] as number);
+		this.#details[2 * i + 1] = cutFor(this.#texel * unit * pixelsPerUnit(camera, this.height, away));
+	}
+
+	#measure(): void {
+		this.#bounds.makeEmpty();
+		for (let i = 0; i < this.#count; i++) {
+			sphere.center.fromArray(this.#spheres, 4 * i);
+			sphere.radius = this.#spheres[4 * i + 3] as number;
+			this.#bounds.union(sphere);
+		}
+	}
+
+	#learn(renderer: WebGLRenderer): void {
+		this.height = renderer.getCurrentViewport(viewport).w;
+	}
+
+	/** Frees everything but the fur. */
+	override dispose(): void {
+		this.removeFromParent();
+		for (const { mesh, piece } of this.#skins) {
+			mesh.removeFromParent();
+			mesh.dispose();
+			piece.dispose();
+		}
+		for (const level of this.#levels) level.dispose();
+		this.#hull.dispose();
+		this.#finMaterial?.dispose();
+	}
+}

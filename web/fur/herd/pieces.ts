@@ -1,0 +1,192 @@
+/** Meshes of one body below its fur (skin, eyes, nose), merged into few draws. */
+
+import {
+	BufferAttribute,
+	BufferGeometry,
+	Color,
+	DataTexture,
+	DoubleSide,
+	FloatType,
+	type InterleavedBufferAttribute,
+	Matrix3,
+	Matrix4,
+	type Mesh,
+	type MeshStandardMaterial,
+	type Object3D,
+	Texture,
+	Vector3,
+} from 'three';
+
+/** One draw of a body. */
+export interface Piece {
+	geometry: BufferGeometry;
+	material: Mesh['material'];
+	/** The geometry's axes → the body's. */
+	matrix: Matrix4;
+	/** The mesh, or the first of several merged ones. */
+	mesh: Mesh;
+	/** Update to its meshes' present colours: skin is darker below wet fur. */
+	follow(): void;
+	/** Frees this piece but not the mesh. */
+	dispose(): void;
+}
+
+const KNOWN = new Set(['position', 'normal', 'tangent', 'color', 'uv']);
+
+/** Whether vertices can carry all of the material: colour, roughness and metalness. */
+function isPlain({ material, geometry, customDepthMaterial }: Mesh): boolean {
+	if (Array.isArray(material) || material.type !== 'MeshStandardMaterial' || customDepthMaterial) return false;
+	const { emissive, transparent, alphaTest, flatShading, wireframe } = material as MeshStandardMaterial;
+	if (transparent || alphaTest > 0 || flatShading || wireframe || emissive.getHex() !== 0) return false;
+	if (Object.hasOwn(material, 'onBeforeCompile')) return false;
+	if (Object.values(material).some((value) => value instanceof Texture)) return false;
+	return Object.keys(geometry.attributes).every((name) => KNOWN.has(name));
+}
+
+/**
+ * Merges closed meshes without textures into one, with colour, roughness and metalness per vertex; others stay as they are.
+ *
+ * @param placement a mesh's axes → the body's
+ */
+export function gatherPieces(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Piece[] {
+	const plain = meshes.filter(isPlain);
+	const merged = plain.length > 1 ? [merge(plain, placement)] : [];
+	const alone = merged.length ? meshes.filter((mesh) => !plain.includes(mesh)) : meshes;
+	return [
+		...merged,
+		...alone.map((mesh) => ({
+			mesh,
+			geometry: mesh.geometry,
+			material: mesh.material,
+			matrix: placement(mesh),
+			follow() {},
+			dispose() {},
+		})),
+	];
+}
+
+type Attribute = BufferAttribute | InterleavedBufferAttribute;
+
+const versionOf = (attribute: Attribute | undefined) =>
+	attribute && ('data' in attribute ? attribute.data.version : attribute.version);
+
+/** Colours of one mesh within a merged piece. */
+class Part {
+	readonly #mesh: Mesh;
+	readonly #first: number;
+	/** Colour when last copied. */
+	readonly #shade = new Color(Number.NaN, 0, 0);
+	#own: Attribute | undefined;
+	#version: number | undefined;
+
+	/** @param first its first vertex in the piece */
+	constructor(mesh: Mesh, first: number) {
+		this.#mesh = mesh;
+		this.#first = first;
+	}
+
+	/** Copy the colours if they have changed. */
+	copy(colours: BufferAttribute): void {
+		const { geometry, material } = this.#mesh;
+		const { color, vertexColors } = material as MeshStandardMaterial;
+		const own = vertexColors ? geometry.getAttribute('color') : undefined;
+		if (this.#shade.equals(color) && this.#own === own && this.#version === versionOf(own)) return;
+		this.#shade.copy(color);
+		this.#own = own;
+		this.#version = versionOf(own);
+		const { r, g, b } = color;
+		const end = this.#first + geometry.getAttribute('position').count;
+		for (let v = this.#first, i = 0; v < end; v++, i++)
+			if (own) colours.setXYZ(v, r * own.getX(i), g * own.getY(i), b * own.getZ(i));
+			else colours.setXYZ(v, r, g, b);
+		colours.needsUpdate = true;
+	}
+}
+
+/** Merge in the axes of the first mesh, whose vertices keep their positions to the bit. */
+function merge(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Piece {
+	const [mesh] = meshes as [Mesh];
+	const matrix = placement(mesh);
+	const total = meshes.reduce((sum, { geometry }) => sum + geometry.getAttribute('position').count, 0);
+	const positions = new Float32Array(total * 3);
+	const normals = new Float32Array(total * 3);
+	const colours = new BufferAttribute(new Float32Array(total * 3), 3);
+	const parts: Part[] = [];
+	const coordinates = new Float32Array(total * 2);
+	const corners: number[] = [];
+	const inverse = matrix.clone().invert();
+	const vector = new Vector3();
+	let vertex = 0;
+	for (const [m, piece] of meshes.entries()) {
+		const between = m === 0 ? new Matrix4() : new Matrix4().multiplyMatrices(inverse, placement(piece));
+		const turn = new Matrix3().getNormalMatrix(between);
+		const { index } = piece.geometry;
+		const [position, normal] = [piece.geometry.getAttribute('position'), piece.geometry.getAttribute('normal')];
+		parts.push(new Part(piece, vertex));
+		const count = index?.count ?? position.count;
+		for (let i = 0; i < count; i++) corners.push(vertex + (index?.getX(i) ?? i));
+		for (let i = 0; i < position.count; i++, vertex++) {
+			vector
+				.fromBufferAttribute(position, i)
+				.applyMatrix4(between)
+				.toArray(positions, vertex * 3);
+			vector
+				.fromBufferAttribute(normal, i)
+				.applyNormalMatrix(turn)
+				.toArray(normals, vertex * 3);
+			coordinates.set([(m + 0.5) / meshes.length, 0.5], vertex * 2);
+		}
+	}
+	const geometry = new BufferGeometry();
+	geometry.setAttribute('position', new BufferAttribute(positions, 3));
+	geometry.setAttribute('normal', new BufferAttribute(normals, 3));
+	geometry.setAttribute('color', colours);
+	geometry.setAttribute('uv', new BufferAttribute(coordinates, 2));
+	geometry.setIndex(corners);
+
+	const { material, palette } = sharedMaterial(meshes.map((piece) => piece.material as MeshStandardMaterial));
+	const follow = () => {
+		for (const part of parts) part.copy(colours);
+	};
+	follow();
+	return {
+		mesh,
+		geometry,
+		material,
+		matrix,
+		follow,
+		dispose() {
+			geometry.dispose();
+			material.dispose();
+			palette.dispose();
+		},
+	};
+}
+
+/** The first material for all of them: colours come by vertex, roughness and metalness by a palette of a texel each. */
+function sharedMaterial(materials: readonly MeshStandardMaterial[]): {
+	material: MeshStandardMaterial;
+	palette: DataTexture;
+} {
+	const texels = materials.flatMap(({ roughness, metalness }) => [0, roughness, metalness, 1]);
+	const palette = new DataTexture(new Float32Array(texels), materials.length, 1, undefined, FloatType);
+	palette.needsUpdate = true;
+	const [first] = materials as [MeshStandardMaterial];
+	const material = first.clone();
+	material.color.set(1, 1, 1);
+	material.vertexColors = true;
+	material.roughnessMap = material.metalnessMap = palette;
+	material.roughness = material.metalness = 1;
+	if (materials.some(({ side }) => side === DoubleSide)) material.side = DoubleSide;
+	return { material, palette };
+}
+
+/** Matrix from a part's axes to those of its ancestor `root`. */
+export function placement(part: Object3D, root: Object3D): Matrix4 {
+	const total = new Matrix4();
+	for (let at: Object3D | null = part; at && at !== root; at = at.parent) {
+		at.updateMatrix();
+		total.premultiply(at.matrix);
+	}
+	return total;
+}

@@ -1,0 +1,205 @@
+/** Dynamic resolution: as many pixels as a frame's time allows, all of them at rest. */
+
+/** Resolution per side, each step with √½ of the pixels of the one before. */
+const STEPS = [1, 2 ** -0.25, 2 ** -0.5, 2 ** -0.75, 0.5] as const;
+
+/** Frames per window, judged by their median: single hiccups and the gap of a hidden tab don't count. */
+const WINDOW = 9;
+/** Frames to skip after a change: they, or late results of the timer, belong to the resolution before. */
+const SKIPPED_FRAMES = 4;
+/** Shares of the target: two windows in a row above the first step down, one above the second. */
+const LATE = 1.15;
+const FAR_LATE = 1.5;
+/** Share of the target that the time expected by the pixels may fill after a step. */
+const ROOM = 0.9;
+/** Windows in a row with room before a step up. */
+const CALM = 6;
+/** Milliseconds from any change to a step up; quadrupled by each step that was late within RASH milliseconds. */
+const WAIT = 1000;
+const RASH = 20_000;
+const LONGEST_WAIT = 64_000;
+/**
+ * Fewer pixels help where the lowest resolution takes less than WORTH of the full one's time, measured at most DESCENT
+ * windows before. Otherwise all are drawn, and nothing is tried for HOPELESS_WAIT milliseconds.
+ */
+const WORTH = 0.9;
+const DESCENT = 4;
+const HOPELESS_WAIT = 30_000;
+
+/** Options of FurGovernor. */
+export interface FurGovernorOptions {
+	/** Target time of a frame, milliseconds. */
+	target?: number;
+	/**
+	 * Whether times are intervals between frames, bounded below by the display's refresh, rather than times of the GPU. Such
+	 * intervals don't show whether a higher resolution has room, so it is tried now and then.
+	 */
+	capped?: boolean;
+	/** Smallest time between two changes of the resolution, milliseconds. */
+	cooldown?: number;
+	/** Milliseconds without movement after which the picture is drawn at full resolution. */
+	rest?: number;
+}
+
+/**
+ * Holds a frame rate by adapting the resolution: close-up fur is overdraw, which costs by the pixel.
+ *
+ *     // each frame
+ *     renderer.setPixelRatio(devicePixelRatio * governor.frame(milliseconds, now, moving)); // where it has changed
+ *
+ * Steps down when frames are late, as far as their time suggests, and up again when there is room. It does not oscillate:
+ * times around the target change nothing, and failed tries become rare.
+ */
+export class FurGovernor {
+	readonly #target: number;
+	readonly #capped: boolean;
+	readonly #cooldown: number;
+	readonly #rest: number;
+	readonly #times = new Float64Array(WINDOW);
+	#count = 0;
+	#skip = SKIPPED_FRAMES;
+	#level = 0;
+	#resting = false;
+	#moved = Number.NEGATIVE_INFINITY;
+	#changed = Number.NEGATIVE_INFINITY;
+	#raised = Number.NEGATIVE_INFINITY;
+	#raisedFrom = 0;
+	#wait = WAIT;
+	#heldUntil = Number.NEGATIVE_INFINITY;
+	/** Windows in a row that were late, and that had room. */
+	#late = 0;
+	#calm = 0;
+	/** Last time at full resolution, and windows since. */
+	#full = 0;
+	#since = 0;
+
+	constructor({ target = 1000 / 60, capped = false, cooldown = 400, rest = 500 }: FurGovernorOptions = {}) {
+		this.#target = target;
+		this.#capped = capped;
+		this.#cooldown = cooldown;
+		this.#rest = rest;
+	}
+
+	/** Factor of the resolution, per side: 1, 0.84, 0.71, 0.59 or 0.5. */
+	get scale(): number {
+		return this.#resting ? 1 : (STEPS[this.#level] ?? 1);
+	}
+
+	/**
+	 * Takes a frame's time and picks the scale. Call it once per frame, before drawing.
+	 *
+	 * @param time milliseconds of an earlier frame; NaN if unknown
+	 * @param now present time, milliseconds
+	 * @param moving whether this frame differs from the one before
+	 * @returns scale of the frame
+	 */
+	frame(time: number, now: number, moving: boolean): number {
+		if (moving) this.#moved = now;
+		const free = now - this.#changed >= this.#cooldown;
+		const resting = now - this.#moved >= this.#rest;
+		if (resting !== this.#resting && (free || this.#level === 0)) {
+			this.#resting = resting;
+			if (this.#level > 0) this.#changed = now;
+			this.#restart();
+		}
+		if (free && now >= this.#heldUntil && resting === this.#resting && time > 0) this.#measure(time, now);
+		return this.scale;
+	}
+
+	#restart(): void {
+		this.#count = 0;
+		this.#skip = SKIPPED_FRAMES;
+		this.#late = 0;
+		this.#calm = 0;
+	}
+
+	#measure(time: number, now: number): void {
+		if (this.#skip > 0) {
+			this.#skip--;
+			return;
+		}
+		this.#times[this.#count++] = time;
+		if (this.#count < WINDOW && !(this.#count === 3 && this.#allFarLate())) return;
+		const median = this.#median();
+		this.#count = 0;
+		this.#since++;
+		if (this.#resting) this.#learn(median);
+		else if (median > LATE * this.#target) this.#beLate(median, now);
+		else this.#beOnTime(median, now);
+	}
+
+	/** Whether three frames in a row are late enough to decide at once. */
+	#allFarLate(): boolean {
+		for (let i = 0; i < this.#count; i++) if ((this.#times[i] ?? 0) <= FAR_LATE * this.#target) return false;
+		return true;
+	}
+
+	/** Sorts the window in place. */
+	#median(): number {
+		const times = this.#times;
+		for (let i = 1; i < this.#count; i++) {
+			const time = times[i] ?? 0;
+			let at = i;
+			for (; at > 0 && (times[at - 1] ?? 0) > time; at--) times[at] = times[at - 1] ?? 0;
+			times[at] = time;
+		}
+		return times[this.#count >> 1] ?? 0;
+	}
+
+	#beLate(median: number, now: number): void {
+		this.#calm = 0;
+		this.#late++;
+		if (this.#late === 1 && median <= FAR_LATE * this.#target) return;
+		const rash = now - this.#raised < RASH;
+		if (this.#level === STEPS.length - 1) {
+			if (this.#since > DESCENT || median < WORTH * this.#full) return;
+			this.#heldUntil = now + HOPELESS_WAIT;
+			this.#change(0, now);
+			return;
+		}
+		this.#wait = rash ? Math.min(this.#wait * 4, LONGEST_WAIT) : WAIT;
+		if (this.#level === 0) {
+			this.#full = median;
+			this.#since = 0;
+		}
+		// Intervals are multiples of the display's: the last scale that was in time is the better guess.
+		const level = rash && this.#capped ? this.#raisedFrom : this.#fitting(median);
+		this.#change(Math.max(level, this.#level + 1), now);
+	}
+
+	#beOnTime(median: number, now: number): void {
+		this.#late = 0;
+		if (this.#level === 0) return;
+		const fitting = this.#fitting(median);
+		this.#calm = fitting < this.#level ? this.#calm + 1 : 0;
+		const wait = this.#changed === this.#raised ? WAIT : this.#wait;
+		if (now - this.#changed < wait) return;
+		const level = this.#calm >= CALM ? fitting : this.#level - Number(this.#capped);
+		if (level === this.#level) return;
+		this.#raised = now;
+		this.#raisedFrom = this.#level;
+		this.#change(level, now);
+	}
+
+	/** Highest resolution expected in time, if time is proportional to pixels. */
+	#fitting(median: number): number {
+		const own = STEPS[this.#level] ?? 1;
+		for (let level = 0; level < STEPS.length; level++)
+			if (median * ((STEPS[level] ?? 1) / own) ** 2 <= ROOM * this.#target) return level;
+		return STEPS.length - 1;
+	}
+
+	/** Learn from frames at rest: full resolution that is in time at rest is in time in motion. */
+	#learn(median: number): void {
+		this.#calm = median <= (this.#capped ? 1 : ROOM) * this.#target ? this.#calm + 1 : 0;
+		if (this.#calm < CALM) return;
+		this.#level = 0;
+		this.#wait = WAIT;
+	}
+
+	#change(level: number, now: number): void {
+		this.#level = level;
+		this.#changed = now;
+		this.#restart();
+	}
+}

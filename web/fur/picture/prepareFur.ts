@@ -1,0 +1,37 @@
+import type { Camera, Scene, WebGLRenderer, WebGLRenderTarget } from 'three';
+import type { Fur } from '../Fur.ts';
+import { turn } from '../planes/steps.ts';
+
+/**
+ * Compiles a fur's programs and uploads its planes in small steps before it is first seen, so that no frame waits for them.
+ * Features switched on later (`gloss`, `swing` …) are compiled later.
+ *
+ * @param scene scene with the lights of the later frames
+ * @param target target of the later frames, or one like it; any target for a renderer with an `outputBufferType` and tone mapping,
+ * which draws to linear texels first
+ */
+export async function prepareFur(
+	fur: Fur,
+	renderer: WebGLRenderer,
+	scene: Scene,
+	camera: Camera,
+	target: WebGLRenderTarget | null = renderer.getRenderTarget(),
+): Promise<void> {
+	// Without this extension three would warn, and could not tell when programs are ready.
+	const aside = renderer.extensions.has('KHR_parallel_shader_compile');
+	const before = renderer.getRenderTarget();
+	renderer.setRenderTarget(target);
+	const compiled = [...(fur.fins ? [fur.fins] : []), fur.shells].map((part) => {
+		// Materials of fur depend on the lamps' hue.
+		part.material.onBeforeRender(renderer, scene, camera);
+		return aside ? renderer.compileAsync(part, camera, scene) : renderer.compile(part, camera, scene);
+	});
+	renderer.setRenderTarget(before);
+	await Promise.all(compiled);
+	for (const textures of [fur.textures, fur.finTextures]) {
+		for (const texture of Object.values(textures ?? {})) {
+			await turn();
+			if (texture) renderer.initTexture(texture);
+		}
+	}
+}

@@ -1,0 +1,63 @@
+/** Mip levels from the files of a pelt's planes; stacked for several states. */
+
+import { decodePlane, type Extent, type MipOptions, mipSteps, type PlaneBytes } from './planes.ts';
+import { turn, unhurried } from './steps.ts';
+
+/** Role of a plane: its key in `FurTextures`. */
+export type Role = 'plane0' | 'plane1' | 'colour' | 'direction';
+
+/** File of a plane. */
+export interface PlaneFile {
+	role: Role;
+	/** Name of the file. */
+	name: string;
+	/** A PNG. */
+	bytes: Uint8Array;
+}
+
+/** Size and number of coefficients of a plane, and options of its mip levels. */
+export interface Layout {
+	extent: Extent;
+	coefficients: number;
+	view: MipOptions;
+}
+
+/** A plane with all its mip levels. */
+export interface Plane {
+	role: Role;
+	name: string;
+	/** Level 0 first. */
+	levels: PlaneBytes[];
+}
+
+/** Decodes planes one by one. @throws Error for the first plane of another size */
+export async function decodeAll(files: readonly PlaneFile[], { width, height, layers }: Extent): Promise<PlaneBytes[]> {
+	const texels: PlaneBytes[] = [];
+	for (const { name, bytes } of files) {
+		await turn();
+		texels.push(decodePlane(name, bytes, width, height * layers));
+	}
+	return texels;
+}
+
+/**
+ * Decodes the planes of a pelt and makes their mip levels, in small steps.
+ *
+ * @param files coefficients first: the mip levels read the coverage there
+ * @throws Error as in `decodeAll`
+ */
+export async function decodePlanes(files: readonly PlaneFile[], layout: Layout): Promise<Plane[]> {
+	const { extent, coefficients, view } = layout;
+	const texels = await decodeAll(files, extent);
+	const mips = await unhurried(mipSteps(texels, extent, coefficients, view));
+	return files.map(({ role, name }, p) => ({ role, name, levels: mips.flatMap((level) => level[p] ?? []) }));
+}
+
+/** Mip levels of several states as those of one texture with all their layers. */
+export function stacked(states: readonly PlaneBytes[][]): PlaneBytes[] {
+	return (states[0] ?? []).map((first, level) => {
+		const together = new Uint8Array(first.length * states.length);
+		for (const [state, levels] of states.entries()) together.set(levels[level] as PlaneBytes, state * first.length);
+		return together;
+	});
+}

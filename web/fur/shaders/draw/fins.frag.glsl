@@ -1,0 +1,21 @@
+uniform float finOpacity;
+#ifdef COLOUR_PLANE
+uniform sampler2DArray colourPlane; // colour of the texel's hairs
+#endif
+
+in vec2 vAt;
+in vec4 vSkin;
+in float vFade;
+out vec4 fragColour;
+
+void main() {
+	vec3 at = vec3(vAt, 0.0);
+	FurTexel texel = furTexel(at);
+	float alpha = texel.alpha * vFade * finOpacity;
+	if (alpha < 0.01) discard;
+	vec3 colour = furRamp(vSkin.a, clamp(vAt.y, 0.0, 1.0)) * texel.tint;
+#ifdef COLOUR_PLANE
+	colour = mix(furBytes(colourPlane, at).rgb, colour, vSkin.a);
+#endif
+	fragColour = furOutput(furRadiance(texel, soiled(vSkin.rgb * colour), receivedLamps(), receivedSky()), alpha);
+}

@@ -1,0 +1,49 @@
+in vec4 tangent; // unit vector along the edge
+layout(location = 12) in vec4 color; // colour of the skin, linear
+layout(location = 13) in vec4 _fur; // see frame.glsl
+layout(location = 15) in vec4 _edge; // XY = angles of the two faces' normals about the edge, over π; ZW = comb along the edge and across it
+
+uniform float tiles; // texture coordinates → tiles
+uniform float finHeights; // second texture coordinate → heights
+uniform float finLength; // length of the fin, lengths of the fur here
+
+out vec2 vAt; // tiles along the edge, height
+out vec4 vSkin; // RGB = factor of the hairs' colour, A = mix of tip and tip2
+out float vFade;
+
+// Opacity of a fin: full at the silhouette, where one face looks to the viewer and the other away; less where both look the
+// same way; 0 where they look straight, and where the fin is seen from its end.
+float finFade(vec2 facing, float broadside) {
+	vec2 towards = abs(facing);
+	float off = facing.x * facing.y > 0.0 ? min(towards.x, towards.y) : 0.0;
+	return (1.0 - smoothstep(FADE_FROM, FADE_TO, off)) * smoothstep(0.15, 0.5, abs(broadside));
+}
+
+void main() {
+	feelWeather();
+	vec3 n = normalize(normal);
+	vec3 edge = normalize(tangent.xyz);
+	vec3 across = normalize(cross(edge, n));
+	vec3 upright = cross(across, edge);
+	mat3 frame = mat3(cross(n, across), n, across);
+	mat4 placement = bodyModelView();
+	mat3 turn = mat3(placement) / length(placement[0].xyz);
+
+	vec3 viewer = viewerVS((placement * vec4(position, 1.0)).xyz) * turn;
+	vec2 angle = PI * _edge.xy;
+	float broadside = dot(across, viewer);
+	vFade = finFade(cos(angle) * dot(upright, viewer) + sin(angle) * broadside, broadside);
+
+	vAt = uv * vec2(tiles, finHeights * furTrim);
+	// An invisible quad collapses to its root and has no fragments.
+	float s = vFade > 0.0 ? min(vAt.y, furTrim) : 0.0;
+	vec3 comb = furComb(frame * vec3(_edge.z, 0.0, _edge.w));
+	vec3 pointVS = (placement * vec4(furPoint(position, n, comb, _fur.y * finLength, s), 1.0)).xyz;
+	gl_Position = projectionMatrix * vec4(pointVS, 1.0);
+	vSkin = vec4(skinColour * color.rgb, tipShare * _fur.w);
+#ifdef WET
+	vSkin.rgb *= furTraits.y;
+#endif
+	float slab = clamp(s * float(LAYERS) - 0.5, 0.0, float(LAYERS) - 1.0);
+	passLight(vFade > 0.0, FurPoint(turn * frame, comb * frame, pointVS, furReach(_fur.y), s, slab, furCurvature(_fur.y)), _fur.z);
+}

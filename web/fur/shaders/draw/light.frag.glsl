@@ -1,0 +1,104 @@
+// Light from the vertices: see light.vert.glsl.
+
+#ifdef SKY
+in mat3 vSkyLow;
+#ifdef TWO_PLANES
+in mat3 vSkyHigh;
+#endif
+#endif
+#ifdef LAMPS_PER_FRAGMENT
+in mat3 vFrame;
+in vec3 vPoint;
+in float vReach;
+in float vS;
+#ifdef MEAN_CURVES
+in float vSlab;
+in float vCurvatureX;
+in float vCurvatureY;
+in float vCurvatureXY;
+#endif
+in float vCombX;
+in float vCombY;
+#else
+#ifdef ONE_HUE
+in vec3 vLampLow;
+#ifdef TWO_PLANES
+in vec3 vLampHigh;
+#endif
+#else
+in mat3 vLampLow;
+#ifdef TWO_PLANES
+in mat3 vLampHigh;
+#endif
+#endif
+#ifdef SHADOW_PER_FRAGMENT
+in float vShadowX;
+in float vShadowY;
+in float vShadowZ;
+#ifdef SHADOW_SHARE
+in float vShadowShare;
+#endif
+#endif
+#ifdef TINGED
+in vec3 vTinge;
+#endif
+#ifdef BACKLIGHT
+in Strength vBack;
+#endif
+#ifdef GLOSS
+in float vLobe;
+in float vTintedLobe;
+#ifdef WET
+in float vPower;
+#endif
+#endif
+#endif
+
+Lamps receivedLamps() {
+#ifdef LAMPS_PER_FRAGMENT
+	vec3 comb = vec3(vCombX, 0.0, 0.0);
+	comb[LEVEL] = vCombY;
+#ifdef MEAN_CURVES
+	FurPoint point = FurPoint(vFrame, comb, vPoint, vReach, vS, vSlab, vec3(vCurvatureX, vCurvatureY, vCurvatureXY));
+#else
+	FurPoint point = FurPoint(vFrame, comb, vPoint, vReach, vS, 0.0, vec3(0.0));
+#endif
+	return lampsAt(point, bendingOf(comb, vS));
+#else
+	Lamps lamps = DARKNESS;
+	lamps.moments.low = vLampLow;
+#ifdef TWO_PLANES
+	lamps.moments.high = vLampHigh;
+#endif
+#ifdef TINGED
+	lamps.tinge.rgb = vTinge;
+#endif
+#ifdef BACKLIGHT
+	lamps.back = vBack;
+#endif
+#ifdef GLOSS
+	lamps.lobes = vec2(vLobe, vTintedLobe);
+#ifdef WET
+	lamps.power = vPower;
+#endif
+#endif
+#ifdef SHADOW_PER_FRAGMENT
+	lamps.place = vec3(vShadowX, vShadowY, vShadowZ);
+#ifdef SHADOW_SHARE
+	lamps.share = vShadowShare;
+#endif
+#endif
+	return lamps;
+#endif
+}
+
+Moments receivedSky() {
+	Moments sky = Moments(mat3(0.0), mat3(0.0));
+#ifdef SKY
+	sky.low = vSkyLow;
+#ifdef TWO_PLANES
+	sky.high = vSkyHigh;
+#endif
+#endif
+	return sky;
+}

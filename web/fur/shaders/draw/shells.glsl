@@ -1,0 +1,11 @@
+// Mean colour of the hairs from a shell's varyings; appended to both shaders.
+
+#ifdef MULTIPLE
+vec3 slabColour(FurPoint point, float tint) {
+#ifdef COLOUR_PLANE
+	return vColour * mix(ofSlab(point, HAIRS).rgb, furRamp(1.0, vHeight) * tint, vTip2);
+#else
+	return vColour * tint;
+#endif
+}
+#endif

@@ -1,0 +1,20 @@
+// Part of the hairs' colour that is independent of the texel, for any light.
+
+out vec3 vColour; // linear; a factor where there is a colour plane
+#ifdef COLOUR_PLANE
+out float vTip2; // mix of the texel's colour and tip2
+out float vHeight; // 0 at the skin, 1 at the tip
+#endif
+
+void passColour(ShellPoint shell) {
+	vColour = skinColour * color.rgb;
+#ifdef WET
+	vColour *= furTraits.y;
+#endif
+#ifdef COLOUR_PLANE
+	vTip2 = tipShare * _fur.w;
+	vHeight = shell.s;
+#else
+	vColour *= furRamp(tipShare * _fur.w, shell.s);
+#endif
+}

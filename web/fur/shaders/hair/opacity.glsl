@@ -1,0 +1,30 @@
+// Opacity by the patch's weight, the number of shells and the slant of the view.
+
+#ifdef BODIES
+in float vShells; // shells of this body
+in float vCut;
+#define shellCount vShells
+#define alphaCut vCut
+#else
+uniform float alphaCut; // coverage below which a fragment is dropped
+#ifdef ALPHA_TO_COVERAGE
+uniform float shellCount;
+#endif
+#endif
+
+in float vWeight;
+in float vFacing;
+
+// coverage: that of a slab of the baked thickness, seen from straight above.
+float shellOpacity(float coverage) {
+#ifdef ALPHA_TO_COVERAGE
+	// Fragments of a pixel all cover the same samples first, so together no more than the densest: hairs get an edge one pixel
+	// wide.
+	float most = min(2.0 * vWeight * shellCount / (furTrim * float(LAYERS)), 1.0); // share of the overlapping patches here
+	return clamp((coverage * most - HAIR) / max(fwidth(coverage), 1e-3) + 0.5, 0.0, 1.0);
+#else
+	float facing = max(abs(vFacing), 1.0 / MAX_SLANT);
+	// Extrapolation between samples may take the weight below 0.
+	return 1.0 - pow(1.0 - min(coverage, 0.996), max(vWeight, 0.0) / facing);
+#endif
+}

@@ -1,0 +1,105 @@
+// Vertex of a shell: its position, its texels, and the thickness of fur that it stands for.
+
+layout(location = 12) in vec4 color; // colour of the skin, linear
+
+#ifdef BODIES
+in vec2 bodyDetail; // per instance: X = shells of this body, no more than shellCount; Y = its alphaCut
+
+out float vShells;
+out float vCut;
+#endif
+
+uniform float tiles; // texture coordinates → tiles
+uniform float shellCount; // n of one body, or the largest of many; may be fractional
+uniform int firstShell; // first shell that is drawn
+uniform vec4 drift[(LAYERS + 2) / 2]; // two knots each: mean displacement of the hairs at the root and in every slab's middle, tile widths
+
+out vec3 vAt; // XY = tiles, Z = slab
+out float vWeight; // slabs that the shell stands for, times the patch's weight
+out float vFacing; // n·v
+
+#define SLABS (furTrim * float(LAYERS)) // slabs left after a cut
+
+struct ShellPoint {
+	bool there; // whether the body has this shell
+	float s; // 0 at the skin, 1 at the tip
+	vec3 normal; // normal of the skin, the mesh's own axes
+	mat3 turn; // the mesh's own axes → view space, without scale
+	mat3 frameVS; // (T, B, N)
+	vec3 comb; // displacement of the tip in that frame, share of the length
+	vec3 pointVS;
+};
+
+vec2 driftKnot(int k) {
+	vec4 two = drift[k >> 1];
+	return (k & 1) == 0 ? two.xy : two.zw;
+}
+
+// Mean displacement of the hairs: 0 at the root, linear between slab middles and on beyond the last.
+vec2 driftAt(float s) {
+	float x = s * float(LAYERS) + 0.5;
+	if (x < 1.0 || LAYERS == 1) return driftKnot(1) * (2.0 * x - 1.0);
+	int k = min(int(x), LAYERS - 1);
+	return mix(driftKnot(k), driftKnot(k + 1), x - float(k));
+}
+
+// Slab shown by shell `i` of `count` at height s.
+int slabAt(float s, float i, float count) {
+	// With fewer shells than slabs, ties between two slabs are broken shell by shell: all shells changing at once would be
+	// visible when their number changes.
+	float nudge = count < SLABS ? 0.4 * (fract(0.618034 * i) - 0.5) : NUDGE;
+	return clamp(int(s * float(LAYERS) + nudge), 0, TOP);
+}
+
+// Number of shells of a slab, the outermost counted by its share. It equalises the slabs' weights, or fur would change its
+// colour with the number of shells.
+float sharesOf(int slab, float count) {
+	float each = count / SLABS;
+	if (each < 1.0) return each;
+	float first = ceil((float(slab) - NUDGE) * each - 0.5), next = ceil((float(slab + 1) - NUDGE) * each - 0.5);
+#ifdef TRIMMED
+	// A thin last slab may have no shell, or only the outermost.
+	return slab == TOP ? (count - first) / min(SLABS - float(slab), 1.0) : min(next, count) - first;
+#else
+	return slab == TOP ? count - first : next - first;
+#endif
+}
+
+// Places the vertex and writes varyings that are independent of the light.
+ShellPoint shellPoint() {
+	feelWeather();
+	ShellPoint point;
+#ifdef BODIES
+	float i = float(firstShell + gl_InstanceID % int(ceil(shellCount))), count = bodyDetail.x;
+	vShells = bodyDetail.x;
+	vCut = bodyDetail.y;
+#else
+	float i = float(firstShell + gl_InstanceID), count = shellCount;
+#endif
+	point.there = i < count;
+	// Shells lie in the middle of their share of the fur; a fractional n leaves the outermost a smaller share.
+	float share = clamp(count - i, 0.0, 1.0);
+	point.s = furTrim * min((i + 0.5 * share) / count, 1.0);
+	mat3 frame = skinFrame();
+	vec3 n = frame[2];
+	mat4 placement = bodyModelView();
+	point.normal = n;
+	point.turn = mat3(placement) / length(placement[0].xyz);
+	vec3 comb = furComb(_comb);
+	point.frameVS = point.turn * frame;
+	point.comb = comb * frame;
+	point.pointVS = (placement * vec4(furPoint(position, n, comb, _fur.y, point.s), 1.0)).xyz;
+
+	// A shell off its slab's middle is sheared by the hairs' drift from there, so that hairs are continuous, not stepped.
+#ifdef TRIMMED
+	// Count shares as if the outermost shell were whole.
+	int slab = slabAt(count < SLABS ? point.s : furTrim * min((i + 0.5) / count, 1.0), i, count);
+#else
+	int slab = slabAt(point.s, i, count);
+#endif
+	vAt = vec3(uv * tiles - (driftAt(point.s) - driftKnot(slab + 1)), float(slab));
+	vWeight = _fur.x * share / sharesOf(slab, count);
+	vFacing = dot(point.turn * n, viewerVS(point.pointVS));
+	gl_Position = point.there ? projectionMatrix * vec4(point.pointVS, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+	return point;
+}

@@ -1,6 +1,0 @@
-// Its depth is all that counts.
-out vec4 fragColour;
-
-void main() {
-	fragColour = vec4(1.0);
-}

@@ -1,0 +1,35 @@
+// Arrival of a lamp's light at a point of the body.
+
+// Share of the dip left below a lamp, 1 above the horizon. height: lamp over the horizon
+float horizonShare(FurPoint point, float height, float radius) {
+	return height < 0.0 ? clamp(1.0 + height / horizonDip(point, radius), 0.0, 1.0) : 1.0;
+}
+
+Arrival arrivalAt(FurPoint point, Eye from, Bending bending, vec3 lightVS) {
+	vec3 lightTS = lightVS * point.frameVS;
+	Arrival at;
+	at.radius = radiusTowards(point, lightTS);
+	at.height = lightTS.UP;
+	if (at.height < 0.0) {
+		lightTS.UP = 0.0;
+		lightTS /= max(length(lightTS), 1e-4);
+	}
+	at.lightTS = lightTS;
+	at.curves = curvesAt(at.height, horizonShare(point, at.height, at.radius), at.radius, lightTS);
+	at.nap = napTowards(from, bending.there ? unbent(lightTS, bending) : lightTS);
+	at.surge = surgeTowards(from, lightVS);
+	return at;
+}
+
+#ifdef STORED_ARRIVALS
+// Arrival stored for this vertex of the body. lamp: index of the directional lamp
+Arrival storedArrival(int lamp) {
+	ivec2 texel = bodyTexel(gl_VertexID, lamp);
+	vec4 place = uintBitsToFloat(texelFetch(bodyLight0, texel, 0)), nap = uintBitsToFloat(texelFetch(bodyLight2, texel, 0));
+	vec3 lightTS;
+	lightTS.x = place.z;
+	lightTS[LEVEL] = place.w;
+	lightTS.UP = max(place.x, 0.0);
+	return Arrival(lightTS, place.x, place.y, uintBitsToFloat(texelFetch(bodyLight1, texel, 0)), nap.xyz, nap.w);
+}
+#endif

@@ -1,0 +1,76 @@
+// Light seen by an eye from aside. Texels hold the view from straight above; from aside other hairs are seen, and other
+// sides of them. By the law of pelt/eye.py, with numbers fitted by each bake.
+
+#ifdef EYE
+uniform vec4 eye[9]; // weights of twelve terms, three vectors for each of 1, s, s²
+uniform vec4 surge; // light of a lamp beside the eye, which sees no shadows: excess X seen from above, X + Y from aside; Z = width, radians; W = share of a half sphere
+#endif
+
+// Eye from a point of the body. Bent hairs are seen as unbent ones by an eye that is turned as their light is: a flank seen onto
+// the tips then has .88 of the path tracer's light, without the turn .80.
+struct Eye {
+	vec3 viewer; // unit vector to it, view space
+	float up; // its height over the horizon, at least 0
+	vec3 level; // its horizontal part, turned and clamped to the horizon, the frame's axes
+	float q; // |level|²
+	float p; // level·leaning
+};
+
+Eye eyeAt(FurPoint point, Bending bending) {
+	Eye from;
+	from.viewer = viewerVS(point.pointVS);
+	from.level = from.viewer * point.frameVS;
+	from.up = max(from.level.UP, 0.0);
+	if (from.level.UP < 0.0) {
+		from.level.UP = 0.0;
+		from.level /= max(length(from.level), 1e-4);
+	}
+	if (bending.there) from.level = unbent(from.level, bending);
+	from.level.UP = 0.0;
+	from.q = dot(from.level, from.level);
+	from.p = dot(from.level, leanTS());
+	return from;
+}
+
+#define MIN_SEEN 0.1
+
+#ifdef EYE
+// Terms in the order of the format, with a = level·l, b = leaning·l: q, a, q·b, p·b; q·z, q·b², p, a²; p·a·b, a·z, q·b·z, q·a·b.
+
+// Share of a lamp's light for the eye, by 1, s, s². lightTS: not below the horizon
+vec3 napTowards(Eye from, vec3 lightTS) {
+	float q = from.q, p = from.p, a = dot(from.level, lightTS), b = dot(leanTS(), lightTS), z = lightTS.UP;
+	vec4 first = vec4(q, a, q * b, p * b), second = vec4(q * z, q * b * b, p, a * a), third = vec4(p * a * b, a * z, q * b * z, q * a * b);
+	vec3 nap = vec3(1.0, 0.0, 0.0);
+	for (int k = 0; k < 3; k++) nap[k] += dot(first, eye[3 * k]) + dot(second, eye[3 * k + 1]) + dot(third, eye[3 * k + 2]);
+	return nap;
+}
+
+// Excess of light beside the eye. up: height of the eye over the horizon
+float surgeFrom(float up) {
+	return surge.x + surge.y * (1.0 - up * up);
+}
+
+// Factor of the light of a lamp beside the eye.
+float surgeTowards(Eye from, vec3 lightVS) {
+	vec3 apart = (lightVS - from.viewer) / surge.z;
+	return 1.0 + surgeFrom(from.up) / (1.0 + dot(apart, apart));
+}
+
+float napAt(Arrival at, float s) {
+	s /= furTrim;
+	return max(at.nap.x + s * (at.nap.y + s * at.nap.z), MIN_SEEN) * at.surge;
+}
+#else
+vec3 napTowards(Eye from, vec3 lightTS) {
+	return vec3(0.0);
+}
+
+float surgeTowards(Eye from, vec3 lightVS) {
+	return 1.0;
+}
+
+float napAt(Arrival at, float s) {
+	return 1.0;
+}
+#endif

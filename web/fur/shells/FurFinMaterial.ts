@@ -1,0 +1,90 @@
+import { DoubleSide, type IUniform, type ShaderMaterialParameters } from 'three';
+import type { Fin } from '../format.ts';
+import type { FurTextures } from '../light/texels.ts';
+import fragmentMain from '../shaders/draw/fins.frag.glsl?raw';
+import ends from '../shaders/draw/fins.glsl?raw';
+import vertexMain from '../shaders/draw/fins.vert.glsl?raw';
+import type { FurMaterial } from './FurMaterial.ts';
+import { PeltMaterial } from './PeltMaterial.ts';
+
+/** Properties that a FurFinMaterial has beside those of every material. */
+export interface FurFinMaterialParameters extends ShaderMaterialParameters {
+	/** Height of the fins over the fur's beside them, a factor: hairs that stand out make the outline. */
+	finLength?: number;
+	/** Factor of their coverage, 0..1. */
+	finOpacity?: number;
+	/** Factor of the second texture coordinate that makes it 1 at the tips. */
+	finHeights?: number;
+}
+
+const MIRRORED = ['finLength', 'finOpacity', 'finHeights'] as const satisfies (keyof FurFinMaterialParameters)[];
+
+/** Uniforms shared with the shells. */
+const SHARED = [
+	...[
+		'tiles',
+		'furLength',
+		'furTrim',
+		'bodyRadius',
+		'lean',
+		'bent',
+		'eye',
+		'surge',
+		'gloss',
+		'sharpness',
+		'backlight',
+		'density',
+	],
+	...['swing', 'stains', 'wetnesses', 'traits', 'mud'],
+	...['skinColour', 'root', 'tip', 'tip2', 'tipShare', 'rampPower'],
+];
+
+/**
+ * Fins: the fur cut from the side, on quads along the skin's edges, drawn at the silhouette.
+ *
+ * Lit by a polynomial texture map of their own over the light along the edge and along the normal. Colours and lengths are
+ * the shells'. They write no depth: the shells are blended over them.
+ */
+export class FurFinMaterial extends PeltMaterial {
+	/** {@inheritDoc FurFinMaterialParameters.finLength} */
+	declare finLength: number;
+	/** {@inheritDoc FurFinMaterialParameters.finOpacity} */
+	declare finOpacity: number;
+	/** {@inheritDoc FurFinMaterialParameters.finHeights} */
+	declare finHeights: number;
+
+	constructor(fin: Fin, textures: FurTextures, shells: FurMaterial, parameters: FurFinMaterialParameters = {}) {
+		const shared = SHARED.filter((name) => name in shells.uniforms).map(
+			(name) => [name, shells.uniforms[name]] as [string, IUniform],
+		);
+		super(
+			{ ...fin, means: shells.means },
+			textures,
+			{
+				name: 'FurFinMaterial',
+				vertexShader: [vertexMain, ends].join('\n'),
+				fragmentShader: [fragmentMain, ends].join('\n'),
+				uniforms: {
+					...Object.fromEntries(shared),
+					finLength: { value: 1.05 },
+					finOpacity: { value: 0.9 },
+					finHeights: { value: shells.uniforms.tiles?.value },
+				},
+				// |n·v| of the faces, between which a fin fades out; half a mip level finer than even, since fins are seen askew.
+				defines: {
+					FIN: '',
+					LAYERS: shells.defines.LAYERS,
+					...('EYE' in shells.defines && { EYE: '' }),
+					FADE_FROM: '0.03',
+					FADE_TO: '0.15',
+					LOD_BIAS: '-0.5',
+				},
+				depthWrite: false,
+				side: DoubleSide,
+			},
+			MIRRORED,
+			shells,
+		);
+		this.setValues(parameters);
+	}
+}

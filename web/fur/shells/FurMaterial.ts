@@ -1,0 +1,144 @@
+import { Color, type ShaderMaterialParameters, Vector3, Vector4 } from 'three';
+import type { FurAsset } from '../format.ts';
+import { bentWeights, leanOf, wayOf } from '../light/bent.ts';
+import { eyeUniforms } from '../light/eye.ts';
+import type { FurTextures } from '../light/texels.ts';
+import fragmentMain from '../shaders/draw/shells.frag.glsl?raw';
+import ends from '../shaders/draw/shells.glsl?raw';
+import vertexMain from '../shaders/draw/shells.vert.glsl?raw';
+import frame from '../shaders/hair/frame.glsl?raw';
+import hairIn from '../shaders/hair/hair.frag.glsl?raw';
+import hairOut from '../shaders/hair/hair.vert.glsl?raw';
+import opacity from '../shaders/hair/opacity.glsl?raw';
+import shell from '../shaders/hair/shell.glsl?raw';
+import { ALPHA_CUT } from './lod.ts';
+import { PeltMaterial } from './PeltMaterial.ts';
+
+/** Properties that a FurMaterial has beside those of every material. */
+export interface FurMaterialParameters extends ShaderMaterialParameters {
+	/** Longest fur, the mesh's own units; see `Fur.length`. @internal */
+	furLength?: number;
+	/** Shells of one body; may lie between two whole numbers. */
+	shellCount?: number;
+	/** Coverage below which a fragment is dropped, 0..1; FurShells sets it for every picture. */
+	alphaCut?: number;
+	/** {@inheritDoc FurMaterial.bodyRadius} */
+	bodyRadius?: number;
+	/** Base colour of the model, which multiplies the fur's. */
+	skinColour?: Color;
+	/** Linear colour at the skin. */
+	root?: Color;
+	/** Linear colour of the tips; where the pelt has a colour plane only the ratio of the two tips counts. */
+	tip?: Color;
+	/** Second tip colour, blended in by the mesh's attributes. */
+	tip2?: Color;
+	/** Strength of `tip2`, 0..1. */
+	tipShare?: number;
+	/** p in mix(root, tip, s^p), s from 0 at the skin to 1 at the tip. */
+	rampPower?: number;
+	/** Exponent of the highlights: 20 is matt, 200 wet. */
+	sharpness?: number;
+	/** {@inheritDoc FurMaterial.environment} */
+	environment?: boolean;
+	/** {@inheritDoc FurMaterial.gloss} */
+	gloss?: number;
+	/** {@inheritDoc FurMaterial.backlight} */
+	backlight?: number;
+	/** {@inheritDoc FurMaterial.density} */
+	density?: number;
+	/** {@inheritDoc FurMaterial.lampsPerFragment} */
+	lampsPerFragment?: boolean;
+	/** {@inheritDoc FurMaterial.multisampled} */
+	multisampled?: boolean;
+}
+
+const MIRRORED = [
+	'furLength',
+	'shellCount',
+	'alphaCut',
+	'skinColour',
+	'root',
+	'tip',
+	'tip2',
+	'tipShare',
+	'rampPower',
+	'sharpness',
+] as const satisfies (keyof FurMaterialParameters)[];
+
+/**
+ * Shells of fur lit by polynomial texture maps (Tang, Li, Lv 2009), under three's own lights.
+ *
+ * Per vertex the lights are summed into a few moments; per fragment a texel's coefficients meet them in one dot
+ * product. Colours are linear, blending is premultiplied, depth is written: shells have to be drawn inside-out.
+ */
+export class FurMaterial extends PeltMaterial {
+	/** Longest fur, the mesh's own units; see `Fur.length`. @internal */
+	declare furLength: number;
+	/** {@inheritDoc FurMaterialParameters.shellCount} */
+	declare shellCount: number;
+	/** {@inheritDoc FurMaterialParameters.alphaCut} */
+	declare alphaCut: number;
+	/** {@inheritDoc FurMaterialParameters.skinColour} */
+	declare skinColour: Color;
+	/** {@inheritDoc FurMaterialParameters.root} */
+	declare root: Color;
+	/** {@inheritDoc FurMaterialParameters.tip} */
+	declare tip: Color;
+	/** {@inheritDoc FurMaterialParameters.tip2} */
+	declare tip2: Color;
+	/** {@inheritDoc FurMaterialParameters.tipShare} */
+	declare tipShare: number;
+	/** {@inheritDoc FurMaterialParameters.rampPower} */
+	declare rampPower: number;
+	/** {@inheritDoc FurMaterialParameters.sharpness} */
+	declare sharpness: number;
+
+	constructor(asset: FurAsset, textures: FurTextures, parameters: FurMaterialParameters = {}) {
+		const pelt = asset.pelts[0];
+		if (!pelt) throw new Error('FUR_ptm_shells/pelts: got none, expected at least one');
+		const { basis, environment, curves, ramp } = asset;
+		const means = curves && { curves, way: wayOf(asset), weights: pelt.weights ?? [], multiple: pelt.multiple };
+		super(
+			{ ...pelt, basis, environment, means },
+			textures,
+			{
+				name: 'FurMaterial',
+				vertexShader: [frame, shell, hairOut, vertexMain, ends].join('\n'),
+				fragmentShader: [opacity, hairIn, fragmentMain, ends].join('\n'),
+				uniforms: {
+					tiles: { value: asset.tiles ?? 1 },
+					furLength: { value: asset.length },
+					shellCount: { value: asset.layers },
+					firstShell: { value: 0 },
+					drift: { value: driftKnots(asset.drift) },
+					lean: { value: leanOf(asset) },
+					bent: { value: bentWeights(asset) },
+					...eyeUniforms(asset),
+					alphaCut: { value: ALPHA_CUT },
+					skinColour: { value: new Color(1, 1, 1) },
+					root: { value: new Color(...ramp.root) },
+					tip: { value: new Color(...ramp.tip) },
+					tip2: { value: new Color(...ramp.tip2) },
+					tipShare: { value: 1 },
+					rampPower: { value: ramp.power },
+					bodyLight0: { value: null },
+					bodyLight1: { value: null },
+					bodyLight2: { value: null },
+					bodyEntries: { value: new Vector3() },
+				},
+				defines: { MAX_SLANT: '6.0', HAIR: '0.2', LAYERS: asset.layers, ...(asset.eye && { EYE: '' }) },
+				depthWrite: true,
+			},
+			MIRRORED,
+		);
+		this.setValues(parameters);
+	}
+}
+
+/** Mean displacement of the hairs at the root and in every slab's middle, two to a vector. */
+function driftKnots(drift: FurAsset['drift']): Vector4[] {
+	const knots = [0, 0, ...drift.flat()];
+	return Array.from({ length: (drift.length + 2) >> 1 }, (_, i) =>
+		new Vector4().fromArray([...knots.slice(4 * i, 4 * i + 4), 0, 0]),
+	);
+}

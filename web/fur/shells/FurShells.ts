@@ -1,0 +1,154 @@
+import {
+	BufferGeometry,
+	type Camera,
+	InstancedBufferGeometry,
+	Mesh,
+	type Object3D,
+	type Scene,
+	Sphere,
+	Vector3,
+	Vector4,
+	type WebGLRenderer,
+} from 'three';
+import { BodyCurvature } from '../body/BodyCurvature.ts';
+import { sharedComb } from '../body/comb.ts';
+import type { FurAsset } from '../format.ts';
+import { BodyLight } from './BodyLight.ts';
+import { beginClip, endClip, type FurColumns } from './clip.ts';
+import type { FurMaterial } from './FurMaterial.ts';
+import { HullMaterial } from './HullMaterial.ts';
+import { cutFor, pixelsPerUnit, shellsFor } from './lod.ts';
+
+/** Largest number of shells. */
+export const MAX_SHELLS = 256;
+
+const eye = new Vector3();
+const middle = new Vector3();
+const viewport = new Vector4();
+
+/** Shells of a furry surface: one instanced draw, instance = shell, the innermost first. */
+export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
+	/** Draws the hull into shadow maps. */
+	override readonly customDepthMaterial: HullMaterial;
+	/** Whether the picture determines the number of shells; setting `shellCount` turns it off. */
+	automatic = true;
+	/** Spacing of automatic shells over what looks best: 2 draws half as many. */
+	coarseness = 1;
+	/** Columns of the picture to draw; undefined: all. */
+	clip: FurColumns | undefined;
+	/** Width of a texel, model units. */
+	readonly #texel: number;
+	readonly #layers: number;
+	/** Lamps at the body's vertices, for all shells; format 2.x. */
+	readonly #light: BodyLight | undefined;
+	/** Radius of the surface below, the mesh's own units. */
+	readonly #radius: number;
+
+	/**
+	 * @param surface the skin's vertices with normal, tangent, uv (tiles), _fur, _comb and color; or other shells'
+	 * @param placement the node whose transform takes the surface's units to the model's; uniform scale
+	 */
+	constructor(surface: BufferGeometry, placement: Object3D, asset: FurAsset, material: FurMaterial) {
+		const geometry = new InstancedBufferGeometry();
+		geometry.setIndex(surface.index);
+		for (const [name, attribute] of Object.entries(surface.attributes)) geometry.setAttribute(name, attribute);
+		super(geometry, material);
+		const comb = surface instanceof InstancedBufferGeometry ? undefined : sharedComb(surface);
+		if (comb) geometry.setAttribute('_comb', comb);
+		this.name = 'fur';
+		this.customDepthMaterial = new HullMaterial(material);
+		this.castShadow = this.receiveShadow = true;
+		this.position.copy(placement.position);
+		this.quaternion.copy(placement.quaternion);
+		this.scale.copy(placement.scale);
+
+		const sphere = new Sphere();
+		const position = surface.getAttribute('position');
+		if (position) {
+			const points = new BufferGeometry().setAttribute('position', position);
+			points.computeBoundingSphere();
+			sphere.copy(points.boundingSphere ?? sphere);
+		}
+		this.#radius = sphere.radius;
+		geometry.boundingSphere = sphere;
+		const { size, layers, length, height } = asset;
+		this.#layers = layers;
+		this.#texel = length / (height * size);
+		if (material.means) {
+			BodyCurvature.of(surface).mark(geometry);
+			this.#light = new BodyLight(this);
+			this.add(this.#light);
+		}
+		this.furLength = length;
+	}
+
+	/** Longest hairs, model units; of a fur, set `Fur.length`. */
+	get furLength(): number {
+		return this.material.furLength * this.scale.x;
+	}
+
+	set furLength(length: number) {
+		this.material.furLength = length / this.scale.x;
+		(this.geometry.boundingSphere as Sphere).radius = this.#radius + this.material.furLength;
+	}
+
+	/** Number of shells, 1 to 256, independent of the number of slabs; fractions are allowed. */
+	get shellCount(): number {
+		return this.material.shellCount;
+	}
+
+	set shellCount(value: number) {
+		this.automatic = false;
+		this.#draw(value);
+	}
+
+	#draw(value: number): void {
+		const count = Math.min(Math.max(value, 1), MAX_SHELLS);
+		this.material.shellCount = count;
+		this.geometry.instanceCount = Math.ceil(count);
+	}
+
+	/** Set number of shells and alpha cut for this picture. */
+	override onBeforeRender(renderer: WebGLRenderer, _scene: Scene, camera: Camera): void {
+		this.#light?.offer(renderer, camera);
+		const { center, radius } = this.geometry.boundingSphere as Sphere;
+		const unit = this.matrixWorld.getMaxScaleOnAxis() / this.scale.x; // world units per model unit
+		const away = eye
+			.setFromMatrixPosition(camera.matrixWorld)
+			.distanceTo(middle.copy(center).applyMatrix4(this.matrixWorld));
+		const near = Math.max(away - radius * this.scale.x * unit, 0.1 * away);
+		const height = renderer.getCurrentViewport(viewport).w;
+		if (this.automatic)
+			this.#draw(
+				shellsFor(this.furLength * unit * pixelsPerUnit(camera, height, near), this.#layers * this.material.trim) /
+					this.coarseness,
+			);
+		this.material.alphaCut = cutFor(this.#texel * unit * pixelsPerUnit(camera, height, away));
+		this.material.uniformsNeedUpdate = true;
+		beginClip(renderer, this.clip);
+	}
+
+	/** Restore the scissor. */
+	override onAfterRender(renderer: WebGLRenderer): void {
+		endClip(renderer, this.clip);
+	}
+
+	/** One hull casts the shadow of all shells. */
+	override onBeforeShadow(): void {
+		this.customDepthMaterial.follow();
+		this.geometry.instanceCount = 1;
+	}
+
+	/** Restore the shells for the picture. */
+	override onAfterShadow(): void {
+		this.geometry.instanceCount = Math.ceil(this.shellCount);
+	}
+
+	/** Frees the geometry; material and textures belong to the fur. */
+	override dispose(): void {
+		super.dispose();
+		this.#light?.dispose();
+		this.geometry.dispose();
+		this.customDepthMaterial.dispose();
+	}
+}

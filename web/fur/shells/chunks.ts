@@ -1,0 +1,41 @@
+/** GLSL chunks shared by several materials. */
+
+import body from '../shaders/hair/body.glsl?raw';
+import comb from '../shaders/hair/comb.glsl?raw';
+import density from '../shaders/hair/density.glsl?raw';
+import displacement from '../shaders/hair/displacement.glsl?raw';
+import follicle from '../shaders/hair/follicle.glsl?raw';
+import trim from '../shaders/hair/trim.glsl?raw';
+import weatherIn from '../shaders/hair/weather.frag.glsl?raw';
+import weather from '../shaders/hair/weather.glsl?raw';
+import weatherOut from '../shaders/hair/weather.vert.glsl?raw';
+import arrival from '../shaders/light/arrival.glsl?raw';
+import bent from '../shaders/light/bent.glsl?raw';
+import curves from '../shaders/light/curves.glsl?raw';
+import dip from '../shaders/light/dip.glsl?raw';
+import eye from '../shaders/light/eye.glsl?raw';
+import horizon from '../shaders/light/horizon.glsl?raw';
+import lamps from '../shaders/light/lamps.glsl?raw';
+import moments from '../shaders/light/moments.glsl?raw';
+import shadow from '../shaders/light/shadow.glsl?raw';
+import sky from '../shaders/light/sky.glsl?raw';
+import trimmed from '../shaders/light/trimmed.glsl?raw';
+import view from '../shaders/light/view.glsl?raw';
+
+/** Positions of hairs. */
+export const hairChunks = [body, follicle, comb, weather, weatherOut, trim, displacement];
+
+/** Reading of texels. */
+export const texelChunks = [trim, density, weather, weatherIn];
+
+/** Arrival of lamps at a point of the fur. @param curved whether by mean curves (format 2.x) */
+export const arrivalChunks = (curved: boolean): string[] => [
+	...['#include <common>', '#include <lights_pars_begin>'],
+	...[view, moments, trimmed, bent, eye, curved ? curves : horizon, arrival],
+];
+
+/** Light of lamps. @param curved as above */
+export const lampChunks = (curved: boolean): string[] => [...arrivalChunks(curved), shadow, lamps];
+
+/** Light of the environment. */
+export const skyChunks = (curved: boolean): string[] => (curved ? [sky] : [dip, sky]);

@@ -1,0 +1,38 @@
+/** Number of shells and alpha cut for a picture. */
+
+import type { Camera } from 'three';
+
+/** Coverage below which a fragment is dropped where texels are no smaller than pixels. */
+export const ALPHA_CUT = 0.1;
+
+/** Share of the cut left where many texels share a pixel: thin hairs are a haze there, not gone. */
+const FAR_CUT = 0.2;
+
+/** Largest distance between two shells, pixels: beyond, hairs look like strings of beads. */
+const SPACING = 1.5;
+
+/**
+ * Number of shells beyond which the picture hardly changes; continuous, without steps.
+ *
+ * @param pixels largest length of a hair on screen
+ * @param least smallest result; below the number of slabs some are left out, and fur changes its colour a little
+ */
+export function shellsFor(pixels: number, least: number): number {
+	return Math.max(pixels / SPACING, least);
+}
+
+/** Coverage below which a fragment is dropped. @param pixels width of a texel on screen */
+export function cutFor(pixels: number): number {
+	return ALPHA_CUT * Math.min(Math.max((0.8 * pixels) ** 1.7, FAR_CUT), 1);
+}
+
+/**
+ * Length of a world unit on screen, pixels.
+ *
+ * @param height of the picture, pixels
+ * @param distance from the camera, world units
+ */
+export function pixelsPerUnit(camera: Camera, height: number, distance: number): number {
+	const { elements } = camera.projectionMatrix;
+	return (0.5 * height * (elements[5] as number)) / ((elements[11] as number) < 0 ? distance : 1);
+}

@@ -1,0 +1,38 @@
+/** Parts of shaders that are compiled in on demand: a define each. */
+
+import type { ShaderMaterial } from 'three';
+
+/** Parts that change position and coverage of hairs, whatever lights them. */
+export const SHAPE = ['DENSITY', 'SWING', 'TRIMMED', 'WET', 'DIRTY', 'MUD'] as const;
+
+/**
+ * Compile a part in or out. The renderer keeps a material's programs, so switching back and forth is cheap.
+ *
+ * @param value of its define; undefined leaves the part out
+ */
+export function switchPart(material: ShaderMaterial, part: string, value: string | number | undefined): void {
+	if (material.defines[part] === value) return;
+	if (value !== undefined) material.defines[part] = value;
+	else delete material.defines[part];
+	material.needsUpdate = true;
+}
+
+/** Compile in the same of these parts as another material. */
+export function followParts(material: ShaderMaterial, leader: ShaderMaterial, parts: readonly string[]): void {
+	for (const part of parts) switchPart(material, part, leader.defines[part] as string | number | undefined);
+}
+
+/** Mirror uniforms of a material as its properties. */
+export function mirrorUniforms(material: ShaderMaterial, names: readonly string[]): void {
+	for (const name of names) {
+		const uniform = material.uniforms[name];
+		if (!uniform) continue;
+		Object.defineProperty(material, name, {
+			enumerable: true,
+			get: () => uniform.value,
+			set: (value) => {
+				uniform.value = value;
+			},
+		});
+	}
+}
