@@ -38,6 +38,18 @@ class Outcome:
     err: str
 
 
+STARTS: dict[str, Any] = {}
+"""State of each module's RNG before its first test."""
+
+
+@pytest.fixture(autouse=True)
+def same_numbers(request: pytest.FixtureRequest) -> None:
+    """Start a module's RNG anew for each test: its numbers do not depend on the tests before it."""
+    rng = getattr(request.module, "RNG", None)
+    if rng is not None:
+        rng.bit_generator.state = STARTS.setdefault(request.module.__name__, rng.bit_generator.state)
+
+
 @pytest.fixture
 def run(capsys: pytest.CaptureFixture[str]) -> Callable[..., Outcome]:
     """Run the command in this process: run("bake", "torus", "-o", folder)."""

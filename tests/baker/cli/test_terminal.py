@@ -37,7 +37,10 @@ def rewrite(path: Path, change: Callable[[Any], Any]) -> None:
 
 
 def process(*arguments: str, **settings: Any) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-c", "import sys; from furbake.cli import main; sys.exit(main())", *arguments]
+    # Jobs in a shell's background ignore Ctrl-C, and so would their children.
+    heed = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
+    program = f"{heed}; import sys; from furbake.cli import main; sys.exit(main())"
+    command = [sys.executable, "-c", program, *arguments]
     return subprocess.run(command, capture_output=True, text=True, check=False, **settings)
 
 
