@@ -4,7 +4,6 @@ import {
 	type Camera,
 	DirectionalLight,
 	HalfFloatType,
-	NeutralToneMapping,
 	type Scene,
 	UnsignedByteType,
 	WebGLRenderer,
@@ -13,6 +12,7 @@ import {
 import { OutputPass } from 'three/addons/postprocessing/OutputPass.js';
 import { type FurLimits, furLimits } from '../fur/index.ts';
 import { disposeAll } from '../page/dispose.ts';
+import { setToneMapping } from '../page/toneMapping.ts';
 
 const MAX_PIXEL_RATIO = 2;
 /** Samples per pixel on screens of low density. */
@@ -236,7 +236,7 @@ function output(): Output | undefined {
 	if (!gl) return undefined;
 	const half = gl.getExtension('EXT_color_buffer_float') ?? gl.getExtension('EXT_color_buffer_half_float');
 	const renderer = new WebGLRenderer({ canvas, ...attributes });
-	renderer.toneMapping = NeutralToneMapping;
+	setToneMapping(renderer);
 	renderer.shadowMap.enabled = true;
 	const target = new WebGLRenderTarget(1, 1, {
 		type: half ? HalfFloatType : UnsignedByteType,

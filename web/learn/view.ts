@@ -2,9 +2,7 @@
 
 import {
 	type Camera,
-	Color,
 	DirectionalLight,
-	HemisphereLight,
 	MathUtils,
 	Object3D,
 	PerspectiveCamera,
@@ -15,6 +13,7 @@ import {
 } from 'three';
 import { fitFurShadow } from '../fur/index.ts';
 import { backdrop } from '../page/backdrop.ts';
+import { daylightSky, KEY_COLOUR } from '../page/daylight.ts';
 import { Lamp, lampDistance } from '../page/lamp.ts';
 import { figureCanvas } from './controls.ts';
 import { lightByHand, lightByKeys, listenToDrags } from './drag.ts';
@@ -25,8 +24,6 @@ import type { Picture } from './painter.ts';
 const FIELD_OF_VIEW = 24;
 /** Size of the window over the lamp's sphere, for the lamp's halo. */
 const ROOM = 1.06;
-
-const keyColour = new Color(1, 0.95, 0.87).multiplyScalar(2.8 * Math.PI);
 
 export interface WindowOptions {
 	/** Accessible name. */
@@ -62,8 +59,8 @@ export class View {
 	/** Canvas of the first window. */
 	readonly canvas: HTMLCanvasElement;
 	readonly scene = new Scene();
-	readonly key = new DirectionalLight(keyColour);
-	readonly sky = new HemisphereLight(new Color(0.55, 0.65, 0.8), new Color(0.28, 0.24, 0.2), 0.7 * Math.PI);
+	readonly key = new DirectionalLight(KEY_COLOUR);
+	readonly sky = daylightSky();
 	readonly centre: Vector3;
 	readonly radius: number;
 	readonly #lesson: Lesson;

@@ -24,17 +24,6 @@ import { random } from './random.ts';
 const middle: ColorRepresentation = '#56687a';
 const rim: ColorRepresentation = '#212a33';
 
-/**
- * Inverse of the Khronos Neutral tone mapping for `colour` (linear, below its shoulder at 0.76). The curve subtracts from
- * every channel: m - 6.25 m² of the smallest one where that is below 0.08, 0.04 above.
- */
-export function beforeNeutral(colour: Color): Color {
-	const smallest = Math.min(colour.r, colour.g, colour.b);
-	const before = 0.4 * Math.sqrt(smallest);
-	const offset = before < 0.08 ? before - smallest : 0.04;
-	return colour.addScalar(offset);
-}
-
 function smoothstep(t: number): number {
 	const x = Math.min(Math.max(t, 0), 1);
 	return x * x * (3 - 2 * x);
@@ -58,7 +47,7 @@ export function backdrop(half: boolean, size = 384): DataTexture {
 			const away = Math.hypot((x + 0.5) / size - 0.5, ((y + 0.5) / size - 0.47) * 1.1) / 0.72;
 			colour.lerpColors(inner, outer, smoothstep(away));
 			colour.addScalar((grain() + grain() - 1) / 255);
-			beforeNeutral(colour.convertSRGBToLinear());
+			colour.convertSRGBToLinear();
 			if (!half) colour.convertLinearToSRGB();
 			const at = (y * size + x) * 4;
 			texels[at] = stored(colour.r);

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -22,10 +21,10 @@ from furbake.pelt.light.paths import BODY_RADIUS
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.texels.basis import environment
 from furbake.pelt.texels.quantise import srgb_bytes
+from furbake.show.daylight import PAGE, RGB, Scene, tone_mapped
 
 Array = NDArray[np.float64]
 Bytes = NDArray[np.uint8]
-RGB = tuple[float, float, float]
 Direction = tuple[float, float, float]
 
 FROM_THE_SIDE: Direction = (-0.62, 0.48, 0.62)
@@ -38,21 +37,6 @@ SKIN = 0.35
 """Colour of the bare skin over that of the roots."""
 
 HARMONIC_0, HARMONIC_1 = math.sqrt(1 / (4 * math.pi)), math.sqrt(3 / (4 * math.pi))
-
-
-@dataclass(frozen=True)
-class Scene:
-    """Lamp and sky, linear Rec. 709; the defaults are the page's.
-
-    lamp : irradiance perpendicular to the light; sky, ground : irradiance of a surface that faces up, or down
-    """
-
-    lamp: RGB = (2.8 * math.pi, 2.66 * math.pi, 2.436 * math.pi)
-    sky: RGB = (0.4675 * math.pi, 0.5525 * math.pi, 0.68 * math.pi)
-    ground: RGB = (0.238 * math.pi, 0.204 * math.pi, 0.17 * math.pi)
-
-
-PAGE = Scene()
 
 
 def render(
@@ -143,7 +127,7 @@ def pictures(
     directions = np.stack([light_direction(light) for light in lights])
     found = []
     for tile in radiance(pelt, directions, -(-size // tiles), shells_per_slab, scene, skin, hairs):
-        whole = np.tile(srgb_bytes(neutral(tile)), (tiles, tiles, 1))
+        whole = np.tile(srgb_bytes(tone_mapped(tile)), (tiles, tiles, 1))
         found.append(np.ascontiguousarray(whole[:size, :size][::-1]))
     return found
 
@@ -270,20 +254,6 @@ def _taps(texels: int, pixels: int, offset: float) -> tuple[NDArray[np.int64], A
     index = np.floor(at - wide).astype(np.int64) + 1 + np.arange(math.ceil(2 * wide))[:, None]
     weight = np.maximum(1 - np.abs(index - at) / wide, 0)
     return index % texels, weight / weight.sum(0)
-
-
-def neutral(linear: Array) -> Array:
-    """Khronos PBR Neutral tone mapping, (..., 3) → 0..1."""
-    start, desaturation = 0.8 - 0.04, 0.15
-    least = linear.min(-1, keepdims=True)
-    colour = linear - np.where(least < 0.08, least - 6.25 * least**2, 0.04)
-    peak = colour.max(-1, keepdims=True)
-    room = 1 - start
-    lowered = 1 - room * room / (np.maximum(peak, start) + room - start)
-    grey = 1 - 1 / (desaturation * (np.maximum(peak, start) - lowered) + 1)
-    compressed = colour * lowered / np.maximum(peak, 1e-9)
-    mapped = np.where(peak < start, colour, compressed + (lowered - compressed) * grey)
-    return np.asarray(np.clip(mapped, 0, 1))
 
 
 def from_srgb(codes: Bytes) -> Array:

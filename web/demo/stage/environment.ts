@@ -16,7 +16,6 @@ import {
 } from 'three';
 import { type FurLamp, furEnvironment } from '../../fur/index.ts';
 import { luminance, visitEnvironment } from '../../fur/reference.ts';
-import { beforeNeutral } from '../../page/backdrop.ts';
 import type { EnvironmentName } from '../state/view.ts';
 
 const FILES: Record<EnvironmentName, () => Promise<{ default: string }>> = {
@@ -28,7 +27,7 @@ const FILES: Record<EnvironmentName, () => Promise<{ default: string }>> = {
 };
 
 /** Total light of every environment, radiance times solid angle: as bright as the page's own sky. */
-const TOTAL_LIGHT = 13;
+const TOTAL_LIGHT = 9.75;
 
 /** Least share of the dragged lamp in the total light: dragging has to be seen. */
 const MIN_KEY_SHARE = 0.35;
@@ -124,7 +123,6 @@ function blurred(texture: DataTexture, width = 96, height = 48): DataTexture {
 		const here = luminance(colour);
 		const shown = darkest + (brightness - darkest) * Math.min(Math.sqrt(here / mean), 1.6);
 		colour.multiplyScalar((0.8 * shown) / here).addScalar(0.2 * shown);
-		beforeNeutral(colour);
 		texels.set([colour.r, colour.g, colour.b, 1], at);
 		at += 4;
 	});

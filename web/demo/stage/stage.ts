@@ -6,10 +6,8 @@ import {
 	DirectionalLight,
 	Group,
 	HalfFloatType,
-	HemisphereLight,
 	Material,
 	Mesh,
-	NeutralToneMapping,
 	Object3D,
 	type PerspectiveCamera,
 	Scene,
@@ -22,7 +20,9 @@ import {
 import { type Fur, FurEdgeEffect, type FurLimits, fitFurShadow, furLimits } from '../../fur/index.ts';
 import { luminance } from '../../fur/reference.ts';
 import { backdrop, CastShadow, ContactShadow } from '../../page/backdrop.ts';
+import { daylightSky, KEY_COLOUR, KEY_POWER } from '../../page/daylight.ts';
 import { disposeAll } from '../../page/dispose.ts';
+import { setToneMapping } from '../../page/toneMapping.ts';
 import { Crowd } from './crowd.ts';
 import type { Environment } from './environment.ts';
 import { Lamps } from './lamps.ts';
@@ -30,10 +30,6 @@ import type { Model } from './model.ts';
 import { heightOf, stand } from './stand.ts';
 
 const MAX_PIXEL_RATIO = 2;
-
-/** Irradiance of the key light: 2.8π gives a white matt surface that faces it a brightness of 2.8. */
-const KEY_POWER = 2.8 * Math.PI;
-const KEY_COLOUR = new Color(1, 0.95, 0.87).multiplyScalar(KEY_POWER);
 
 const irradiance = new Vector3();
 const sky = new Color();
@@ -44,7 +40,7 @@ export class Stage {
 	readonly sample: WebGLRenderTarget;
 	readonly scene = new Scene();
 	readonly key = new DirectionalLight();
-	readonly sky = new HemisphereLight(0xffffff, 0xffffff, 0.7 * Math.PI);
+	readonly sky = daylightSky();
 	readonly #lamps = new Lamps(KEY_POWER);
 	/** Centre and radius of what is on show. */
 	readonly centre = new Vector3();
@@ -81,12 +77,10 @@ export class Stage {
 		this.#smooth = Boolean(half);
 		if (half) this.renderer.setEffects([this.#edges]);
 		this.sample = new WebGLRenderTarget(1, 1, { type: outputBufferType });
-		this.renderer.toneMapping = NeutralToneMapping;
+		setToneMapping(this.renderer);
 		this.renderer.shadowMap.enabled = true;
 		// A frame is several renders (scene, output): counts add up over them.
 		this.renderer.info.autoReset = false;
-		this.sky.color.setRGB(0.55, 0.65, 0.8);
-		this.sky.groundColor.setRGB(0.28, 0.24, 0.2);
 		this.#backdrop = backdrop(Boolean(half));
 		this.#shadow.visible = this.#cast.visible = false;
 		this.scene.add(this.key, this.key.target, this.#lamps, this.sky, this.#environmentLights, this.#shadow, this.#cast);
