@@ -1,37 +1,59 @@
-/** The shadow on the ground lies where the lamp's map has it, and is as dark as the lamp is strong there. */
+/** The ground lies under the body, faces up and fades out; the shadow of the sky follows the body. */
 
 import { Box3, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
-import { CastShadow } from '../../../web/page/backdrop.ts';
+import { ContactShadow, Ground } from '../../../web/page/ground.ts';
 
 const box = new Box3(new Vector3(-1, 0, -1), new Vector3(1, 2, 1));
-const centre = box.getCenter(new Vector3());
 
-function lit(x: number, y: number, z: number, share = 0.8): { shadow: CastShadow; direction: Vector3 } {
-	const shadow = new CastShadow();
-	const direction = new Vector3(x, y, z).normalize();
-	shadow.fit(box, 0.2);
-	shadow.follow(centre, 1.7, direction, share);
-	return { shadow, direction };
-}
+describe('the ground', () => {
+	const ground = new Ground();
+	ground.fit(box, 0.2, 5);
+	ground.updateMatrixWorld();
+	const position = ground.geometry.getAttribute('position');
+	const colour = ground.geometry.getAttribute('color');
+	const points = Array.from({ length: position.count }, (_, i) => ({
+		at: new Vector3().fromBufferAttribute(position, i).applyMatrix4(ground.matrixWorld),
+		alpha: colour.getW(i),
+	}));
 
-describe('the shadow on the ground', () => {
-	it('takes in all that a ball of the radius shades', () => {
-		const { shadow, direction } = lit(0.7, 0.5, -0.3);
-		for (let i = 0; i < 200; i++) {
-			const point = new Vector3().setFromSphericalCoords(1.69, Math.acos(1 - (2 * i + 1) / 200), 2.4 * i).add(centre);
-			point.addScaledVector(direction, (shadow.position.y - point.y) / direction.y);
-			expect(point.distanceTo(shadow.position)).toBeLessThanOrEqual(shadow.scale.x);
+	it('lies where the fur of the body ends, below the shadow of the sky', () => {
+		const shadow = new ContactShadow();
+		shadow.fit(box, 0.2);
+		for (const { at } of points) {
+			expect(at.y).toBeCloseTo(-0.1, 2);
+			expect(at.y).toBeLessThan(shadow.position.y);
 		}
-		expect(shadow.position.y).toBeCloseTo(-0.1);
+		expect(ground.renderOrder).toBeLessThan(shadow.renderOrder);
 	});
 
-	it('is darker the greater the share of the lamp, and gone before the lamp sets', () => {
-		const dark = (y: number, share: number) => lit(0.5, y, 0, share).shadow.material.opacity;
-		expect(dark(1, 0.8)).toBeCloseTo(2 * dark(1, 0.4));
-		expect(dark(1, 0.8)).toBeLessThan(0.8);
-		expect(dark(0.12, 0.8)).toBeGreaterThan(0);
-		expect(dark(0.12, 0.8)).toBeLessThan(0.5 * dark(1, 0.8));
-		for (const y of [0.05, 0, -1]) expect(dark(y, 0.8)).toBe(0);
+	it('is whole under the body and gone at its rim', () => {
+		for (const { at, alpha } of points) {
+			const away = Math.hypot(at.x, at.z);
+			if (away < 0.5) expect(alpha).toBe(1);
+			if (away > 4.999) expect(alpha).toBeCloseTo(0);
+		}
+		expect(Math.max(...points.map(({ at }) => Math.hypot(at.x, at.z)))).toBeCloseTo(5);
+	});
+
+	it('is seen from above', () => {
+		const index = ground.geometry.index;
+		const corner = (i: number) => points[index?.getX(i) ?? 0]?.at ?? new Vector3();
+		for (let face = 0; face < (index?.count ?? 0); face += 3) {
+			const [a, b, c] = [corner(face), corner(face + 1), corner(face + 2)];
+			expect(b.clone().sub(a).cross(c.clone().sub(a)).y).toBeGreaterThanOrEqual(0);
+		}
+	});
+});
+
+describe('the shadow of the sky', () => {
+	it('follows the body and pales as it rises', () => {
+		const shadow = new ContactShadow();
+		shadow.fit(box, 0);
+		const dark = shadow.material.opacity;
+		shadow.follow(new Vector3(3, 1, -2), 0.5, 2);
+		expect(shadow.position.toArray()).toEqual([3, 0, -2]);
+		expect(shadow.rotation.z).toBe(0.5);
+		expect(shadow.material.opacity).toBeCloseTo(dark * Math.exp(-1.5));
 	});
 });

@@ -1,18 +1,8 @@
-/** Crowd: many bodies of the model on a meadow. */
+/** Crowd: many bodies of the model. */
 
-import {
-	Float32BufferAttribute,
-	Group,
-	InstancedMesh,
-	MathUtils,
-	Matrix4,
-	Mesh,
-	MeshStandardMaterial,
-	RingGeometry,
-	Vector3,
-} from 'three';
+import { Group, InstancedMesh, Matrix4, Vector3 } from 'three';
 import { type Fur, FurInstances } from '../../fur/index.ts';
-import { ContactShadow } from '../../page/backdrop.ts';
+import { ContactShadow } from '../../page/ground.ts';
 import { random } from '../../page/random.ts';
 import { MAX_CROWD } from '../state/view.ts';
 import type { Model } from './model.ts';
@@ -53,24 +43,6 @@ export function scatter(count: number, seed = 7): Spot[] {
 	return spots.slice(0, count);
 }
 
-/** A lawn of radius 1 that fades into the backdrop at its rim. */
-function lawn(): Mesh<RingGeometry, MeshStandardMaterial> {
-	const geometry = new RingGeometry(0, 1, 64, 12).rotateX(-Math.PI / 2);
-	const position = geometry.getAttribute('position');
-	const shades = Array.from({ length: position.count }, (_, i) => {
-		const away = Math.hypot(position.getX(i), position.getZ(i));
-		return [1, 1, 1, 1 - MathUtils.smoothstep(away, 0.35, 1)];
-	});
-	geometry.setAttribute('color', new Float32BufferAttribute(shades.flat(), 4));
-	const material = new MeshStandardMaterial({ vertexColors: true, transparent: true, depthWrite: false, roughness: 1 });
-	material.color.setRGB(0.075, 0.105, 0.045);
-	const ground = new Mesh(geometry, material);
-	ground.receiveShadow = true;
-	// Drawn before the shadows, which lie on it.
-	ground.renderOrder = -2;
-	return ground;
-}
-
 export class Crowd extends Group {
 	/** Radius of the sphere that the camera frames: the middle of the crowd, without its rim. */
 	radius = 0;
@@ -79,7 +51,6 @@ export class Crowd extends Group {
 	readonly #instances: FurInstances;
 	readonly #shadow = new ContactShadow();
 	readonly #shadows: InstancedMesh;
-	readonly #ground = lawn();
 	/** Width of the ground that a body takes up. */
 	readonly #room: number;
 
@@ -90,7 +61,7 @@ export class Crowd extends Group {
 	) {
 		super();
 		const { box } = model;
-		const { x: width, y: height, z: depth } = box.getSize(new Vector3());
+		const { x: width, z: depth } = box.getSize(new Vector3());
 		this.#room = Math.hypot(width, depth) + 2 * fur.asset.length;
 		const foot = box.getCenter(new Vector3()).setY(box.min.y);
 
@@ -109,8 +80,7 @@ export class Crowd extends Group {
 			this.#instances.setMatrixAt(i, matrix);
 			this.#shadows.setMatrixAt(i, matrix.multiply(this.#shadow.matrix));
 		}
-		this.#ground.position.copy(foot).setY(this.#shadow.position.y - 0.001 * height);
-		this.add(this.#ground, this.#shadows, this.#instances);
+		this.add(this.#shadows, this.#instances);
 	}
 
 	/** Height of the picture in pixels, for the levels of detail in the first frame. */
@@ -123,17 +93,15 @@ export class Crowd extends Group {
 		this.#instances.count = this.#shadows.count = value;
 		this.reach = (spread(value) + 1) * this.#room;
 		this.radius = 0.5 * this.reach;
-		this.#ground.scale.setScalar(2.2 * this.reach);
 	}
 
 	override dispose(): void {
 		this.removeFromParent();
 		this.#instances.dispose();
 		this.#shadows.dispose();
-		for (const { geometry, material } of [this.#shadow, this.#ground]) {
-			geometry.dispose();
-			material.dispose();
-		}
-		this.#shadow.material.map?.dispose();
+		const { geometry, material } = this.#shadow;
+		geometry.dispose();
+		material.dispose();
+		material.map?.dispose();
 	}
 }

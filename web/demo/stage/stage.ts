@@ -1,14 +1,13 @@
 /** Stage: renderer, lights, backdrop and the model on show. */
 
 import {
-	Color,
 	type DataTexture,
 	DirectionalLight,
 	Group,
 	HalfFloatType,
 	Material,
 	Mesh,
-	Object3D,
+	type Object3D,
 	type PerspectiveCamera,
 	Scene,
 	Sphere,
@@ -18,10 +17,10 @@ import {
 	WebGLRenderTarget,
 } from 'three';
 import { type Fur, FurEdgeEffect, type FurLimits, fitFurShadow, furLimits } from '../../fur/index.ts';
-import { luminance } from '../../fur/reference.ts';
-import { backdrop, CastShadow, ContactShadow } from '../../page/backdrop.ts';
+import { backdrop } from '../../page/backdrop.ts';
 import { daylightSky, KEY_COLOUR, KEY_POWER } from '../../page/daylight.ts';
 import { disposeAll } from '../../page/dispose.ts';
+import { ContactShadow, Ground, SLATE } from '../../page/ground.ts';
 import { setToneMapping } from '../../page/toneMapping.ts';
 import { Crowd } from './crowd.ts';
 import type { Environment } from './environment.ts';
@@ -31,8 +30,8 @@ import { heightOf, stand } from './stand.ts';
 
 const MAX_PIXEL_RATIO = 2;
 
-const irradiance = new Vector3();
-const sky = new Color();
+/** Radius of the ground, in radii of the body or of the crowd that stands on it. */
+const ROOM = { body: 6, crowd: 2.5 };
 
 export class Stage {
 	readonly renderer: WebGLRenderer;
@@ -53,7 +52,7 @@ export class Stage {
 	/** True where the renderer can smooth edges. */
 	readonly #smooth: boolean;
 	readonly #shadow = new ContactShadow();
-	readonly #cast = new CastShadow();
+	readonly #ground = new Ground();
 	readonly #backdrop: DataTexture;
 	/** Lights of the environment. */
 	readonly #environmentLights = new Group();
@@ -82,8 +81,16 @@ export class Stage {
 		// A frame is several renders (scene, output): counts add up over them.
 		this.renderer.info.autoReset = false;
 		this.#backdrop = backdrop(Boolean(half));
-		this.#shadow.visible = this.#cast.visible = false;
-		this.scene.add(this.key, this.key.target, this.#lamps, this.sky, this.#environmentLights, this.#shadow, this.#cast);
+		this.#shadow.visible = this.#ground.visible = false;
+		this.scene.add(
+			this.key,
+			this.key.target,
+			this.#lamps,
+			this.sky,
+			this.#environmentLights,
+			this.#shadow,
+			this.#ground,
+		);
 		this.setEnvironment(undefined);
 	}
 
@@ -96,7 +103,7 @@ export class Stage {
 		}
 		this.model = model;
 		this.#offset.setScalar(0);
-		this.#shadow.visible = this.#cast.visible = model !== undefined;
+		this.#shadow.visible = this.#ground.visible = model !== undefined;
 		if (model) this.scene.add(model.object);
 	}
 
@@ -123,15 +130,16 @@ export class Stage {
 		}
 		const crowd = this.#crowd;
 		if (crowd) crowd.count = count;
-		model.object.visible = this.#shadow.visible = this.#cast.visible = !many;
+		model.object.visible = this.#shadow.visible = !many;
 		this.bodyRadius = model.radius;
 		this.radius = crowd?.radius ?? model.radius;
 		model.box.getCenter(this.centre);
 		const length = fur?.shells.furLength ?? 0.05 * model.radius;
 		this.#shadow.fit(model.box, fur ? length : 0);
-		this.#cast.fit(model.box, fur ? length : 0);
+		const reach = crowd?.reach ?? this.radius;
+		this.#ground.fit(model.box, fur ? length : 0, reach * (many ? ROOM.crowd : ROOM.body));
 		this.#turnLight();
-		fitFurShadow(this.key, new Sphere(this.centre, (crowd?.reach ?? this.radius) + length), length);
+		fitFurShadow(this.key, new Sphere(this.centre, reach + length), length);
 	}
 
 	/** Smooths the edges of eyes, noses and the like between hairs. */
@@ -170,6 +178,7 @@ export class Stage {
 		this.sky.visible = !environment;
 		this.key.color.copy(environment?.key.colour ?? KEY_COLOUR);
 		this.scene.background = environment?.background ?? this.#backdrop;
+		this.#ground.material.color.copy(environment?.ground ?? SLATE);
 		this.#environmentLights.clear();
 		if (environment) this.#environmentLights.add(environment.probe);
 		for (const { direction, colour } of environment?.others ?? []) {
@@ -185,16 +194,6 @@ export class Stage {
 		const target = this.key.target.position.copy(this.centre).add(this.#offset);
 		this.key.position.copy(target).addScaledVector(direction, 4 * this.radius);
 		this.#lamps.turn(direction);
-		this.#cast.follow(target, this.radius, direction, this.#shareOnGround(direction.y));
-	}
-
-	/** Share of the dragged lamp in the light on the ground. @param sine of its elevation */
-	#shareOnGround(sine: number): number {
-		const lamp = luminance(this.key.color) * this.key.intensity * Math.max(sine, 0);
-		const { probe } = this.#environment ?? {};
-		if (probe) sky.setRGB(...probe.sh.getIrradianceAt(Object3D.DEFAULT_UP, irradiance).toArray());
-		else sky.copy(this.sky.color).multiplyScalar(this.sky.intensity);
-		return lamp / Math.max(lamp + luminance(sky), 1e-6);
 	}
 
 	/** Number of lamps, 1 to 8, the dragged one included. */

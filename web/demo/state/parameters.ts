@@ -208,7 +208,7 @@ export const parameters: Table = {
 	}),
 	crowd: ranged('crowd', {
 		...{ folder: 'body', label: 'crowd', range: [1, MAX_CROWD], step: 1, initial: 1, enabled: hasFur },
-		doc: ['100', 'Bodies of the model, on a meadow'],
+		doc: ['100', 'Bodies of the model, side by side'],
 		part: 'fur',
 	}),
 	wind: {
