@@ -36,7 +36,7 @@ function arc(from: number, to: number, brightness: (angle: number) => number, ma
 		positions.push(Math.cos(angle), Math.sin(angle), 0);
 		colours.push(...warm.map((part) => part * brightness(angle)));
 	}
-	return new Line2(new LineGeometry().setPositions(positions).setColors(colours), material);
+	return new Line2(new LineGeometry().setPositions(positions).setColors(colours), material).computeLineDistances();
 }
 
 /** Grey texture for additive light; `brightness` of u and v in -1..1 is in 0..1. */
@@ -116,7 +116,9 @@ export class Lamp extends Group {
 
 	#line(): LineMaterial {
 		const linewidth = 1.2 * Math.min(devicePixelRatio, 2);
-		const material = new LineMaterial({ linewidth, vertexColors: true, ...additive });
+		// One dash without end: dashed segments have no caps, which would lie over each other like beads.
+		const whole = { dashed: true, dashSize: 1e6, gapSize: 0 };
+		const material = new LineMaterial({ linewidth, vertexColors: true, ...whole, ...additive });
 		this.#faint.push(material);
 		return material;
 	}

@@ -12,7 +12,8 @@ export interface Room {
 const SMALLEST = 0.3;
 
 /**
- * Finds the rectangle that has the largest circle in it and meets none of the covers; of several the one of the largest area.
+ * Finds the rectangle with the largest circle that meets none of the covers, where each pixel of the circle's width weighs
+ * as much as one between its middle and the picture's; of several the one of the largest area.
  *
  * @param width of the picture in CSS pixels
  * @param covers rectangles that lie over it; they may reach beyond it, or be empty
@@ -27,7 +28,7 @@ export function freeRoom(width: number, height: number, covers: readonly Room[])
 	const whole: Room = { left: 0, top: 0, width, height };
 	if (over.length === 0) return whole;
 	let best = whole;
-	let circle = SMALLEST * Math.min(width, height);
+	let most = Number.NEGATIVE_INFINITY;
 	const [lefts, rights] = [
 		[0, ...over.map(([, , right]) => right)],
 		[width, ...over.map(([left]) => left)],
@@ -42,10 +43,12 @@ export function freeRoom(width: number, height: number, covers: readonly Room[])
 				for (const bottom of bottoms) {
 					const room = { left, top, width: right - left, height: bottom - top };
 					const size = Math.min(room.width, room.height);
-					if (size < circle || over.some(([l, t, r, b]) => l < right && r > left && t < bottom && b > top)) continue;
-					if (size === circle && best !== whole && room.width * room.height <= best.width * best.height) continue;
+					const value = size - Math.hypot(left + right - width, top + bottom - height) / 2;
+					if (size < SMALLEST * Math.min(width, height) || value < most) continue;
+					if (value === most && room.width * room.height <= best.width * best.height) continue;
+					if (over.some(([l, t, r, b]) => l < right && r > left && t < bottom && b > top)) continue;
 					best = room;
-					circle = size;
+					most = value;
 				}
 	return best;
 }

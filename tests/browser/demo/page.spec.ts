@@ -32,7 +32,7 @@ test('one line of figures, and all of them on demand, as the address says', asyn
 	await expect(overlay.locator('canvas').first()).toBeVisible();
 	await expect(overlay).toContainText('textures');
 	await expect.poll(() => new URL(page.url()).searchParams.get('details')).toBe('1');
-	await page.reload();
+	await open(page, new URL(page.url()).search);
 	const fewer = page.getByRole('button', { name: 'Fewer figures' });
 	await expect(fewer).toHaveAttribute('aria-expanded', 'true');
 	await fewer.press('Enter');

@@ -1,6 +1,18 @@
 /** Camera that orbits the model, and fits it into a room of any shape in the picture. */
 
-import { type Box3, MathUtils, MOUSE, PerspectiveCamera, Spherical, TOUCH, Vector3 } from 'three';
+import {
+	Box2,
+	type BufferAttribute,
+	MathUtils,
+	Mesh,
+	MOUSE,
+	type Object3D,
+	PerspectiveCamera,
+	Spherical,
+	TOUCH,
+	Vector2,
+	Vector3,
+} from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Room } from '../../page/room.ts';
 import type { Triple } from '../state/view.ts';
@@ -13,7 +25,8 @@ const MAX_DISTANCE = 4;
 
 const offset = new Vector3();
 const spherical = new Spherical();
-const corner = new Vector3();
+const vertex = new Vector3();
+const pixel = new Vector2();
 
 export class OrbitCamera extends PerspectiveCamera {
 	readonly #controls: OrbitControls;
@@ -116,18 +129,20 @@ export class OrbitCamera extends PerspectiveCamera {
 		else this.setViewOffset(width, height, -right, -down, width, height);
 	}
 
-	/** Box around a box on screen: CSS pixels from the picture's left upper corner. @param width of the picture */
-	boxOnScreen(box: Box3, width: number, height: number): Room {
-		const [x, y]: [number[], number[]] = [[], []];
+	/** Box around the vertices of a body on screen: CSS pixels from the picture's left upper corner. @param width of the picture */
+	boxOnScreen(body: Object3D, width: number, height: number): Room {
+		const box = new Box2();
 		this.updateMatrixWorld();
-		for (let i = 0; i < 8; i++) {
-			const { min, max } = box;
-			corner.set((i & 1 ? max : min).x, (i & 2 ? max : min).y, (i & 4 ? max : min).z).project(this);
-			x.push(((corner.x + 1) / 2) * width);
-			y.push(((1 - corner.y) / 2) * height);
-		}
-		const [left, top] = [Math.min(...x), Math.min(...y)];
-		return { left, top, width: Math.max(...x) - left, height: Math.max(...y) - top };
+		body.traverse((part) => {
+			if (!(part instanceof Mesh)) return;
+			const position: BufferAttribute = part.geometry.getAttribute('position');
+			for (let i = 0; i < position.count; i++) {
+				const { x, y } = vertex.fromBufferAttribute(position, i).applyMatrix4(part.matrixWorld).project(this);
+				box.expandByPoint(pixel.set(((x + 1) / 2) * width, ((1 - y) / 2) * height));
+			}
+		});
+		const { x, y } = box.getSize(pixel);
+		return { left: box.min.x, top: box.min.y, width: x, height: y };
 	}
 
 	/** Fits near and far plane to the scene, for the sake of depth precision. */

@@ -195,11 +195,13 @@ export class Picture {
 		return target.set((2 * left + width) / clientWidth - 1, 1 - (2 * top + height) / clientHeight);
 	}
 
+	/** Says in `data-box` where the body is in the picture: left, top, width and height. */
 	#rest(): void {
 		this.overlay?.rest();
 		const { canvas, camera, stage } = this;
 		if (!stage.model) return;
-		const box = camera.boxOnScreen(stage.model.box, canvas.clientWidth, canvas.clientHeight);
+		const { fur, object } = stage.model;
+		const box = camera.boxOnScreen(fur?.skin ?? object, canvas.clientWidth, canvas.clientHeight);
 		canvas.dataset.box = ROOM_SIDES.map((side) => Math.round(box[side])).join();
 	}
 
