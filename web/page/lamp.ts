@@ -7,10 +7,10 @@ import {
 	DoubleSide,
 	Group,
 	LinearFilter,
+	MathUtils,
 	Mesh,
 	MeshBasicMaterial,
 	PlaneGeometry,
-	SphereGeometry,
 	Sprite,
 	SpriteMaterial,
 	Vector3,
@@ -97,8 +97,11 @@ export class Lamp extends Group {
 		this.#ray.material.color.setRGB(...warm);
 		this.#faint.push(this.#ray.material);
 
-		const bulb = new Mesh(new SphereGeometry(0.022, 24, 16), new MeshBasicMaterial());
+		// A disc with a soft rim: a ball has steps without multisampling.
+		const disc = lightMap(64, 64, (u, v) => 1 - MathUtils.smoothstep(Math.hypot(u, v), 0.7, 1));
+		const bulb = new Sprite(new SpriteMaterial({ map: disc, ...additive }));
 		bulb.material.color.setRGB(4, 3.3, 2.5);
+		bulb.scale.setScalar(0.048);
 		const map = lightMap(64, 64, (u, v) => (1 - Math.min(Math.hypot(u, v), 1)) ** 3);
 		const halo = new Sprite(new SpriteMaterial({ map, ...additive }));
 		halo.material.color.setRGB(1.1, 0.72, 0.4);
