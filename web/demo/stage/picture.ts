@@ -51,7 +51,7 @@ export class Picture {
 	animate: (elapsed: number) => number = () => Number.POSITIVE_INFINITY;
 	/** Called when the room of the model has changed. */
 	framed: () => void = () => {};
-	/** Room that the model stands in, and the one that it is on the way to; undefined: the whole picture. */
+	/** Room that the model stands in, undefined for the whole picture; and the one that it is on the way to, if any. */
 	#room: Room | undefined;
 	#nextRoom: Room | undefined;
 	readonly #waiting: (() => void)[] = [];
@@ -157,8 +157,9 @@ export class Picture {
 
 	/** Moves the model into another room: gliding, unless it is calm here or the picture has another size, too. */
 	enter(room: Room): void {
-		this.#nextRoom = room;
-		if (!this.#room || this.calm || this.#stale || !this.stage.model) {
+		const glides = this.#room && !this.calm && !this.#stale && this.stage.model;
+		this.#nextRoom = glides ? room : undefined;
+		if (!glides) {
 			this.#room = { ...room };
 			this.#stale = true;
 		}
@@ -167,10 +168,12 @@ export class Picture {
 
 	/** @returns true while the model glides into its room */
 	#glide(elapsed: number): boolean {
-		const [room, next] = [this.#room, this.#nextRoom];
-		if (!room || !next || ROOM_SIDES.every((side) => room[side] === next[side])) return false;
+		const room = this.#room;
+		const next = this.#nextRoom;
+		if (!room || !next) return false;
 		const share = 1 - Math.exp(-elapsed / ROOM_EASING);
 		const near = ROOM_SIDES.every((side) => Math.abs(next[side] - room[side]) < ROOM_REACHED);
+		if (near) this.#nextRoom = undefined;
 		for (const side of ROOM_SIDES) room[side] = near ? next[side] : room[side] + share * (next[side] - room[side]);
 		this.#frame();
 		return true;
