@@ -9,6 +9,7 @@ import { type DragAction, Tools } from './hands/tools.ts';
 import { Exhibit } from './model/exhibit.ts';
 import { listenToDrops } from './open/drop.ts';
 import { Controls } from './panel/controls.ts';
+import { keepRoom } from './panel/room.ts';
 import { explain } from './say/explain.ts';
 import { hasWebGL2, showFallback } from './say/fallback.ts';
 import { notice } from './say/notice.ts';
@@ -38,7 +39,7 @@ function start(): void {
 		if (tools.act === 'camera') hint.hidden = true;
 	};
 	const picture = new Picture(element<HTMLCanvasElement>('picture'), { still, calm, turned });
-	if (ui) picture.overlay = new Overlay(element('overlay'), picture.stage, picture.timer, words, language);
+	if (ui) picture.overlay = addOverlay(picture, store);
 	const exhibit = new Exhibit(picture, store, new Progress(element<HTMLProgressElement>('progress')));
 	const controls = new Controls(element('panel'), tools, picture, exhibit, store);
 	const gestures = new Gestures(picture, exhibit.looks, exhibit.dynamics);
@@ -54,10 +55,23 @@ function start(): void {
 		},
 	});
 	addOpener(exhibit, controls);
+	if (ui) keepRoom(picture, [element('top'), controls.panel.element, element('dock')]);
 	followContext(picture, exhibit);
 	picture.fit();
 	// The address stays as it was asked for until something changes after that.
 	void exhibit.open().then(() => followInAddressBar(store));
+}
+
+/** Adds the figures; whether all of them are shown is in the view. */
+function addOverlay(picture: Picture, store: Store): Overlay {
+	const switched = (details: boolean) => store.change({ details: details || undefined });
+	const overlay = new Overlay(element('overlay'), picture, words, language, switched);
+	const show = () => {
+		overlay.details = store.get().details ?? false;
+	};
+	store.subscribe(show);
+	show();
+	return overlay;
 }
 
 /** Says what a drag does. */

@@ -7,10 +7,10 @@ import {
 	DoubleSide,
 	Group,
 	LinearFilter,
+	MathUtils,
 	Mesh,
 	MeshBasicMaterial,
 	PlaneGeometry,
-	SphereGeometry,
 	Sprite,
 	SpriteMaterial,
 	Vector3,
@@ -36,7 +36,7 @@ function arc(from: number, to: number, brightness: (angle: number) => number, ma
 		positions.push(Math.cos(angle), Math.sin(angle), 0);
 		colours.push(...warm.map((part) => part * brightness(angle)));
 	}
-	return new Line2(new LineGeometry().setPositions(positions).setColors(colours), material);
+	return new Line2(new LineGeometry().setPositions(positions).setColors(colours), material).computeLineDistances();
 }
 
 /** Grey texture for additive light; `brightness` of u and v in -1..1 is in 0..1. */
@@ -97,8 +97,11 @@ export class Lamp extends Group {
 		this.#ray.material.color.setRGB(...warm);
 		this.#faint.push(this.#ray.material);
 
-		const bulb = new Mesh(new SphereGeometry(0.022, 24, 16), new MeshBasicMaterial());
+		// A disc with a soft rim: a ball has steps without multisampling.
+		const disc = lightMap(64, 64, (u, v) => 1 - MathUtils.smoothstep(Math.hypot(u, v), 0.7, 1));
+		const bulb = new Sprite(new SpriteMaterial({ map: disc, ...additive }));
 		bulb.material.color.setRGB(4, 3.3, 2.5);
+		bulb.scale.setScalar(0.048);
 		const map = lightMap(64, 64, (u, v) => (1 - Math.min(Math.hypot(u, v), 1)) ** 3);
 		const halo = new Sprite(new SpriteMaterial({ map, ...additive }));
 		halo.material.color.setRGB(1.1, 0.72, 0.4);
@@ -116,7 +119,9 @@ export class Lamp extends Group {
 
 	#line(): LineMaterial {
 		const linewidth = 1.2 * Math.min(devicePixelRatio, 2);
-		const material = new LineMaterial({ linewidth, vertexColors: true, ...additive });
+		// One dash without end: dashed segments have no caps, which would lie over each other like beads.
+		const whole = { dashed: true, dashSize: 1e6, gapSize: 0 };
+		const material = new LineMaterial({ linewidth, vertexColors: true, ...whole, ...additive });
 		this.#faint.push(material);
 		return material;
 	}

@@ -18,7 +18,26 @@ test('the page opens with the first model of the menu, ready and with its contro
 	await expect(page.locator('html')).toHaveAttribute('lang', 'en');
 	await expect(page.getByRole('button', { name: 'Turn camera' })).toBeVisible();
 	await expect(page.locator('#overlay')).toContainText(/\d+ draw calls · [\d,]+ triangles/);
-	await expect(page.locator('#overlay canvas').first()).toBeVisible();
+});
+
+test('one line of figures, and all of them on demand, as the address says', async ({ page }) => {
+	await drawNothing(page);
+	await open(page, '?model=sphere&shells=4&still=1');
+	const overlay = page.locator('#overlay');
+	await expect(overlay.locator('p')).toHaveText(/^at rest · 4 shells$/);
+	await expect(overlay.locator('canvas').first()).toBeHidden();
+	const line = (await overlay.boundingBox()) ?? { height: 0 };
+	expect(line.height).toBeLessThan(30);
+	await page.getByRole('button', { name: 'All figures' }).click();
+	await expect(overlay.locator('canvas').first()).toBeVisible();
+	await expect(overlay).toContainText('textures');
+	await expect.poll(() => new URL(page.url()).searchParams.get('details')).toBe('1');
+	await open(page, new URL(page.url()).search);
+	const fewer = page.getByRole('button', { name: 'Fewer figures' });
+	await expect(fewer).toHaveAttribute('aria-expanded', 'true');
+	await fewer.press('Enter');
+	await expect(overlay.locator('canvas').first()).toBeHidden();
+	await expect.poll(() => new URL(page.url()).searchParams.get('details')).toBe(null);
 });
 
 test('every control is reached by the Tab key, and says what it is', async ({ page }) => {

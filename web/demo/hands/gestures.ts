@@ -110,7 +110,7 @@ export class Gestures {
 		this.#picture.request();
 	}
 
-	/** Uses the brush once, by Enter or the space bar: at its ring, or else in the middle of the picture. */
+	/** Uses the brush once, by Enter or the space bar: at its ring, or else in the middle of the model's room. */
 	stroke(): void {
 		if (!isPaint(this.#act)) return;
 		this.#takeByKeys();
@@ -119,7 +119,7 @@ export class Gestures {
 	}
 
 	#takeByKeys(): void {
-		if (!this.#byKeys && !this.#hasPointer) this.#pointer.setScalar(0);
+		if (!this.#byKeys && !this.#hasPointer) this.#picture.middle(this.#pointer);
 		this.#byKeys = true;
 	}
 

@@ -89,7 +89,7 @@ export class Dressing {
 	/** Shows the fur that the body has been dressed in. */
 	async #show(first: boolean): Promise<void> {
 		const picture = this.#picture;
-		this.#looks.setSplit(this.#store.get().split?.share ?? 1);
+		this.#looks.setSplit(picture.columnOf(this.#store.get().split?.share ?? 1));
 		this.style();
 		picture.updateLight();
 		picture.fit();

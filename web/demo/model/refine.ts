@@ -27,7 +27,7 @@ export async function refine(
 	const gone = still
 		? looks.show(body, outfits, view)
 		: looks.fadeTo(outfits, view, scene, (from, to) => new FurFade(from, to, sample.samples));
-	looks.setSplit(view.split?.share ?? 1);
+	looks.setSplit(picture.columnOf(view.split?.share ?? 1));
 	picture.request();
 	await gone;
 	if (late()) return false;

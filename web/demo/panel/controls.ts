@@ -38,13 +38,19 @@ export class Controls {
 		this.#picture = picture;
 		this.#exhibit = exhibit;
 		this.#store = store;
-		this.#line = new SplitLine(picture.canvas, (share) => {
+		this.#line = new SplitLine(picture, (share) => {
 			const { split } = store.get();
 			if (!split) return;
 			store.change({ split: { ...split, share } });
-			exhibit.looks.setSplit(share);
+			exhibit.looks.setSplit(picture.columnOf(share));
 			picture.request();
 		});
+		picture.framed = () => {
+			const { split } = store.get();
+			if (!split) return;
+			exhibit.looks.setSplit(picture.columnOf(split.share));
+			this.#line.place();
+		};
 		this.panel = new Panel(container, {
 			view: () => store.get(),
 			changed: (patch, part) => this.#change(patch, part),

@@ -28,6 +28,8 @@ interface Row {
 }
 
 export class Panel {
+	/** Outermost element, with its title. */
+	readonly element: HTMLElement;
 	readonly #handlers: PanelHandlers;
 	readonly #folders: Record<Folder, GUI>;
 	readonly #rows: Row[] = [];
@@ -44,6 +46,7 @@ export class Panel {
 	constructor(container: HTMLElement, handlers: PanelHandlers) {
 		this.#handlers = handlers;
 		const gui = new GUI({ container, title: words.panel, injectStyles: false });
+		this.element = gui.domElement;
 		gui.domElement.setAttribute('role', 'group');
 		gui.domElement.setAttribute('aria-label', words.settings);
 		const folders = FOLDERS.map((name) => [name, gui.addFolder(words[name])] as const);

@@ -3,19 +3,29 @@
 import { element } from '../../page/element.ts';
 import { words } from '../words/index.ts';
 
-const STEP = 0.02; // share of the width for an arrow key; with Shift five times as much
-const EDGE = 0.02; // the handle stays within the window
+const STEP = 0.02; // share of the room's width for an arrow key; with Shift five times as much
+const EDGE = 0.02; // the handle stays within the room
+
+/** Columns of the picture and shares of its room. */
+interface Columns {
+	/** share of the picture's width left of a share of the room's */
+	columnOf(share: number): number;
+	/** share of the room's width left of a point in the window */
+	shareAt(x: number): number;
+}
 
 export class SplitLine {
 	readonly #line = element('split');
 	readonly #names = this.#line.querySelectorAll('span');
+	readonly #columns: Columns;
 	#share = 0.5;
 
 	/**
-	 * @param canvas of the picture, as wide as the page
-	 * @param moved called with the share of its width left of the line
+	 * @param columns of the picture, as wide as the page
+	 * @param moved called with the share of the room's width left of the line
 	 */
-	constructor(canvas: HTMLElement, moved: (share: number) => void) {
+	constructor(columns: Columns, moved: (share: number) => void) {
+		this.#columns = columns;
 		const line = this.#line;
 		const move = (share: number) => {
 			this.#setShare(share);
@@ -30,8 +40,7 @@ export class SplitLine {
 		});
 		line.addEventListener('pointermove', (event) => {
 			if (!line.hasPointerCapture(event.pointerId)) return;
-			const { left, width } = canvas.getBoundingClientRect();
-			move((event.clientX - left) / width);
+			move(columns.shareAt(event.clientX));
 		});
 		line.addEventListener('lostpointercapture', () => line.classList.remove('held'));
 		line.addEventListener('keydown', (event) => {
@@ -54,9 +63,14 @@ export class SplitLine {
 	#setShare(share: number): void {
 		this.#share = Math.min(Math.max(share, EDGE), 1 - EDGE);
 		const percent = Math.round(this.#share * 100);
-		this.#line.style.left = `${this.#share * 100}%`;
 		this.#line.setAttribute('aria-valuenow', String(percent));
 		this.#line.setAttribute('aria-valuetext', `${percent} %`);
+		this.place();
+	}
+
+	/** Places the line; call when the room has changed. */
+	place(): void {
+		this.#line.style.left = `${this.#columns.columnOf(this.#share) * 100}%`;
 	}
 
 	/** @param right undefined: one method alone, and no line */

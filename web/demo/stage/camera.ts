@@ -1,17 +1,32 @@
-/** Camera that orbits the model, and fits it into windows of any shape. */
+/** Camera that orbits the model, and fits it into a room of any shape in the picture. */
 
-import { MathUtils, MOUSE, PerspectiveCamera, Spherical, TOUCH, Vector3 } from 'three';
+import {
+	Box2,
+	type BufferAttribute,
+	MathUtils,
+	Mesh,
+	MOUSE,
+	type Object3D,
+	PerspectiveCamera,
+	Spherical,
+	TOUCH,
+	Vector2,
+	Vector3,
+} from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import type { Room } from '../../page/room.ts';
 import type { Triple } from '../state/view.ts';
 
 const FIELD_OF_VIEW = 26; // degrees, of the window's height
-/** Radius that fits into the window, in radii of the model: leaves room for fur and lamp. */
+/** Radius that fits into the room, in radii of the model: leaves room for fur and lamp. */
 const MARGIN = 1.2;
 const MIN_DISTANCE = 0.25; // in units of the distance at which the model fits
 const MAX_DISTANCE = 4;
 
 const offset = new Vector3();
 const spherical = new Spherical();
+const vertex = new Vector3();
+const pixel = new Vector2();
 
 export class OrbitCamera extends PerspectiveCamera {
 	readonly #controls: OrbitControls;
@@ -21,6 +36,8 @@ export class OrbitCamera extends PerspectiveCamera {
 	#bodyRadius = 1;
 	/** Asked orbit that the framed model does not allow; a crowd that comes later may. */
 	#asked: Triple | undefined;
+	/** True while the camera is fitted: the orbit stays as it is. */
+	#framing = false;
 	/** True once a visitor or a link has chosen the orbit. */
 	chosen = false;
 
@@ -38,7 +55,7 @@ export class OrbitCamera extends PerspectiveCamera {
 		});
 		this.#controls.addEventListener('change', () => {
 			this.#fitDepth();
-			moved();
+			if (!this.#framing) moved();
 		});
 		this.dragTurns = false;
 	}
@@ -81,23 +98,51 @@ export class OrbitCamera extends PerspectiveCamera {
 	}
 
 	/**
-	 * Fits a model into a window, keeping angles and relative distance.
+	 * Fits a model into the middle of a room, keeping angles and relative distance.
 	 *
+	 * @param width of the picture in CSS pixels
+	 * @param room part of the picture
 	 * @param closest radius of one body, where `radius` is that of a crowd
 	 */
-	frame(centre: Vector3, radius: number, width: number, height: number, closest = radius): void {
+	frame(centre: Vector3, radius: number, width: number, height: number, room: Room, closest = radius): void {
 		const orbit = this.orbit;
-		this.aspect = width / height;
 		const vertical = Math.tan(MathUtils.degToRad(FIELD_OF_VIEW / 2));
-		const narrow = Math.atan(vertical * Math.min(this.aspect, 1));
+		const narrow = Math.atan(vertical * Math.min(room.width / height, room.height / height));
 		this.#fit = (MARGIN * radius) / Math.sin(narrow);
 		this.#radius = radius;
 		this.#bodyRadius = closest;
+		this.#framing = true;
+		this.#shift(width, height, room);
 		this.#controls.target.copy(centre);
 		this.#controls.minDistance = (this.#fit * MIN_DISTANCE * closest) / radius;
 		this.#controls.maxDistance = this.#fit * MAX_DISTANCE;
 		this.orbit = orbit;
 		this.#fitDepth();
+		this.#framing = false;
+	}
+
+	/** Shifts the picture, so that its middle comes to that of the room; the perspective stays. */
+	#shift(width: number, height: number, room: Room): void {
+		const [right, down] = [room.left + room.width / 2 - width / 2, room.top + room.height / 2 - height / 2];
+		this.aspect = width / height;
+		if (right === 0 && down === 0) this.clearViewOffset();
+		else this.setViewOffset(width, height, -right, -down, width, height);
+	}
+
+	/** Box around the vertices of a body on screen: CSS pixels from the picture's left upper corner. @param width of the picture */
+	boxOnScreen(body: Object3D, width: number, height: number): Room {
+		const box = new Box2();
+		this.updateMatrixWorld();
+		body.traverse((part) => {
+			if (!(part instanceof Mesh)) return;
+			const position: BufferAttribute = part.geometry.getAttribute('position');
+			for (let i = 0; i < position.count; i++) {
+				const { x, y } = vertex.fromBufferAttribute(position, i).applyMatrix4(part.matrixWorld).project(this);
+				box.expandByPoint(pixel.set(((x + 1) / 2) * width, ((1 - y) / 2) * height));
+			}
+		});
+		const { x, y } = box.getSize(pixel);
+		return { left: box.min.x, top: box.min.y, width: x, height: y };
 	}
 
 	/** Fits near and far plane to the scene, for the sake of depth precision. */

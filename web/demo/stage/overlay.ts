@@ -1,4 +1,4 @@
-/** Overlay of figures: frame rate, CPU and GPU time of frames, and what they draw. */
+/** Overlay of figures: a line of frame rate, time and shells; graphs and what frames draw on demand. */
 
 import Stats from 'stats-gl';
 import type { Words } from '../words/index.ts';
@@ -35,8 +35,11 @@ export class Overlay {
 	readonly #stage: Stage;
 	readonly #timer: GpuTimer;
 	readonly #words: Words;
-	readonly #speed = document.createElement('div');
+	readonly #speed = document.createElement('span');
+	readonly #shellCount = document.createElement('span');
+	readonly #more = document.createElement('div');
 	readonly #counts = document.createElement('div');
+	readonly #switch = document.createElement('button');
 	readonly #fps: Meter;
 	readonly #cpu: Meter;
 	readonly #gpu: Meter | undefined;
@@ -45,8 +48,17 @@ export class Overlay {
 	#frames = 0;
 	#busy = 0;
 
-	/** @param timer shows its latest time; the picture reads it */
-	constructor(parent: HTMLElement, stage: Stage, timer: GpuTimer, words: Words, language: string) {
+	/**
+	 * @param timer shows its latest time; the picture reads it
+	 * @param switched called when a visitor wants details, or no more of them
+	 */
+	constructor(
+		parent: HTMLElement,
+		{ stage, timer }: { stage: Stage; timer: GpuTimer },
+		words: Words,
+		language: string,
+		switched: (details: boolean) => void,
+	) {
 		this.#stage = stage;
 		this.#timer = timer;
 		this.#words = words;
@@ -57,7 +69,24 @@ export class Overlay {
 		this.#fps = new Meter(graphs, 'FPS', '#0ff', '#002', 0);
 		this.#cpu = new Meter(graphs, 'CPU', '#0f0', '#020', 1);
 		if (timer.works) this.#gpu = new Meter(graphs, 'GPU', '#ff0', '#220', 1);
-		parent.append(graphs, this.#speed, this.#counts);
+		this.#more.className = 'more';
+		this.#more.id = 'figures';
+		this.#more.append(graphs, this.#counts);
+		this.#switch.type = 'button';
+		this.#switch.setAttribute('aria-controls', 'figures');
+		this.#switch.addEventListener('click', () => switched(this.#more.hidden === true));
+		const line = document.createElement('p');
+		line.append(this.#switch, this.#speed, this.#shellCount);
+		parent.append(line, this.#more);
+		this.details = false;
+	}
+
+	/** Shows the details, or the line alone. */
+	set details(shown: boolean) {
+		this.#more.hidden = !shown;
+		this.#switch.setAttribute('aria-expanded', String(shown));
+		this.#switch.setAttribute('aria-label', shown ? this.#words.fewFigures : this.#words.allFigures);
+		this.#switch.title = this.#switch.ariaLabel ?? '';
 	}
 
 	/** Bytes of all textures of the scene. */
@@ -106,10 +135,10 @@ export class Overlay {
 		const { drawCalls, triangles, shellCount, textures, resolution } = this.#words;
 		const { calls, triangles: drawn } = this.#stage.renderer.info.render;
 		const { shells } = this;
+		this.#shellCount.textContent = shells ? ` · ${shellCount(this.#whole.format(Math.ceil(shells.shellCount)))}` : '';
 		this.#counts.textContent = [
 			drawCalls(this.#whole.format(calls)),
 			triangles(this.#whole.format(drawn)),
-			...(shells === undefined ? [] : [shellCount(this.#whole.format(Math.ceil(shells.shellCount)))]),
 			textures((this.#textures / 2 ** 20).toFixed(1)),
 			resolution(Math.round(this.#stage.scale * 100)),
 		].join(' · ');

@@ -1,9 +1,10 @@
 /** Picture: stage, camera, light and lamp, drawn frame by frame. Knows neither models nor the panel. */
 
-import { Group } from 'three';
+import { Group, type Vector2 } from 'three';
 import { FurGovernor } from '../../fur/index.ts';
 import { Lamp } from '../../page/lamp.ts';
 import { MovingLight } from '../../page/light.ts';
+import type { Room } from '../../page/room.ts';
 import type { Triple } from '../state/view.ts';
 import { OrbitCamera } from './camera.ts';
 import { Frames } from './frames.ts';
@@ -15,6 +16,10 @@ import { GpuTimer } from './timer.ts';
 
 /** Milliseconds after the last move in which the governor restores the full resolution. */
 const SETTLING_TIME = 1200;
+/** Time constant of the way into another room, seconds; pixels from its end at which it is there. */
+const ROOM_EASING = 0.11;
+const ROOM_REACHED = 0.3;
+const ROOM_SIDES = ['left', 'top', 'width', 'height'] as const;
 /** Longest time step of animations, seconds: nothing leaps after a hidden tab. */
 const MAX_STEP = 0.25;
 
@@ -44,10 +49,15 @@ export class Picture {
 	 * @returns milliseconds until the next frame: 0 at once, Infinity none
 	 */
 	animate: (elapsed: number) => number = () => Number.POSITIVE_INFINITY;
+	/** Called when the room of the model has changed. */
+	framed: () => void = () => {};
+	/** Room that the model stands in, undefined for the whole picture; and the one that it is on the way to, if any. */
+	#room: Room | undefined;
+	#nextRoom: Room | undefined;
 	readonly #waiting: (() => void)[] = [];
 	readonly #frames = new Frames({
 		draw: (interval, now) => this.#draw(interval, now),
-		rest: () => this.overlay?.rest(),
+		rest: () => this.#rest(),
 	});
 	readonly #governor: FurGovernor;
 	readonly #options: PictureOptions;
@@ -120,15 +130,82 @@ export class Picture {
 		this.request();
 	}
 
-	/** Fits the picture to the canvas, and the camera to the model. */
+	/** Fits the picture to the canvas, and the camera to the model in its room. */
 	fit(): void {
 		const { clientWidth: width, clientHeight: height } = this.canvas;
 		this.#stale = false;
 		this.#visible = width > 0 && height > 0;
 		if (!this.#visible) return;
 		this.stage.resize(width, height);
-		this.camera.frame(this.stage.centre, this.stage.radius, width, height, this.stage.bodyRadius);
+		this.#frame();
+	}
+
+	#frame(): void {
+		if (!this.#visible) return;
+		const { clientWidth: width, clientHeight: height } = this.canvas;
+		const { centre, radius, bodyRadius } = this.stage;
+		this.camera.frame(centre, radius, width, height, this.room, bodyRadius);
+		this.framed();
 		this.request();
+	}
+
+	/** Room that the model stands in. */
+	get room(): Room {
+		const { clientWidth: width, clientHeight: height } = this.canvas;
+		return this.#room ?? { left: 0, top: 0, width, height };
+	}
+
+	/** Moves the model into another room: gliding, unless it is calm here or the picture has another size, too. */
+	enter(room: Room): void {
+		const glides = this.#room && !this.calm && !this.#stale && this.stage.model;
+		this.#nextRoom = glides ? room : undefined;
+		if (!glides) {
+			this.#room = { ...room };
+			this.#stale = true;
+		}
+		this.request();
+	}
+
+	/** @returns true while the model glides into its room */
+	#glide(elapsed: number): boolean {
+		const room = this.#room;
+		const next = this.#nextRoom;
+		if (!room || !next) return false;
+		const share = 1 - Math.exp(-elapsed / ROOM_EASING);
+		const near = ROOM_SIDES.every((side) => Math.abs(next[side] - room[side]) < ROOM_REACHED);
+		if (near) this.#nextRoom = undefined;
+		for (const side of ROOM_SIDES) room[side] = near ? next[side] : room[side] + share * (next[side] - room[side]);
+		this.#frame();
+		return true;
+	}
+
+	/** Share of the picture's width left of a share of the room's. */
+	columnOf(share: number): number {
+		const { left, width } = this.room;
+		return (left + share * width) / this.canvas.clientWidth;
+	}
+
+	/** Share of the room's width left of a point. @param x in the window, CSS pixels */
+	shareAt(x: number): number {
+		const { left, width } = this.room;
+		return (x - this.canvas.getBoundingClientRect().left - left) / width;
+	}
+
+	/** Middle of the room in normalised device coordinates. */
+	middle(target: Vector2): Vector2 {
+		const { left, top, width, height } = this.room;
+		const { clientWidth, clientHeight } = this.canvas;
+		return target.set((2 * left + width) / clientWidth - 1, 1 - (2 * top + height) / clientHeight);
+	}
+
+	/** Says in `data-box` where the body is in the picture: left, top, width and height. */
+	#rest(): void {
+		this.overlay?.rest();
+		const { canvas, camera, stage } = this;
+		if (!stage.model) return;
+		const { fur, object } = stage.model;
+		const box = camera.boxOnScreen(fur?.skin ?? object, canvas.clientWidth, canvas.clientHeight);
+		canvas.dataset.box = ROOM_SIDES.map((side) => Math.round(box[side])).join();
 	}
 
 	#draw(interval: number, now: number): number {
@@ -137,13 +214,14 @@ export class Picture {
 		const awake = !Number.isNaN(interval);
 		const elapsed = awake ? Math.min(interval / 1000, 0.1) : 1 / 60;
 		if (this.#stale) this.fit();
+		const entering = this.#glide(elapsed);
 		const turning = camera.glide();
 		const wandering = light.step(elapsed);
 		if (wandering) this.updateLight();
 		const wait = this.animate(awake ? Math.min(interval / 1000, MAX_STEP) : 1 / 60);
 		if (wait === 0) this.#moving = true;
 		const glowing = lamp.glide(camera, calm ? Number.POSITIVE_INFINITY : elapsed);
-		if (this.#moving || turning) this.#moved = now;
+		if (this.#moving || turning || entering) this.#moved = now;
 		const time = timer.read();
 		// The interval of a frame that waited is not its duration.
 		const taken = timer.works ? time : this.#wait === 0 ? interval : Number.NaN;
@@ -154,7 +232,8 @@ export class Picture {
 			else this.#render();
 		}
 		while (this.#waiting.length) this.#waiting.pop()?.();
-		const moves = turning || wandering || (glowing && !calm) || (!still && now - this.#moved < SETTLING_TIME);
+		const gliding = entering || turning || wandering;
+		const moves = gliding || (glowing && !calm) || (!still && now - this.#moved < SETTLING_TIME);
 		this.#wait = moves ? 0 : wait;
 		return this.#wait;
 	}
@@ -164,15 +243,19 @@ export class Picture {
 		if (this.overlay) this.overlay.textures = textureBytes(this.stage.scene);
 	}
 
-	/** Renders the picture to a PNG: at full resolution, without lamp and ring. */
+	/** Renders the picture to a PNG: at full resolution, the model in its middle, without lamp and ring. */
 	async file(): Promise<Blob> {
 		if (this.stage.gl.isContextLost()) throw new Error('the picture is being drawn anew, please try again');
+		const room = this.#room;
+		this.#room = undefined;
 		this.stage.scale = 1;
 		this.guides.visible = false;
+		this.#frame();
 		this.animate(0);
 		this.#render();
 		this.guides.visible = true;
-		this.request();
+		this.#room = room;
+		this.#frame();
 		// In the same task as the render: later the canvas may be empty.
 		const blob = await new Promise<Blob | null>((resolve) => this.canvas.toBlob(resolve, 'image/png'));
 		if (!blob) throw new Error('the browser made no picture of the canvas');

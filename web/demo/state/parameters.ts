@@ -45,7 +45,7 @@ type Table = { readonly [Name in keyof View]-?: Parameter<NonNullable<View[Name]
 const MAX_SLIDER_SHELLS = 128;
 /** Wind blows to the right until a direction is chosen, degrees. */
 const RIGHT = 90;
-/** Share of the width at which a second method begins at first. */
+/** Share of the room's width at which a second method begins at first. */
 const MIDDLE = 0.5;
 
 const hasFur = ({ fur }: Abilities) => fur;
@@ -109,7 +109,7 @@ export const parameters: Table = {
 	},
 	split: {
 		value: values.split,
-		doc: ['lengyel,0.5', 'Another method right of that share of the window’s width'],
+		doc: ['lengyel,0.5', 'Another method right of that share of the window’s width, without what the panel covers'],
 		part: 'fur',
 		controls: [
 			choice('light', 'split', {
@@ -134,7 +134,10 @@ export const parameters: Table = {
 	}),
 	camera: {
 		value: values.camera,
-		doc: ['-20,10,0.9', 'Azimuth and elevation in degrees; distance, 1 where the model fits a window of any shape'],
+		doc: [
+			'-20,10,0.9',
+			'Azimuth and elevation in degrees; distance, 1 where the model fits what the controls leave of the window',
+		],
 	},
 	shells: {
 		value: values.whole(256),
@@ -249,6 +252,7 @@ export const parameters: Table = {
 			}),
 		],
 	},
+	details: { value: values.flag, doc: ['1', 'All figures of the picture beside its speed and shells, with graphs'] },
 	still: { value: values.flag, doc: ['1', 'Nothing moves by itself, and wind bends the fur without gusts'] },
 	ui: { value: values.flag, doc: ['0', 'The picture alone'] },
 	lang: { value: values.choice(LANGUAGE_NAMES, 'lang'), doc: ['zh', 'Language; without it what the browser prefers'] },

@@ -25,7 +25,7 @@ export interface View {
 	readonly model?: string | undefined;
 	readonly preset?: string | undefined;
 	readonly method?: Method | undefined;
-	/** second method, and the share of the window's width where it begins, 0..1 */
+	/** second method, and the share of the room's width where it begins, 0..1 */
 	readonly split?: { readonly method: Method; readonly share: number } | undefined;
 	/** unit vector from the model to the lamp, world axes */
 	readonly light?: Triple | undefined;
@@ -47,6 +47,7 @@ export interface View {
 	readonly wet?: number | undefined;
 	readonly dirt?: number | undefined;
 	readonly turn?: boolean | undefined;
+	readonly details?: boolean | undefined;
 	readonly still: boolean;
 	readonly ui: boolean;
 	readonly lang?: (typeof LANGUAGE_NAMES)[number] | undefined;

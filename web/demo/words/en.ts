@@ -11,13 +11,19 @@ export const en = {
 	hintMouse: 'right drag turns the camera · scroll to zoom',
 	hintTouch: 'two fingers turn and zoom',
 	orbit: 'Turn camera',
-	orbitTip: 'Let dragging turn the camera',
 	tools: 'What a drag does',
 	toolLight: 'Move the light',
 	toolStroke: 'Stroke the fur',
 	toolRain: 'Rain',
 	toolMud: 'Mud',
 	toolMove: 'Grab and shake',
+	/** Short names below their icons; the names above have them in them. */
+	shortLight: 'Light',
+	shortStroke: 'Stroke',
+	shortRain: 'Rain',
+	shortMud: 'Mud',
+	shortMove: 'Shake',
+	shortOrbit: 'Camera',
 	/** Hint of each tool. */
 	hints: {
 		light: 'Drag to move the light',
@@ -92,6 +98,8 @@ export const en = {
 	titles: {} as Record<string, string>,
 	separator: (left: string, right: string) => `Line between ${left} and ${right}`,
 
+	allFigures: 'All figures',
+	fewFigures: 'Fewer figures',
 	atRest: 'at rest',
 	perSecond: (count: string) => `${count} fps`,
 	milliseconds: (time: string) => `${time} ms`,

@@ -21,7 +21,10 @@ function hands(act: DragAction) {
 		...{ warmUp() {}, sway: { release() {}, pull: note('pull') } },
 	};
 	const stage = { scene: new Group(), bodyRadius: 1, centre: skin.position };
-	const picture = { camera, stage, guides: new Group(), canvas: { dataset: {} }, calm: true, request() {} };
+	const picture = {
+		...{ camera, stage, guides: new Group(), canvas: { dataset: {} }, calm: true, request() {} },
+		middle: (target: Vector2) => target.set(0, 0),
+	};
 	const gestures = new Gestures(
 		picture as unknown as Picture,
 		{ fur, body: fur } as unknown as Looks,

@@ -25,7 +25,7 @@ function exhibit(view: View) {
 	};
 	const picture = {
 		...{ stage, guides: new Group(), canvas: { dataset: {} }, calm: true },
-		...{ updateLight() {}, fit() {}, request() {}, reportTextureMemory() {}, drawn: async () => {} },
+		...{ updateLight() {}, fit() {}, request() {}, reportTextureMemory() {}, drawn: async () => {}, columnOf: () => 1 },
 	};
 	const store = new Store(view);
 	const shown = new Exhibit(picture as unknown as Picture, store, {} as Progress);
