@@ -19,6 +19,8 @@ export default defineConfig({
 	fullyParallel: false,
 	forbidOnly: Boolean(process.env.CI),
 	timeout: 90_000,
+	// A browser that hangs says nothing of the page; the last line of the run tells what passed at the second try.
+	retries: 1,
 	expect: { timeout: 30_000 },
 	reporter: 'list',
 	use: {

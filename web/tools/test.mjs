@@ -14,6 +14,7 @@ import { command, root, run } from './process.mjs';
  * @typedef {object} Count
  * @property {number} passed
  * @property {number} failed
+ * @property {number} [again] of those that passed, those that did so at the second try
  */
 
 /** @param {string} xml JUnit, as pytest writes it; @returns {Count} */
@@ -37,7 +38,8 @@ function countVitest(json) {
 /** @param {string} json Playwright's report; @returns {Count} */
 function countPlaywright(json) {
 	const { stats, errors } = JSON.parse(json);
-	return { passed: stats.expected, failed: stats.unexpected + stats.flaky + errors.length };
+	const { expected, flaky, unexpected } = stats;
+	return { passed: expected + flaky, failed: unexpected + errors.length, again: flaky };
 }
 
 /**
@@ -118,6 +120,7 @@ await command(async () => {
 
 	const passed = counts.reduce((sum, count) => sum + count.passed, 0);
 	const failed = counts.reduce((sum, count) => sum + count.failed, 0);
-	console.log(`\n${passed} passed, ${failed} failed`);
+	const again = counts.reduce((sum, count) => sum + (count.again ?? 0), 0);
+	console.log(`\n${passed} passed${again ? ` (${again} at the second try)` : ''}, ${failed} failed`);
 	return failed === 0 ? 0 : 1;
 });

@@ -75,7 +75,7 @@ export function deltaE(a, b) {
  * @returns {number[]} their indices
  */
 export function litFur(picture, recoloured) {
-	const LEAST = 16; // of 255, above unlit fur and the ground that shines through
+	const LEAST = 16; // steps of 255: more than unlit fur and the ground that shines through
 	const found = [];
 	for (let pixel = 0; pixel < picture.width * picture.height; pixel++) {
 		const at = pixel * picture.channels;
