@@ -18,11 +18,12 @@ export function keepRoom(picture: Picture, covers: readonly Element[]): void {
 		const now = [width, height, ...Object.values(room)].join();
 		if (now === before) return;
 		before = now;
+		// Of the picture, which is as large as the window.
 		const insets = {
-			left: left + room.left,
-			top: top + room.top,
-			right: innerWidth - left - room.left - room.width,
-			bottom: innerHeight - top - room.top - room.height,
+			left: room.left,
+			top: room.top,
+			right: width - room.left - room.width,
+			bottom: height - room.top - room.height,
 		};
 		for (const [side, inset] of Object.entries(insets)) root.style.setProperty(`--room-${side}`, `${inset}px`);
 		picture.enter(room);
