@@ -18,7 +18,7 @@ export function keepRoom(picture: Picture, covers: readonly Element[]): void {
 		const now = [width, height, ...Object.values(room)].join();
 		if (now === before) return;
 		before = now;
-		// Of the picture, which is as large as the window.
+		// Sizes of the picture, which is as large as the window.
 		const insets = {
 			left: room.left,
 			top: room.top,
