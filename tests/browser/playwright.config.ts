@@ -30,8 +30,9 @@ export default defineConfig({
 		trace: 'off',
 	},
 	projects: [
-		{ name: 'webgl', testIgnore: ['**/without-*.spec.ts', '**/steady.spec.ts'], use: launch() },
+		{ name: 'webgl', testIgnore: ['**/without-*.spec.ts', '**/steady.spec.ts', '**/firefox/**'], use: launch() },
 		{ name: 'without', testMatch: '**/without-*.spec.ts', use: launch('--disable-3d-apis') },
+		{ name: 'firefox', testMatch: '**/firefox/*.spec.ts' },
 		// Counts bytes per frame: has the machine to itself.
 		{ name: 'steady', testMatch: '**/steady.spec.ts', dependencies: ['webgl', 'without'], use: launch() },
 	],

@@ -3,7 +3,7 @@
  * lamp, for every preset: hue and saturation of the mean, the share of pixels that clip, and on the sphere the distance to
  * the pelt's swatch under the same light. The truth beside the hues: `npm run verify -- DIR --colour`.
  */
-import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { browserArgs, ensureBrowser } from '../browser.mjs';
@@ -18,9 +18,9 @@ import { table } from './table.mjs';
 /** @import { Colour, Pixels } from './colour.mjs' */
 
 const models = join(root, 'public', 'models');
-const PELTS = readdirSync(models)
-	.map((name) => /^pelt-([a-z]+)$/.exec(name)?.[1])
-	.filter((name) => name !== undefined);
+/** @type {{ name: string, pelt?: string }[]} */
+const listed = JSON.parse(readFileSync(join(models, 'models.json'), 'utf8'));
+const PELTS = listed.flatMap(({ name, pelt }) => (pelt && name === `pelt-${pelt}` ? [pelt] : []));
 const BODIES = ['sphere', 'bunny'];
 const VIEWPORT = { width: 360, height: 300 };
 /** Milliseconds per picture, enough for software rendering. */
@@ -28,7 +28,7 @@ const PATIENCE = 300_000;
 /** Any colour that no fur has. */
 const OTHER = '0000ff,0000ff';
 /** Part of the sphere's picture that is seen from straight above, about. */
-const FACING = 0.3;
+const FACING = 0.2;
 /** Lamps of equal height from all sides, since hairs lean another way on the sphere than on the swatch. */
 const LAMPS = ['0.6,0,0.8', '0,0.6,0.8', '-0.6,0,0.8', '0,-0.6,0.8'];
 

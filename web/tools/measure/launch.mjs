@@ -13,7 +13,7 @@ const PROGRAMS = {
 };
 
 /** WebGL2 in software, fine clocks, no telemetry. */
-const FIREFOX_PREFERENCES = {
+export const FIREFOX_PREFERENCES = {
 	'webgl.force-enabled': true,
 	'webgl.disable-fail-if-major-performance-caveat': true,
 	'privacy.reduceTimerPrecision': false,
@@ -37,6 +37,11 @@ const SOFTWARE = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
 function onPath(name) {
 	const folders = (process.env.PATH ?? '').split(delimiter).filter(Boolean);
 	return folders.map((folder) => join(folder, windows ? `${name}.exe` : name)).find(startable);
+}
+
+/** @param {'firefox' | 'chromium' | 'Xvfb'} name; @returns {string | undefined} path of the program where it is installed */
+export function installed(name) {
+	return (name === 'Xvfb' ? [name] : PROGRAMS[name]).map(onPath).find(Boolean);
 }
 
 /** @param {string} path */
