@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from furbake.asset.planes import PlaneError, read_png
 from furbake.options import BakeOptions
 from furbake.options.bake_options import OF_VERTICES
+from furbake.size import questions, sized
 from furbake.surface.charts import Charts, laid
 from furbake.surface.files import read_text
 from furbake.surface.lay.field import Stroke, comb_field
@@ -47,6 +48,7 @@ class Body:
     direction : (V, 3) unit tangents of the ground along which the fur is laid
     tile, length : width of a tile and longest fur, model units
     features : eyes, a nose and the like
+    notices : how long the fur is where that was not given, and units that look wrong, one sentence each
     """
 
     skin: Surface
@@ -57,6 +59,7 @@ class Body:
     tile: float
     length: float
     features: tuple[Feature, ...] = ()
+    notices: tuple[str, ...] = ()
 
 
 def load_surface(model: str, max_faces: int | None = None) -> Surface:
@@ -69,14 +72,14 @@ def load_surface(model: str, max_faces: int | None = None) -> Surface:
 def prepare(model: str, options: BakeOptions) -> Body:
     """Read `model` and lay its fur. Raises MeshError or OptionError, each with one sentence."""
     skin = load_surface(model, options.max_faces)
-    tile, length = options.dimensions(skin.extent)
     ground = simplify(skin, shell_faces(ROOM))
-    lengths = np.ones(len(ground.vertices))
+    size = sized(ground, skin.extent, options)
     maps = brought(ground)
     if options.length_map is not None:
         maps["length"] = painted(ground, options.length_map)
     if options.mask is not None:
         maps["mask"] = painted(ground, options.mask)
+    lengths = size.shares
     if options.length_by_thickness:
         lengths = lengths * length_by_thickness(ground)
     if options.length_noise:
@@ -96,9 +99,9 @@ def prepare(model: str, options: BakeOptions) -> Body:
     field = comb_field(ground, options.guide, strokes, attribute)
     direction = field.direction
     if options.uv == "lapped":
-        charts = lap(ground, direction, tile, options.seed)
+        charts = lap(ground, direction, size.tile, options.seed)
     else:
-        charts = own_charts(ground, tile, model)
+        charts = own_charts(ground, size.tile, model)
         direction = laid(charts, ground.normals)
     tip = np.maximum(options.tip_noise * noise(ground, options.seed + 1), options.belly * underside(ground))
     return Body(
@@ -113,9 +116,10 @@ def prepare(model: str, options: BakeOptions) -> Body:
             colour=ground.colours,
         ),
         direction=direction,
-        tile=tile,
-        length=length,
+        tile=size.tile,
+        length=size.length,
         features=features,
+        notices=(*questions(size.tile, size.length, skin.extent, options), *size.notices),
     )
 
 

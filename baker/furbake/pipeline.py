@@ -18,17 +18,19 @@ from furbake.identity import bake_key, describe_input, library_versions
 from furbake.options import BakeOptions
 from furbake.pelt.pelt import Pelt
 from furbake.surface.place.fins import Fins, build_fins
+from furbake.surface.shapes import is_builtin
 from furbake.tile.lighting import write_samples
 from furbake.tile.tile import Fitted, Tile
 
 STAGES = ("mesh", "strands", "volume", "light", "fit", "fins", "write")
 
 Progress = Callable[[str, float], None]
+Notify = Callable[[str], None]
 
 
 @dataclass(frozen=True)
 class BakeResult:
-    """Folder of the asset, contents of `bake.json`, seconds of every stage, and notices of repairs."""
+    """Folder of the asset, contents of `bake.json`, seconds of every stage, and notices, one sentence each."""
 
     folder: Path
     record: dict[str, Any]
@@ -60,11 +62,13 @@ def bake(
     force: bool = False,
     samples: Path | None = None,
     progress: Progress = lambda stage, fraction: None,
+    notify: Notify = lambda notice: None,
 ) -> BakeResult:
     """Bake `model` (a file or the name of a built-in shape) into the folder `out`, whole or not at all.
 
     samples : optional file for the physics itself, for others to check
     progress : called with a stage of `STAGES` and the fraction of it that is done
+    notify : called with each notice of the result once the mesh is read, before the light is sampled
 
     Raises OptionError, MeshError or StoreError, each with one sentence.
     """
@@ -74,6 +78,9 @@ def bake(
     with atomic_folder(out, force) as folder, atomic_file(samples) if samples else nullcontext() as archive:
         with clock.stage("mesh"):
             body = prepare(model, options)
+        notices = (*body.skin.notices, *body.notices)
+        for notice in notices:
+            notify(notice)
         with clock.stage("strands"):
             tile = Tile.grow(options, body.length / body.tile)
         with clock.stage("volume"):
@@ -97,12 +104,13 @@ def bake(
                 fins=fins,
                 ground=None if body.ground is body.skin else body.ground,
                 features=body.features,
+                bare=None if is_builtin(model) else options.ramp.root,
             )
             record["asset"] = write_gltf(folder, furry)
             (folder / "bake.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
             if archive is not None:
                 write_samples(archive, sampled[0], tile.strands)
-    return BakeResult(out, record, clock.seconds, body.skin.notices)
+    return BakeResult(out, record, clock.seconds, notices)
 
 
 def _fins(body: Body, options: BakeOptions, dry: Pelt) -> Fins | None:

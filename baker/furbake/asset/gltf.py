@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from furbake.asset.buffer import Buffer, numbers
 from furbake.asset.planes import pack, pack_fin, write_png
-from furbake.asset.skin import Looks, feature_nodes, fur_colour, skin_primitives
+from furbake.asset.skin import Looks, bare_colour, feature_nodes, fur_colour, skin_primitives
 from furbake.asset.vertices import (
     fin_vertices,
     grid,
@@ -29,7 +29,7 @@ from furbake.pelt.multiple import Multiple
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.texels.basis import environment
 from furbake.surface.charts import Charts
-from furbake.surface.mesh import Surface
+from furbake.surface.mesh import RGB, Surface
 from furbake.surface.place.features import Feature, placed
 from furbake.surface.place.fins import Fins
 from furbake.surface.place.vertex_fur import VertexFur
@@ -61,6 +61,7 @@ class FurModel:
     fins : on the ground, or None
     ground : surface that charts, fur and fins stand on where it is not the skin itself but a simpler copy
     features : further opaque meshes of the scene; where they stand on the skin they are put there
+    bare : linear colour of a skin that brings no colour at all; None: white
     """
 
     skin: Surface
@@ -71,6 +72,7 @@ class FurModel:
     fins: Fins | None = None
     ground: Surface | None = None
     features: tuple[Feature, ...] = ()
+    bare: RGB | None = None
 
 
 def write_gltf(folder: Path, model: FurModel) -> Record:
@@ -84,8 +86,9 @@ def write_gltf(folder: Path, model: FurModel) -> Record:
     offset, scale = grid(surface.vertices, ground.vertices)
     positions = quantise_positions(ground.vertices, offset, scale)
     colours = fur.colour if model.ground is None else None
-    skin = skin_primitives(surface, quantise_positions(surface.vertices, offset, scale), colours, buffer, looks)
-    fur = fur_colour(surface, fur)
+    own = bare_colour(surface, fur, model.bare)
+    skin = skin_primitives(surface, own, quantise_positions(surface.vertices, offset, scale), colours, buffer, looks)
+    fur = fur_colour(surface, own, fur)
 
     uv = shifted_by_tiles(charts)
     tiles = tiles_across(uv, *([] if fins is None else [fins.uv]))

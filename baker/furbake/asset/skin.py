@@ -14,7 +14,7 @@ from furbake.asset.buffer import Buffer, numbers
 from furbake.asset.vertices import Attributes, deep_shares, shares, signed
 from furbake.surface.colours import translucent
 from furbake.surface.material import Material, Picture, Skin
-from furbake.surface.mesh import Surface
+from furbake.surface.mesh import RGB, WHITE, Surface
 from furbake.surface.place.features import Feature, ball
 from furbake.surface.place.vertex_fur import VertexFur
 
@@ -84,11 +84,23 @@ class Looks:
         return _index(self.textures, {"sampler": sampler, "source": self._pictures[picture]})
 
 
+def bare_colour(surface: Surface, fur: VertexFur, bare: RGB | None) -> RGB:
+    """Linear colour of a skin without materials: the surface's, or `bare` where nothing colours it."""
+    coloured = surface.skin or surface.colour != WHITE or fur.colour is not None
+    return surface.colour if coloured or bare is None else bare
+
+
 def skin_primitives(
-    surface: Surface, positions: NDArray[np.uint16], colours: NDArray[np.float64] | None, buffer: Buffer, looks: Looks
+    surface: Surface,
+    own: RGB,
+    positions: NDArray[np.uint16],
+    colours: NDArray[np.float64] | None,
+    buffer: Buffer,
+    looks: Looks,
 ) -> list[Record]:
     """The skin's primitives, one per material of the model; one in the surface's colour where it brings none.
 
+    own : colour of a skin that brings no materials
     positions : (V, 3) of the surface, as `quantise_positions` makes them
     colours : (V, 3) linear, a factor of the colour of a skin that brings no materials
     """
@@ -97,7 +109,7 @@ def skin_primitives(
         body: Attributes = {"POSITION": positions, "NORMAL": normals}
         if colours is not None:
             body["COLOR_0"] = shares(colours)
-        plain = Material("skin", factor=(*surface.colour, 1.0))
+        plain = Material("skin", factor=(*own, 1.0))
         return [buffer.primitive(body, surface.faces) | {"material": looks.material(plain, textured=False)}]
     return [
         buffer.primitive(_attributes(piece, positions, normals), piece.faces)
@@ -106,9 +118,12 @@ def skin_primitives(
     ]
 
 
-def fur_colour(surface: Surface, fur: VertexFur) -> VertexFur:
-    """The fur with the whole colour of the skin below it, or none where the skin's first material has it."""
-    first = _material(surface.skin[0], surface).factor[:3] if surface.skin else surface.colour
+def fur_colour(surface: Surface, own: RGB, fur: VertexFur) -> VertexFur:
+    """The fur with the whole colour of the skin below it, or none where the skin's first material has it.
+
+    own : as of `skin_primitives`; it colours no fur
+    """
+    first = _material(surface.skin[0], surface).factor[:3] if surface.skin else own
     whole = np.array(surface.colour) * (np.ones(3) if fur.colour is None else fur.colour)
     same = bool((np.abs(whole - np.array(first)) < ALIKE).all())
     return replace(fur, colour=None if same else np.broadcast_to(whole, (len(fur.lengths), 3)))

@@ -33,6 +33,7 @@ from furbake.study.verify import body
 from furbake.study.verify.colour import colour_lines, verify_colour
 from furbake.study.verify.tables import lines as body_lines
 from furbake.study.verify.tile import SAMPLES, lines, verify
+from furbake.surface.shapes import is_builtin
 
 GIVEN = (
     "layers", "size", "lights", "basis", "coefficients", "curves", "length", "tile", "height", "seed", "flat", "guide",
@@ -66,6 +67,8 @@ def chosen(args: SimpleNamespace) -> BakeOptions:
 def run_bake(args: SimpleNamespace) -> int:
     """Bake a mesh into a folder."""
     options = chosen(args)
+    if args.length_by_thickness is None and not (options.length_by_thickness or options.flat or is_builtin(args.model)):
+        options = replace(options, auto_length=True)
     out = Path(args.out)
     if args.if_stale and (record := _fresh(args.model, out, options)):
         if args.json:
@@ -76,10 +79,10 @@ def run_bake(args: SimpleNamespace) -> int:
     samples = Path(args.samples) if args.samples else None
     start = time.perf_counter()
     with shown(STAGES, args.quiet) as progress:
-        result = bake(args.model, out, options, force=args.force or args.if_stale, samples=samples, progress=progress)
-    if not args.quiet:
-        for notice in result.notices:
-            complain(f"note: {notice}")
+        result = bake(
+            args.model, out, options, force=args.force or args.if_stale, samples=samples, progress=progress,
+            notify=(lambda notice: None) if args.quiet else (lambda notice: complain(f"note: {notice}")),
+        )  # fmt: skip
     if args.json:
         say(json.dumps({"folder": str(out), "baked": True, "seconds": result.seconds, **result.record}))
     elif not args.quiet:

@@ -70,7 +70,12 @@ BAKE = [
     option("--length-map", metavar="FILE.png|vertex:red", type=PLACE, help="black is no length"),
     option("--mask", metavar="FILE.png|vertex:red", type=PLACE, help="black is bare skin"),
     option("--features", metavar="FILE.json", type=PLACE, help="eyes, a nose and the like"),
-    unset_switch("--length-by-thickness", "shorter fur where the body is thin"),
+    unset_switch(
+        "--length-by-thickness",
+        "the length itself from the model's size, and down to a third of it where the body is thin "
+        "(default for a file: all from the body's thickness, so that it keeps its shape)",
+    ),
+    unset_switch("--no-length-by-thickness", "the same length everywhere", dest="length_by_thickness", value=False),
     unset_switch("--no-fins", "no quads on the edges", dest="fins", value=False),
     unset_switch("--directions", "store the hairs' directions too, for other shaders"),
     unset_switch("--flat", "a flat patch under a point at infinity, for checks"),

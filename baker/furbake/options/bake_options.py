@@ -24,7 +24,7 @@ OF_VERTICES = "vertex:"
 """Prefix of a `length_map` or `mask` that names a channel of the vertex colours, or an attribute, not a file."""
 
 
-LATER = ("directions", "states", "dirt")
+LATER = ("directions", "states", "dirt", "auto_length")
 """Options that early records do not have."""
 
 
@@ -65,6 +65,8 @@ class BakeOptions:
     """Lapped patches along the fur, or the model's own texture coordinates."""
     length_by_thickness: bool = False
     """Shorter fur where the body is thin (ears, feet)."""
+    auto_length: bool = False
+    """Length from the body's thickness, where none is given, and shorter fur on thin parts. The command's default."""
     length_noise: float = 0.0
     """How much shorter fur may be from place to place."""
     tip_noise: float = 0.0
@@ -126,6 +128,11 @@ class BakeOptions:
             raise OptionError("dirt: got 3 coefficients, which leave no room for the share of mud, expected 4 to 6")
         hairs = self.coat.guard.count + self.coat.under.count
         knobs.within("coat.guard.count + coat.under.count", hairs, 1, KNOBS["coat.guard.count"].high)
+
+    @property
+    def length_given(self) -> bool:
+        """True where the options say how long the fur is, not only how a tile looks."""
+        return self.length is not None or None not in (self.tile, self.height)
 
     @property
     def own_height(self) -> float:

@@ -63,7 +63,7 @@ class Surface:
         NaN on faces that have none
     attributes : (V, n) further numbers that the file gives its vertices, by lower-case name without underscore
     skin : the visible skin under the fur, one piece per material; () where the file has none
-    notices : what was repaired, one sentence each, beginning with the model's name
+    notices : what was repaired and what is not kept, one sentence each, beginning with the model's name
     """
 
     vertices: Floats
@@ -89,7 +89,9 @@ def load_mesh(path: Path, max_faces: int = MAX_FACES) -> Surface:
     Raises MeshError for every file that does not give one.
     """
     reading = read(path)
-    return _finish(str(path), reading.soup, reading.materials, max_faces, reading.missing)
+    surface = _finish(str(path), reading.soup, reading.materials, max_faces, reading.missing)
+    told = tuple(f"{path}: {notice}" for notice in reading.notices)
+    return replace(surface, notices=(*surface.notices, *told))
 
 
 def clean(name: str, vertices: Floats, faces: Ints, colour: RGB = WHITE, max_faces: int = MAX_FACES) -> Surface:

@@ -79,6 +79,20 @@ def halves(*materials: Material, colour: bool = False) -> Surface:
     return replace(ball, skin=tuple(pieces))
 
 
+def test_skin_without_a_colour_takes_that_of_the_roots(write: Callable[..., Asset]) -> None:
+    asset = write(builtin("sphere"), bare=(0.2, 0.1, 0.05))
+    (skin,) = asset.document["materials"]
+    assert skin["pbrMetallicRoughness"]["baseColorFactor"] == [0.2, 0.1, 0.05, 1]
+    assert skin_colour(asset) == (1, 1, 1), "it doesn't tint the fur"
+    assert validate(asset.folder) == []
+
+
+def test_skin_with_a_colour_keeps_it(write: Callable[..., Asset]) -> None:
+    asset = write(replace(builtin("sphere"), colour=(0.5, 0.25, 0.125)), bare=(0.2, 0.1, 0.05))
+    assert asset.document["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] == [0.5, 0.25, 0.125, 1]
+    assert skin_colour(asset) == (0.5, 0.25, 0.125)
+
+
 def test_a_primitive_for_each_material(write: Callable[..., Asset]) -> None:
     fine = Material("wool", (0.5, 0.25, 0.125, 1.0), 0.25, 0.75, True, "MASK", 0.3, picture(), (CLAMP, MIRROR))
     surface = halves(fine, Material("leather", (0.1, 0.2, 0.3, 1.0)), colour=True)

@@ -24,8 +24,12 @@ DIRECTIONS = ("_COMB", "_DIRECTION")
 """Attributes that are vectors in the node's space and turn with it."""
 
 
-def read_gltf(source: Source) -> tuple[Soup | None, tuple[Material, ...], int]:
-    """Soup, materials and the number of missing pictures; no soup where the scene has no triangle.
+MAX_NAMES = 5
+"""Clips that a notice names."""
+
+
+def read_gltf(source: Source) -> tuple[Soup | None, tuple[Material, ...], int, tuple[str, ...]]:
+    """Soup, materials, the number of missing pictures, and notices; no soup where the scene has no triangle.
 
     Raises UndecodableError, and any error for a broken file.
     """
@@ -48,7 +52,26 @@ def read_gltf(source: Source) -> tuple[Soup | None, tuple[Material, ...], int]:
                 soups.append(soup)
     widths = {name: values.shape[2] for soup in soups for name, values in soup.attributes.items()}
     data.numbers.take(CORNERS * sum(len(soup.faces) for soup in soups) * sum(widths.values()))
-    return (join(soups) if soups else None), (*materials, Material()), missing
+    return (join(soups) if soups else None), (*materials, Material()), missing, _motion(data, places)
+
+
+def _motion(data: GltfData, places: dict[int, Floats]) -> tuple[str, ...]:
+    """A notice of clips, joints and morph targets of the scene, which a bake does not keep; () where it has none."""
+    clips: list[Any] = data.list_of("animations")
+    nodes = data.list_of("nodes")
+    joints = sum(
+        len(data.item("skins", index)["joints"]) for index in {nodes[i]["skin"] for i in places if "skin" in nodes[i]}
+    )
+    shapes = [data.item("meshes", nodes[i]["mesh"])["primitives"] for i in places if "mesh" in nodes[i]]
+    targets = max((len(part.get("targets", ())) for parts in shapes for part in parts), default=0)
+    if not clips and not joints and not targets:
+        return ()
+    names = [str(clip["name"])[:40] for clip in clips if isinstance(clip, dict) and clip.get("name")]
+    named = f" ({', '.join(names[:MAX_NAMES])}{', ...' if len(names) > MAX_NAMES else ''})" if names else ""
+    counts = ((len(clips), f"clip{'s' * (len(clips) != 1)}{named}"), (joints, f"joint{'s' * (joints != 1)}"),
+              (targets, f"morph target{'s' * (targets != 1)}"))  # fmt: skip
+    lost = ", ".join(f"{number} {text}" for number, text in counts if number)
+    return (f"animation is not kept ({lost}): the fur stands still, in the pose that the file rests in",)
 
 
 def _places(data: GltfData) -> dict[int, Floats]:

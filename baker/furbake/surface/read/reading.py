@@ -26,16 +26,17 @@ MESHES = ("glb", "gltf", "obj", "off", "ply", "stl", "stl_ascii")
 ARCHIVES = ("zip", "tar.gz", "tar.bz2", "bz2")
 """Ends of the names of archives in which such files are found."""
 
-Contents = tuple[Soup | None, tuple[Material, ...], int]
+Contents = tuple[Soup | None, tuple[Material, ...], int, tuple[str, ...]]
 
 
 @dataclass(frozen=True)
 class Reading:
-    """Contents of a file: triangles, the materials that `soup.part` counts, and the number of missing pictures."""
+    """Contents of a file: triangles, the materials that `soup.part` counts, number of missing pictures, notices."""
 
     soup: Soup
     materials: tuple[Material, ...]
     missing: int = 0
+    notices: tuple[str, ...] = ()
 
 
 def read(path: Path) -> Reading:
@@ -57,7 +58,8 @@ def read(path: Path) -> Reading:
         raise MeshError(f"{name}: {reason(error)}, expected a readable mesh file") from error
     with _quiet():
         try:
-            soup, materials, missing = _read_archive(model, kind) if kind in ARCHIVES else _read_one(model, kind)
+            contents = _read_archive(model, kind) if kind in ARCHIVES else _read_one(model, kind)
+            soup, materials, missing, notices = contents
         except MeshError:
             raise
         except UndecodableError as error:
@@ -69,7 +71,7 @@ def read(path: Path) -> Reading:
             raise MeshError(f"{name}: cannot be read as {kind} ({reason(error)}), expected a valid file") from error
     if soup is None:
         raise MeshError(f"{name}: no faces, expected a surface of triangles")
-    return Reading(soup, materials, missing)
+    return Reading(soup, materials, missing, notices)
 
 
 def kind_of(name: str) -> str:
@@ -79,7 +81,7 @@ def kind_of(name: str) -> str:
 
 
 def _read_one(model: Source, kind: str) -> Contents:
-    return read_gltf(model) if kind in ("glb", "gltf") else read_other(model, kind)
+    return read_gltf(model) if kind in ("glb", "gltf") else (*read_other(model, kind), ())
 
 
 def _read_archive(archive: Source, kind: str) -> Contents:
@@ -92,22 +94,24 @@ def _read_archive(archive: Source, kind: str) -> Contents:
         )
     found: list[Soup] = []
     materials: dict[Material, int] = {}
+    notices: list[str] = []
     missing, broken = 0, None
     for model in models:
         try:
-            soup, own, lost = _read_one(model, kind_of(model.name))
+            soup, own, lost, told = _read_one(model, kind_of(model.name))
         except (MeshError, UndecodableError):
             raise
         except Exception as error:  # noqa: BLE001 — as above
             broken = error
             continue
         missing += lost
+        notices += told
         if soup is not None:
             places = np.array([materials.setdefault(material, len(materials)) for material in own])
             found.append(replace(soup, part=places[soup.part]))
     if not found and broken is not None:
         raise broken
-    return (join(found) if found else None), tuple(materials), missing
+    return (join(found) if found else None), tuple(materials), missing, tuple(notices)
 
 
 @contextmanager

@@ -141,6 +141,20 @@ def test_skinned_model_stands_as_its_joints_do(document: Document, tmp_path: Pat
     np.testing.assert_allclose(load_mesh(document.write(tmp_path)).vertices[:, 1], 4.0)
 
 
+def test_what_does_not_move_any_more_is_said(document: Document, tmp_path: Path) -> None:
+    def told() -> list[str]:
+        return [line for line in load_mesh(document.write(tmp_path)).notices if "animation is not kept" in line]
+
+    part = document.primitive()
+    assert told() == []
+    document.json["animations"] = [{"name": f"clip {i}"} for i in range(7)]
+    (line,) = told()
+    assert "(7 clips (clip 0, clip 1, clip 2, clip 3, clip 4, ...)): the fur stands still" in line
+    document.json["animations"] = [{}]
+    part["targets"] = [{}, {}]
+    assert "(1 clip, 2 morph targets)" in told()[0]
+
+
 def test_colour_is_factor_times_picture_times_vertex_colour(document: Document, tmp_path: Path) -> None:
     picture = png(np.full((4, 4, 3), 188))
     uv = document.accessor(np.float32([[0.2, 0.2], [0.8, 0.2], [0.8, 0.8], [0.2, 0.8]]))
