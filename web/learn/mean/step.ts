@@ -21,7 +21,6 @@ const AMPLIFIED = 2;
 export const mount: Mount = async (place, lesson) => {
 	const words = lesson.words.mean;
 	const selection = await Selection.of(lesson);
-	await selection.show(0);
 	const errors = new Errors(selection);
 	let [exponent, without] = [0, false];
 

@@ -17,10 +17,10 @@ export const mount: Mount = async (place, lesson) => {
 	const target = new Vector3(0, patch.height / 2, 0);
 	const view = new View(place, lesson, {
 		label: words.above,
-		aspect: 16 / 9,
+		aspect: 16 / 7.4,
 		azimuth: 24,
 		elevation: 32,
-		zoom: 1.12,
+		zoom: 1.3,
 		centre: target,
 		radius: TILES * 0.62,
 	});
