@@ -14,8 +14,8 @@ const ARROWS: Record<string, [right: number, up: number]> = {
 };
 
 /** Calls back for arrow keys while `target` is focused. */
-export function arrows(target: HTMLElement, step: (right: number, up: number) => void): void {
-	target.addEventListener('keydown', (event) => {
+export function arrows(target: GlobalEventHandlers, step: (right: number, up: number) => void): void {
+	target.addEventListener('keydown', (event: KeyboardEvent) => {
 		const arrow = ARROWS[event.key];
 		if (!arrow || event.ctrlKey || event.metaKey || event.altKey) return;
 		event.preventDefault();

@@ -5,6 +5,7 @@ import { element, setState } from '../page/element.ts';
 import { fillHeader } from '../page/header.ts';
 import { fillIn, type Language, languageOf } from '../page/language.ts';
 import { action } from './controls.ts';
+import { fillContents } from './guide/contents.ts';
 import type { Lesson, Mount } from './lesson.ts';
 import { SharedLight } from './light.ts';
 import { MARGIN, Painter } from './painter.ts';
@@ -16,10 +17,13 @@ const texts: Record<Language, () => Promise<{ default: string }>> = {
 };
 
 const steps: Record<string, () => Promise<{ mount: Mount }>> = {
+	hello: () => import('./guide/hello.ts'),
 	shells: () => import('./steps/shells.ts'),
 	slices: () => import('./steps/slices.ts'),
+	hair: () => import('./byhand/step.ts'),
 	dome: () => import('./steps/dome.ts'),
 	texel: () => import('./steps/texel.ts'),
+	mean: () => import('./mean/step.ts'),
 	bits: () => import('./steps/bits.ts'),
 	numbers: () => import('./steps/numbers.ts'),
 	body: () => import('./steps/body.ts'),
@@ -81,29 +85,6 @@ function nearest(figures: Iterable<HTMLElement>): HTMLElement | undefined {
 	return [...figures].sort((a, b) => away(a) - away(b))[0];
 }
 
-/** Links to all steps; marks the one being read. */
-function fillContents(nav: HTMLElement, label: string): void {
-	nav.setAttribute('aria-label', label);
-	const links = new Map<Element, HTMLAnchorElement>();
-	for (const section of document.querySelectorAll('main section[id]')) {
-		const link = document.createElement('a');
-		link.href = `#${section.id}`;
-		const name = document.createElement('span');
-		name.textContent = section.querySelector('h2')?.textContent ?? section.id;
-		link.append(name);
-		links.set(section, link);
-		nav.append(link);
-	}
-	const seen = new IntersectionObserver(
-		(changes) => {
-			for (const { target, isIntersecting } of changes)
-				links.get(target)?.setAttribute('aria-current', String(isIntersecting));
-		},
-		{ rootMargin: '-40% 0% -60% 0%' },
-	);
-	for (const section of links.keys()) seen.observe(section);
-}
-
 async function start(): Promise<void> {
 	const language = languageOf(location.search, navigator.languages);
 	fillIn(WORDS[language], language);
@@ -145,7 +126,7 @@ async function start(): Promise<void> {
 	if (first) waiting.add(first);
 	void next();
 
-	const print = action(document.querySelector('section.end') ?? document.body, WORDS[language].print, async () => {
+	const print = action(document.getElementById('more') ?? document.body, WORDS[language].print, async () => {
 		print.disabled = true;
 		for (const figure of figures) if (!figure.dataset.state) waiting.add(figure);
 		void next();

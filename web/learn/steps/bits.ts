@@ -1,11 +1,12 @@
 /** Eq. (3): bits per number. The layer relit by rounded numbers, and the noise of rounding. */
 
-import { controlRow, slider } from '../controls.ts';
+import { controlRow, type Slider, slider } from '../controls.ts';
 import { dequantise, polynomial, psnr, quantise, rangeOf, relitTexels } from '../data/fit.ts';
 import { toTile } from '../data/lights.ts';
-import type { Layer } from '../data/measurements.ts';
+import type { Layer, LessonRecord } from '../data/measurements.ts';
 import { Selection } from '../data/Selection.ts';
-import type { Mount } from '../lesson.ts';
+import { ask } from '../guide/ask.ts';
+import type { Lesson, Mount } from '../lesson.ts';
 import { drawBits } from '../plot/bits.ts';
 import { differenceColour, lightColour } from '../plot/colours.ts';
 import { layerChoice, line, live } from '../plot/parts.ts';
@@ -16,6 +17,9 @@ import type { MeasuredWords } from '../words/index.ts';
 
 const STORED = 8;
 const AMPLIFIED = 8;
+/** Decibels that count as a cost, and the bits offered as answers. */
+const DEAR = 0.5;
+const OFFERED = [7, 6, 4];
 /** Coverage byte from which a texel's numbers are its own; emptier ones are blended with neighbours. */
 const SOLID = 17;
 
@@ -57,7 +61,7 @@ export const mount: Mount = async (place, lesson) => {
 		[rounded.canvas, () => drawSlice(rounded.canvas, selection.layer, colourOf(both()[1]))],
 		[noise.canvas, () => drawNoise(noise, selection, words, ...both())],
 	]);
-	slider(controls, {
+	const chosen = slider(controls, {
 		label: words.bits,
 		min: 2,
 		max: 10,
@@ -75,7 +79,27 @@ export const mount: Mount = async (place, lesson) => {
 		},
 	});
 	layerChoice(controls, lesson, selection);
+	askForBits(place, lesson, record.bits, chosen);
 };
+
+/** Question on the bits that are needed; the answer takes the others away. */
+function askForBits(place: HTMLElement, { words }: Lesson, entries: LessonRecord['bits'], chosen: Slider): void {
+	const { bits: question } = words.ask;
+	ask(place, question, () => {
+		chosen.value = fewestBits(entries);
+		const at = (bits: number) => decimal(entries.find((entry) => entry.bits === bits)?.psnr ?? 0);
+		return {
+			right: OFFERED.indexOf(chosen.value),
+			because: question.because(chosen.value, at(chosen.value), at(STORED)),
+		};
+	});
+}
+
+/** Fewest of the bits whose rounding costs less than half a decibel. */
+export function fewestBits(entries: LessonRecord['bits']): number {
+	const all = entries.find(({ bits }) => bits === STORED)?.psnr ?? 0;
+	return Math.min(...entries.filter(({ psnr: db }) => all - db < DEAR).map(({ bits }) => bits));
+}
 
 /** Rounded numbers of the selected layer, computed once per layer and number of bits. */
 class Rounding {

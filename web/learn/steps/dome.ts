@@ -4,6 +4,8 @@ import { controlRow, figureCanvas } from '../controls.ts';
 import { elevationOf, nearest, neighbour, toTile, toWorld } from '../data/lights.ts';
 import { Selection } from '../data/Selection.ts';
 import { arrows, listenToDrags } from '../drag.ts';
+import { ask } from '../guide/ask.ts';
+import { lostAtHorizon } from '../guide/sinking.ts';
 import type { Lesson, Mount } from '../lesson.ts';
 import { lightColour } from '../plot/colours.ts';
 import { Dome } from '../plot/dome.ts';
@@ -30,6 +32,7 @@ export const mount: Mount = async (place, lesson) => {
 	]);
 	ramp(place, lesson, record.peak);
 	layerChoice(controlRow(place), lesson, selection);
+	askOfDepth(place, lesson, selection);
 
 	const dome = new Dome(lamps, record.fitted);
 	const lit = lampByHand(canvas, dome, selection, lesson.light);
@@ -62,6 +65,21 @@ export const mount: Mount = async (place, lesson) => {
 		],
 	]);
 };
+
+/** Question on deep layers and high ones; the answer lowers the lamp over the deepest. */
+function askOfDepth(place: HTMLElement, { light, words }: Lesson, selection: Selection): void {
+	const { dome } = words.ask;
+	const [deepest, highest] = [0, selection.record.samples.length - 1];
+	ask(place, dome, async () => {
+		const layers = await Promise.all([deepest, highest].map((index) => selection.measurements.layer(index)));
+		const [deep = 0, high = 0] = layers.map((layer) => lostAtHorizon(layer, selection.lamps));
+		const low = selection.lamps.reduce((lowest, lamp) => (lamp[2] < lowest[2] ? lamp : lowest));
+		light.set(...toWorld(low));
+		await selection.show(deepest);
+		const percent = (share: number) => decimal(100 * share, 0);
+		return { right: deep > high ? 0 : 1, because: dome.because(percent(deep), percent(high)) };
+	});
+}
 
 /** Drags and arrow keys on the dome move the light from lamp to lamp. @returns index of the lit one */
 function lampByHand(canvas: HTMLCanvasElement, dome: Dome, { lamps }: Selection, light: Lesson['light']): () => number {

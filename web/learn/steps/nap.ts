@@ -7,6 +7,7 @@ import { lampDistance } from '../../page/lamp.ts';
 import { controlRow, pane, panes, slider } from '../controls.ts';
 import { bytesOf } from '../data/above.ts';
 import { loadFurry } from '../data/assets.ts';
+import { ask } from '../guide/ask.ts';
 import type { Lesson, Mount } from '../lesson.ts';
 import { coverages } from '../nap/law.ts';
 import { napPatches, RADIUS } from '../nap/patches.ts';
@@ -54,6 +55,17 @@ export const mount: Mount = async (place, lesson) => {
 	const [around, height] = sliders(place, lesson, eye, leaning, () => scene.redraw());
 	const turn = turnByHand(scene, lesson, around, height);
 	const redrawPlots = napPlots(place, words, state, LOWEST);
+	const question = lesson.words.ask.nap;
+	ask(place, question, () => {
+		const factorAt = (from: number) => {
+			around.value =
+				MathUtils.euclideanModulo(Math.round(azimuthOf(light.direction) + from - leaning) + 180, 360) - 180;
+			return factorNow(state());
+		};
+		const [opposite, beside] = [factorAt(180), factorAt(0)];
+		const right = beside > 1 ? 0 : opposite > 1 ? 1 : 2;
+		return { right, because: question.because(decimal(beside), decimal(opposite)) };
+	});
 	/** Update numbers and plots beside the first picture. */
 	function show(): void {
 		const now = factorNow(state());

@@ -1,4 +1,4 @@
-/** Step 1: shells. The same square of fur with few and many of them, askew and from the side. */
+/** Step 1: shells. The same square of fur with few and many of them, from above and from the side. */
 
 import { Vector3 } from 'three';
 import { controlRow, note, slider } from '../controls.ts';
@@ -16,11 +16,11 @@ export const mount: Mount = async (place, lesson) => {
 	const patch = new FurPatch(fur, TILES);
 	const target = new Vector3(0, patch.height / 2, 0);
 	const view = new View(place, lesson, {
-		label: words.askew,
-		aspect: 16 / 9,
+		label: words.above,
+		aspect: 16 / 7.4,
 		azimuth: 24,
 		elevation: 32,
-		zoom: 1.12,
+		zoom: 1.3,
 		centre: target,
 		radius: TILES * 0.62,
 	});

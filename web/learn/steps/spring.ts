@@ -87,7 +87,7 @@ function runPlot(place: HTMLElement, { words: { spring: words } }: Lesson, run: 
 	const point = () => {
 		for (const end of ['x1', 'x2']) cursor?.line.setAttribute(end, String(cursor.x(run.time)));
 	};
-	const plot = new Plot(place, words.plot, 280, (svg, width, height) => {
+	const plot = new Plot(place, words.plot, 230, (svg, width, height) => {
 		cursor = drawRun(svg, width, height, run, words);
 		point();
 	});

@@ -47,6 +47,8 @@ export const mount: Mount = async (place, lesson) => {
 		radius: TILES * 0.62,
 		...only(patches, 0),
 	});
+	const controls = controlRow(place);
+	const says = note(place);
 	const row = panes(place, 2);
 	row.classList.add('below');
 	const captions = words.neighbours.map((label, i) => {
@@ -56,8 +58,6 @@ export const mount: Mount = async (place, lesson) => {
 	});
 	view.add(...patches);
 
-	const controls = controlRow(place);
-	const says = note(place);
 	const now = { wetness: FIRST_WETNESS, dirt: 0 };
 	const show = () => {
 		Object.assign(weather, now);

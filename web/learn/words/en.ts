@@ -1,3 +1,5 @@
+import { teaching } from './teaching/en.ts';
+
 interface BodyNumbers {
 	skin: number;
 	patches: number;
@@ -7,6 +9,7 @@ interface BodyNumbers {
 }
 
 export const en = {
+	...teaching,
 	title: 'furbake · how light gets into fur',
 	description:
 		'A lesson in one scroll: fur in real time by polynomial texture maps, every figure live under one light.',
@@ -15,7 +18,7 @@ export const en = {
 	needsWebGL2: 'This figure is drawn live and needs WebGL2, which this browser does not offer.',
 	failed: (reason: string) => `This figure cannot be shown: ${reason}`,
 	shells: {
-		askew: 'A square of fur seen from above at an angle. Drag or use the arrow keys to move the light.',
+		above: 'A square of fur seen from above at an angle. Drag or use the arrow keys to move the light.',
 		side: 'The same fur seen from its edge.',
 		slider: 'Shells',
 		count: (shells: number) => String(shells),

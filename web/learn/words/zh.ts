@@ -1,6 +1,8 @@
 import type { Words } from './en.ts';
+import { teaching } from './teaching/zh.ts';
 
 export const zh: Words = {
+	...teaching,
 	title: 'furbake · 光线如何进入毛发',
 	description: '一页读完的课程：用多项式纹理映射（PTM）实时绘制毛发，所有插图都是实时的，共用同一盏灯。',
 	steps: '课程目录',
@@ -8,7 +10,7 @@ export const zh: Words = {
 	needsWebGL2: '此图为实时绘制，需要 WebGL2，而当前浏览器不支持。',
 	failed: (reason) => `此图无法显示：${reason}`,
 	shells: {
-		askew: '斜上方看到的一块毛发。拖动或用方向键移动光源。',
+		above: '斜上方看到的一块毛发。拖动或用方向键移动光源。',
 		side: '同一块毛发的侧面。',
 		slider: '壳层数',
 		count: (shells) => String(shells),
