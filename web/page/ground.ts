@@ -39,9 +39,9 @@ export class Ground extends Mesh<RingGeometry, MeshLambertMaterial> {
 		this.renderOrder = -2;
 	}
 
-	/** Lie under the box. @param fur length of the fur, which reaches beyond the box; @param radius world units */
-	fit(box: Box3, fur: number, radius: number): void {
-		box.getCenter(this.position).setY(box.min.y - fur / 2 - 1e-4 * radius);
+	/** Lie under the box. @param height of the ground; @param radius world units */
+	fit(box: Box3, height: number, radius: number): void {
+		box.getCenter(this.position).setY(height - 1e-4 * radius);
 		this.scale.setScalar(radius);
 	}
 }
@@ -75,10 +75,14 @@ export class ContactShadow extends Mesh<PlaneGeometry, MeshBasicMaterial> {
 		this.renderOrder = -1;
 	}
 
-	/** Fit the shadow under the box, a little wider. @param fur length of the fur, which reaches beyond the box */
-	fit(box: Box3, fur: number): void {
+	/**
+	 * Fit the shadow under the box, a little wider.
+	 *
+	 * @param fur length of the fur, which reaches beyond the box; @param height of the ground
+	 */
+	fit(box: Box3, fur: number, height: number): void {
 		const size = box.getSize(new Vector3()).addScalar(2 * fur);
-		box.getCenter(this.#place).setY(box.min.y - fur / 2);
+		box.getCenter(this.#place).setY(height);
 		this.position.copy(this.#place);
 		this.scale.set(size.x * 1.5, size.z * 1.6, 1);
 	}

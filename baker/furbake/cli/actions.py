@@ -9,6 +9,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import SimpleNamespace
 from typing import Any
+from urllib.parse import quote
 
 from furbake.asset.inspect import summary
 from furbake.asset.read import AssetError, read_asset
@@ -91,7 +92,18 @@ def run_bake(args: SimpleNamespace) -> int:
             f"{out}: {result.record['input']['name']} in {options.layers} layers of {options.size} x {options.size}, "
             f"{result.record['fit']['psnr']:.1f} dB, {size:.2f} MB, {time.perf_counter() - start:.1f} s"
         )
+        if not args.if_stale:
+            say(f"to see it: npm start, then {_on_the_page(out)}")
     return 0
+
+
+def _on_the_page(out: Path) -> str:
+    """Way to show a baked folder on the demo page: its address below the page's, or a drop."""
+    folders = out.resolve().parts
+    if "public" in folders[:-1]:
+        start = len(folders) - folders[::-1].index("public")
+        return f"?model={quote('/'.join(folders[start:]))} in its address"
+    return f"drop the folder {out} on the page"
 
 
 def _fresh(model: str, out: Path, options: BakeOptions) -> dict[str, Any] | None:

@@ -14,7 +14,7 @@ from furbake.cli.parsing import FULL, Entry, Group, UsageError, sentence
 INVALID, BAD_INPUT = 1, 2
 
 COMMANDS = {
-    "bake": Entry("arguments", "bake a mesh into a folder"),
+    "bake": Entry("arguments", "bake a mesh into a folder: 20 s to 2 min on two cores, by --layers and --size"),
     "inspect": Entry("arguments", "say what is in a baked folder"),
     "validate": Entry("arguments", "check a baked folder: exit 1 and a list if it is bad"),
     "presets": Entry("arguments", "list the presets, or all knobs of one as TOML to copy"),

@@ -17,7 +17,9 @@ from helpers.command import CUBE, TINY, files, listed
 def test_bake_inspect_validate(run: Callable[..., Any]) -> None:
     done = run("bake", "torus:8x12", "-o", "out", *TINY)
     assert done.status == 0
-    assert re.fullmatch(r"out: torus:8x12 in 4 layers of 8 x 8, [\d.]+ dB, [\d.]+ MB, [\d.]+ s\n", done.out)
+    summary, hint = done.out.splitlines()
+    assert re.fullmatch(r"out: torus:8x12 in 4 layers of 8 x 8, [\d.]+ dB, [\d.]+ MB, [\d.]+ s", summary)
+    assert hint == "to see it: npm start, then drop the folder out on the page"
     stages = re.findall(r"furbake: (\w+) [\d.]+ s\n", done.err)
     assert stages == ["mesh", "strands", "volume", "light", "fit", "fins", "write"]
     images = {"plane0.png", "plane1.png", "colour.png", "fin0.png", "fin1.png", "fin-colour.png"}
@@ -27,6 +29,15 @@ def test_bake_inspect_validate(run: Callable[..., Any]) -> None:
     told = run("inspect", "out")
     assert "layers:                   4" in told.out
     assert json.loads(run("inspect", "out", "--json").out)["fur"]["layers"] == 4
+
+
+def test_the_last_line_has_the_address_of_a_folder_of_the_page(run: Callable[..., Any]) -> None:
+    place = Path("site/public/models/my torus")
+    place.parent.mkdir(parents=True)
+    done = run("bake", "plane", "-o", place, *TINY)
+    assert done.out.splitlines()[-1] == "to see it: npm start, then ?model=models/my%20torus in its address"
+    again = run("bake", "plane", "-o", place, *TINY, "--if-stale")
+    assert again.out == f"{place}: up to date\n"
 
 
 def test_json_is_all_there_is_on_standard_output(run: Callable[..., Any]) -> None:

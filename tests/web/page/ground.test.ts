@@ -8,7 +8,7 @@ const box = new Box3(new Vector3(-1, 0, -1), new Vector3(1, 2, 1));
 
 describe('the ground', () => {
 	const ground = new Ground();
-	ground.fit(box, 0.2, 5);
+	ground.fit(box, -0.1, 5);
 	ground.updateMatrixWorld();
 	const position = ground.geometry.getAttribute('position');
 	const colour = ground.geometry.getAttribute('color');
@@ -19,7 +19,7 @@ describe('the ground', () => {
 
 	it('lies where the fur of the body ends, below the shadow of the sky', () => {
 		const shadow = new ContactShadow();
-		shadow.fit(box, 0.2);
+		shadow.fit(box, 0.2, -0.1);
 		for (const { at } of points) {
 			expect(at.y).toBeCloseTo(-0.1, 2);
 			expect(at.y).toBeLessThan(shadow.position.y);
@@ -49,7 +49,7 @@ describe('the ground', () => {
 describe('the shadow of the sky', () => {
 	it('follows the body and pales as it rises', () => {
 		const shadow = new ContactShadow();
-		shadow.fit(box, 0);
+		shadow.fit(box, 0, 0);
 		const dark = shadow.material.opacity;
 		shadow.follow(new Vector3(3, 1, -2), 0.5, 2);
 		expect(shadow.position.toArray()).toEqual([3, 0, -2]);

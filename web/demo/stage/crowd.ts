@@ -5,6 +5,7 @@ import { type Fur, FurInstances } from '../../fur/index.ts';
 import { ContactShadow } from '../../page/ground.ts';
 import { random } from '../../page/random.ts';
 import { MAX_CROWD } from '../state/view.ts';
+import { footing } from './footing.ts';
 import type { Model } from './model.ts';
 
 /** Place of a body in units of the room that it takes up, turn in radians, scale. */
@@ -66,7 +67,7 @@ export class Crowd extends Group {
 		const foot = box.getCenter(new Vector3()).setY(box.min.y);
 
 		this.#instances = new FurInstances(fur, MAX_CROWD);
-		this.#shadow.fit(box, fur.asset.length);
+		this.#shadow.fit(box, fur.asset.length, footing({ ...model, fur }));
 		this.#shadow.updateMatrix();
 		this.#shadows = new InstancedMesh(this.#shadow.geometry, this.#shadow.material, MAX_CROWD);
 		this.#shadows.renderOrder = this.#shadow.renderOrder;

@@ -24,6 +24,7 @@ import { ContactShadow, Ground, SLATE } from '../../page/ground.ts';
 import { setToneMapping } from '../../page/toneMapping.ts';
 import { Crowd } from './crowd.ts';
 import type { Environment } from './environment.ts';
+import { footing } from './footing.ts';
 import { Lamps } from './lamps.ts';
 import type { Model } from './model.ts';
 import { heightOf, stand } from './stand.ts';
@@ -135,9 +136,10 @@ export class Stage {
 		this.radius = crowd?.radius ?? model.radius;
 		model.box.getCenter(this.centre);
 		const length = fur?.shells.furLength ?? 0.05 * model.radius;
-		this.#shadow.fit(model.box, fur ? length : 0);
+		const ground = footing({ ...model, fur });
+		this.#shadow.fit(model.box, fur ? length : 0, ground);
 		const reach = crowd?.reach ?? this.radius;
-		this.#ground.fit(model.box, fur ? length : 0, reach * (many ? ROOM.crowd : ROOM.body));
+		this.#ground.fit(model.box, ground, reach * (many ? ROOM.crowd : ROOM.body));
 		this.#turnLight();
 		fitFurShadow(this.key, new Sphere(this.centre, reach + length), length);
 	}
