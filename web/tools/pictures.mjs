@@ -1,16 +1,20 @@
 /**
  * `npm run pictures`: regenerates the project's pictures: `public/og.jpg` for shared links, `still.jpg`, the bunny under
- * three lights, and `demo.jpg` and `learn.jpg`, the pages themselves.
+ * three lights, and `demo.jpg` and `learn.jpg`, the pages themselves. `npm run pictures -- --fox models/my-fox` makes
+ * `fox.jpg` of README's fox, baked there.
  */
 import { join } from 'node:path';
 import { browserArgs, ensureBrowser } from './browser.mjs';
 import { ensureNode } from './environment.mjs';
+import { readOptions } from './measure/measure.mjs';
 import { command, root, say } from './process.mjs';
 import { serve } from './site/vite.mjs';
 
 /** @import { Browser, Page } from '@playwright/test' */
 
-const CAMERA = '-20,10,0.9';
+const BUNNY = 'model=bunny&planes=128&camera=-20,10,0.9';
+/** The fox from its side, from the front, and at sunset. */
+const FOX = ['camera=90,6,0.82', 'camera=28,12,0.72&light=-0.4,0.7,0.5', 'camera=48,4,0.75&env=sunset'];
 /** Light from the left, from above, from behind. */
 const LIGHTS = ['-0.9,0.45,0.2', '0.05,0.98,0.2', '0.75,0.45,-0.5'];
 const WORDS = ['furbake', 'Fur that you relight by dragging,', 'baked from any mesh'];
@@ -22,13 +26,13 @@ const PATIENCE = 300_000;
 /**
  * @param {Browser} browser
  * @param {string} site
- * @param {string} light
+ * @param {string} what parameters of the address
  * @param {{ width: number, height: number }} viewport
  * @returns {Promise<string>} the picture as an address
  */
-async function view(browser, site, light, viewport) {
+async function view(browser, site, what, viewport) {
 	const page = await browser.newPage({ viewport, deviceScaleFactor: FINER });
-	await page.goto(`${site}?model=bunny&planes=128&still=1&ui=0&camera=${CAMERA}&light=${light}`);
+	await page.goto(`${site}?${what}&still=1&ui=0`);
 	await page.waitForFunction("document.documentElement.dataset.state !== 'loading'", null, { timeout: PATIENCE });
 	const bytes = await page.screenshot({ timeout: PATIENCE });
 	await page.close();
@@ -52,7 +56,7 @@ async function keep(browser, body, viewport, name, quality) {
 /** @param {Browser} browser; @param {string} site */
 async function shared(browser, site) {
 	const [width, height, wide, middle] = [1200, 630, 1720, 838]; // the bunny's middle beside the words
-	const picture = await view(browser, site, LIGHTS[0], { width: wide, height });
+	const picture = await view(browser, site, `${BUNNY}&light=${LIGHTS[0]}`, { width: wide, height });
 	const [name, ...lines] = WORDS;
 	const body = `
 		<style>
@@ -68,17 +72,29 @@ async function shared(browser, site) {
 
 /** @param {Browser} browser; @param {string} site */
 async function still(browser, site) {
+	await strip(
+		browser,
+		site,
+		LIGHTS.map((light) => `${BUNNY}&light=${light}`),
+		'still.jpg',
+	);
+}
+
+/**
+ * Square pictures in a row.
+ *
+ * @param {Browser} browser
+ * @param {string} site
+ * @param {string[]} views parameters of their addresses
+ * @param {string} name of the file in public/
+ */
+async function strip(browser, site, views, name) {
 	const side = 560;
 	const pictures = [];
-	for (const light of LIGHTS) pictures.push(await view(browser, site, light, { width: side, height: side }));
+	for (const what of views) pictures.push(await view(browser, site, what, { width: side, height: side }));
 	const images = pictures.map((picture) => `<img src="${picture}" width="${side}" height="${side}" />`);
-	await keep(
-		browser,
-		`<div style="display: flex">${images.join('')}</div>`,
-		{ width: side * LIGHTS.length, height: side },
-		'still.jpg',
-		84,
-	);
+	const body = `<div style="display: flex">${images.join('')}</div>`;
+	await keep(browser, body, { width: side * views.length, height: side }, name, 84);
 }
 
 /** Two methods side by side. @param {Browser} browser; @param {string} site */
@@ -115,11 +131,21 @@ async function photograph(page, name, quality = 84) {
 }
 
 await command(async () => {
+	const { fox } = readOptions({ fox: { type: 'string' } });
 	await ensureNode();
 	const { chromium } = await import('@playwright/test');
 	const server = await serve();
 	const browser = await chromium.launch({ executablePath: await ensureBrowser(), args: browserArgs });
 	try {
+		if (fox) {
+			await strip(
+				browser,
+				server.url,
+				FOX.map((what) => `model=${fox}&${what}`),
+				'fox.jpg',
+			);
+			return;
+		}
 		await shared(browser, server.url);
 		await still(browser, server.url);
 		await demo(browser, server.url);
