@@ -12,8 +12,10 @@ export const teaching = {
 		best: 'Show the best parabola',
 		hide: 'Hide the best parabola',
 		says: ([square, linear, constant]: readonly string[], own: string, best: string) =>
-			`Yours: L = ${square}·lᵥ² + ${linear}·lᵥ + ${constant}, off by ${own} (root of the mean squared error)` +
-			`${best ? `; the best is off by ${best}.` : '.'}`.replaceAll('+ −', '− '),
+			`Yours: L = ${square}·lᵥ² + ${linear}·lᵥ + ${constant}, off by ${own} (root of the mean squared error)`.replaceAll(
+				'+ −',
+				'− ',
+			) + `${best ? `; the best is off by ${best}.` : '.'}`,
 	},
 	mean: {
 		measured: 'measured, by a lamp that no fit saw',

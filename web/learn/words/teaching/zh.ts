@@ -12,8 +12,8 @@ export const teaching: typeof english = {
 		best: '显示最佳抛物线',
 		hide: '隐藏最佳抛物线',
 		says: ([square, linear, constant], own, best) =>
-			`你的抛物线：L = ${square}·lᵥ² + ${linear}·lᵥ + ${constant}，均方根误差 ${own}` +
-			`${best ? `；最佳为 ${best}。` : '。'}`.replaceAll('+ −', '− '),
+			`你的抛物线：L = ${square}·lᵥ² + ${linear}·lᵥ + ${constant}，均方根误差 ${own}`.replaceAll('+ −', '− ') +
+			`${best ? `；最佳为 ${best}。` : '。'}`,
 	},
 	mean: {
 		measured: '实测，检验灯（不参与拟合）',
