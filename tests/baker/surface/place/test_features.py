@@ -136,5 +136,9 @@ def test_the_ball_is_round_and_faces_out() -> None:
 
 def test_the_bunnys_face_is_read() -> None:
     face = read_features(Path(__file__).parents[4] / "public" / "models" / "bunny.features.json")
-    assert [feature.name for feature in face] == ["eye right", "eye left", "nose"]
-    assert all(feature.on for feature in face)
+    assert [feature.name for feature in face[:3]] == ["eye right", "eye left", "nose"]
+    assert all(feature.on for feature in face[:3])
+    # Whiskers are long and thin, and no hair gives way to them.
+    whiskers = face[3:]
+    assert len(whiskers) == 8
+    assert all(max(hair.radii) > 40 * min(hair.radii) and hair.clear == 1 and not hair.on for hair in whiskers)
