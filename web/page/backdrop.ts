@@ -35,8 +35,7 @@ export function backdrop(half: boolean, size = 384): DataTexture {
 			const away = Math.hypot((x + 0.5) / size - 0.5, ((y + 0.5) / size - 0.47) * 1.1) / 0.72;
 			colour.lerpColors(inner, outer, MathUtils.smoothstep(away, 0, 1));
 			colour.addScalar((grain() + grain() - 1) / 255);
-			colour.convertSRGBToLinear();
-			if (!half) colour.convertLinearToSRGB();
+			if (half) colour.convertSRGBToLinear();
 			const at = (y * size + x) * 4;
 			texels[at] = stored(colour.r);
 			texels[at + 1] = stored(colour.g);
