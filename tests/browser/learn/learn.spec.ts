@@ -168,6 +168,16 @@ test('Table 1 is measured beside the article’s, and figures go on after it', a
 	await show(page, 'rivals');
 	const [unlit, lengyel, layers, ptm] = await Promise.all([0, 1, 2, 3].map((nth) => pixels(page, 'rivals', nth)));
 	for (const other of [unlit, lengyel, layers]) expect(apart(ptm ?? [], other ?? [])).toBeGreaterThan(1);
+	// Lamps under which they differ are a click away.
+	const put = async (name: string) => {
+		await page.getByRole('button', { name }).click();
+		await show(page, 'rivals');
+	};
+	await put('from above');
+	await expect.poll(async () => apart(ptm ?? [], await pixels(page, 'rivals', 3))).toBeGreaterThan(1);
+	const above = await pixels(page, 'rivals', 3);
+	await put('behind the ring');
+	await expect.poll(async () => apart(above, await pixels(page, 'rivals', 3))).toBeGreaterThan(3);
 	const row = page.getByRole('row').filter({ hasText: '4 608' });
 	await expect(row.getByRole('cell')).toHaveText(['14.3', '17.4', '1.22', '–', '–', '–']);
 	await page.getByRole('button', { name: 'Measure here' }).click();

@@ -10,6 +10,15 @@ import { View, type ViewOptions } from '../view.ts';
 
 const MODEL = 'torus-4608';
 const SHELLS = 16;
+/** Azimuth and elevation of the eye, degrees. */
+const EYE = { azimuth: 20, elevation: 38 };
+/** Lamps under which the methods differ, world axes; the ring's eye is at its front, a little to the right. */
+const LAMPS: Record<keyof Lesson['words']['rivals']['lamps'], [x: number, y: number, z: number]> = {
+	above: [0, 1, 0],
+	side: [-0.94, 0.2, 0.34],
+	behind: [-0.34, 0.2, -0.94],
+	eye: [0.27, 0.62, 0.74],
+};
 const METHODS = ['unlit', 'lengyel', 'shadow-layers', 'ptm'] as const satisfies FurMethodName[];
 
 export const mount: Mount = async (place, lesson) => {
@@ -45,8 +54,7 @@ function pictures(
 		const options: ViewOptions = {
 			label: words.picture(words.methods[name].name),
 			aspect: 1,
-			azimuth: 20,
-			elevation: 38,
+			...EYE,
 			zoom: 1.08,
 			...around,
 			before() {
@@ -65,6 +73,10 @@ function pictures(
 	// Less ambient light than elsewhere, to show shadows.
 	made.sky.intensity *= 0.5;
 	made.cast(fur.asset.length);
+	const lamps = controlRow(place);
+	lamps.append(words.lamp);
+	for (const name of ['above', 'side', 'behind', 'eye'] as const)
+		action(lamps, words.lamps[name], () => lesson.light.set(...LAMPS[name]));
 	return made;
 }
 

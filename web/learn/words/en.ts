@@ -88,6 +88,13 @@ export const en = {
 				costs: 'The polynomial alone, without mean curves; a third fetch for the hairs’ own colours.',
 			},
 		},
+		lamp: 'Lamp',
+		lamps: {
+			above: 'from above',
+			side: 'low, from the side',
+			behind: 'low, behind the ring',
+			eye: 'beside the eye',
+		},
 		table: 'Table 1: frames per second, by triangles of the body; 16 shells, light moving',
 		article: 'The article, 2009',
 		here: 'This machine, now',

@@ -68,6 +68,8 @@ export const zh: Words = {
 			ptm: { name: 'PTM', costs: '有真实阴影；无论光在何处，只需两次取样和一次点积。' },
 			article: { name: '论文原式 PTM', costs: '只用多项式，没有平均曲线；毛色另需第三次取样。' },
 		},
+		lamp: '灯',
+		lamps: { above: '从上方', side: '从侧面低处', behind: '从圆环后方低处', eye: '在眼睛旁边' },
 		table: '表 1：不同三角形数下的帧率（帧/秒），16 层壳层，光源移动',
 		article: '论文（2009）',
 		here: '本机实测',
