@@ -1,4 +1,4 @@
-/** Step 3: one lamp over one hair, the curve of its light, and a parabola laid through it by hand. */
+/** One lamp over one hair, the curve of its light, and a parabola laid through it by hand. */
 
 import { action, controlRow } from '../controls.ts';
 import { toTile } from '../data/lights.ts';

@@ -1,4 +1,4 @@
-/** Step 6: texels err, means over neighbours hardly do. */
+/** Texels err, means over neighbours hardly do. */
 
 import { choice, controlRow, slider } from '../controls.ts';
 import { nearest, toTile } from '../data/lights.ts';

@@ -1,4 +1,4 @@
-/** Step 7: the fur on a body. Shells, fins, overlapping patches, and the hull that casts the shadow. */
+/** The fur on a body. Shells, fins, overlapping patches, and the hull that casts the shadow. */
 
 import {
 	BufferAttribute,

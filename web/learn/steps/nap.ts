@@ -1,4 +1,4 @@
-/** Step 8: the eye turns around a patch of fur, and the factor of light and eye turns the nap. */
+/** The eye turns around a patch of fur, and the factor of light and eye turns the nap. */
 
 import { type Camera, MathUtils, type Vector2, Vector3 } from 'three';
 import { alphaChannel } from '../../fur/reference.ts';

@@ -1,4 +1,4 @@
-/** Step 8: the same fur by five methods of lighting, and Table 1 measured on the reader's machine. */
+/** The same fur by five methods of lighting, and Table 1 measured on the reader's machine. */
 
 import type { Fur, FurMethodName } from '../../fur/index.ts';
 import { dressFur, furMethod } from '../../fur/index.ts';

@@ -1,4 +1,4 @@
-/** Step 1: shells. The same square of fur with few and many of them, from above and from the side. */
+/** Shells. The same square of fur with few and many of them, from above and from the side. */
 
 import { Vector3 } from 'three';
 import { controlRow, note, slider } from '../controls.ts';

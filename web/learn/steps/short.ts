@@ -1,4 +1,4 @@
-/** Step 9, the article's figure 5: on short fur it matters less where the light comes from. */
+/** The article's figure 5: on short fur it matters less where the light comes from. */
 
 import { Object3D, Vector3 } from 'three';
 import { pane, panes } from '../controls.ts';

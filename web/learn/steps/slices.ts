@@ -1,4 +1,4 @@
-/** Step 2: hairs, their volume, and its slices, which can be pulled apart. */
+/** Hairs, their volume, and its slices, which can be pulled apart. */
 
 import {
 	BoxGeometry,

@@ -1,4 +1,4 @@
-/** Step 10: the spring of each hair. Its exact step lies on the curve at any length, Euler's diverges. */
+/** The spring of each hair. Its exact step lies on the curve at any length, Euler's diverges. */
 
 import { action, controlRow, figureCanvas, note, slider } from '../controls.ts';
 import { arrows, listenToDrags } from '../drag.ts';

@@ -1,4 +1,4 @@
-/** Step 9, the article's figure 3: a tuft of fur and the shadow that it casts on a plane. */
+/** The article's figure 3: a tuft of fur and the shadow that it casts on a plane. */
 
 import {
 	CircleGeometry,

@@ -1,4 +1,4 @@
-/** Step 9, the article's figure 4: one square of fur, the light turned by quarters. */
+/** The article's figure 4: one square of fur, the light turned by quarters. */
 
 import { MathUtils, Object3D, Vector3 } from 'three';
 import { pane, panes } from '../controls.ts';

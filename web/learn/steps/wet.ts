@@ -1,4 +1,4 @@
-/** Step 11: fur between two baked states, and fur with mud. */
+/** Fur between two baked states, and fur with mud. */
 
 import { FurWeather } from '../../fur/index.ts';
 import { controlRow, note, pane, panes, slider } from '../controls.ts';

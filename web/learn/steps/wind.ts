@@ -1,4 +1,4 @@
-/** Step 10: a square of fur in the wind, and under the hand. */
+/** A square of fur in the wind, and under the hand. */
 
 import { type Camera, MathUtils, Plane, Ray, type Vector2, Vector3 } from 'three';
 import { FurMotion } from '../../fur/index.ts';
