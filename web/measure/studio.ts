@@ -11,6 +11,7 @@ import {
 	PerspectiveCamera,
 	Scene,
 	Sphere,
+	type Vector3,
 	type WebGLRenderer,
 	WebGLRenderTarget,
 } from 'three';
@@ -110,6 +111,17 @@ export class Studio {
 		this.#camera.lookAt(this.#centre);
 	}
 
+	/** Unit vector of the world. @param direction seen from the eye: right, up, to the viewer */
+	fromEye(direction: Vector3): Vector3 {
+		this.#camera.updateMatrixWorld();
+		return direction.clone().transformDirection(this.#camera.matrixWorld);
+	}
+
+	/** Bounding sphere of the body with its fur, world units. */
+	get bounds(): Sphere {
+		return new Sphere(this.#centre.clone(), this.radius + this.fur.asset.length);
+	}
+
 	/** Replaces the lights. */
 	light(...lights: Light[]): void {
 		this.#lights.clear();
@@ -142,6 +154,12 @@ export class Studio {
 		const pixels = renderFloats(this.#renderer, this.#scene, this.#camera, this.#picture);
 		this.#picture.setSize(width, height);
 		return samples > 1 ? averaged(pixels, width, height, samples) : pixels;
+	}
+
+	/** Draws to the renderer's canvas. */
+	show(): void {
+		this.#renderer.setRenderTarget(null);
+		this.#renderer.render(this.#scene, this.#camera);
 	}
 
 	/** Milliseconds of one frame up to the GPU's end, by reading a pixel. */

@@ -35,7 +35,7 @@ function packages(file) {
 }
 
 /** Compares npm's record of installed packages with the lock file. */
-function nodeIsInstalled() {
+export function nodeIsInstalled() {
 	const installed = packages('node_modules/.package-lock.json');
 	return Object.entries(packages('package-lock.json')).every(
 		([path, { version, optional }]) => path === '' || optional || installed[path]?.version === version,

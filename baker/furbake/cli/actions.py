@@ -173,7 +173,7 @@ def run_report(args: SimpleNamespace) -> int:
     """Write DIR/report.html."""
     check(Path(args.folder))
     with shown(REPORT_STAGES, args.quiet) as progress:
-        out = write_report(Path(args.folder), progress)
+        out = write_report(Path(args.folder), progress, shown=not args.no_model)
     if not args.quiet:
         say(str(out))
     return 0

@@ -88,6 +88,12 @@ BAKE = [
     switch("--quiet", QUIET),
 ]  # fmt: skip
 
+REPORT = [
+    folder(),
+    switch("--no-model", "without pictures of the model, which need Node and a browser"),
+    switch("--quiet", QUIET),
+]
+
 PRESETS = [
     Argument("name", "NAME", "a preset or a .toml file", type=PLACE, required=False),
     switch("--json", "as one JSON object with all their options"),
@@ -127,7 +133,7 @@ COMMANDS = {
         Command("inspect", "DIR", action("actions", "run_inspect"), [folder(), switch("--json", "as one JSON object")]),
         Command("validate", "DIR", action("actions", "run_validate"), [folder()]),
         Command("presets", "[NAME]", action("actions", "run_presets"), PRESETS),
-        Command("report", "DIR", action("actions", "run_report"), [folder(), switch("--quiet", QUIET)]),
+        Command("report", "DIR", action("actions", "run_report"), REPORT),
         Command("swatch", "DIR -o FILE.png", action("actions", "run_swatch"), SWATCH),
         Command("lesson", "-o DIR", action("actions", "run_lesson"), LESSON),
         Command("groom", "DIR -o FILE.npz", action("actions", "run_groom"), GROOM),

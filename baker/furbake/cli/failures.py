@@ -5,7 +5,8 @@ from furbake.asset.read import AssetError
 from furbake.asset.store import StoreError
 from furbake.groom.files import GroomError
 from furbake.options import OptionError
+from furbake.page import PageError
 from furbake.study.verify.pathtrace import VerifyError
 from furbake.surface.mesh import MeshError
 
-TOLD = (OptionError, MeshError, StoreError, AssetError, PlaneError, VerifyError, GroomError)
+TOLD = (OptionError, MeshError, StoreError, AssetError, PlaneError, VerifyError, GroomError, PageError)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import re
 import shutil
@@ -25,6 +26,7 @@ from furbake.pipeline import bake
 from furbake.show import report
 from furbake.show.report.measure import measure
 from furbake.show.report.page import flat, page
+from furbake.show.report.sides import SIDES
 
 SECTIONS = (
     "The fur under eight lights", "Figures", "Sample, fit, error", "Contact sheet", "Light curves of single texels",
@@ -43,7 +45,7 @@ def baked(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A small bake with its report; tests change copies of it."""
     folder = tmp_path_factory.mktemp("report") / "fur"
     bake("sphere", folder, small())
-    report.write(folder)
+    report.write(folder, shown=False)
     return folder
 
 
@@ -163,7 +165,7 @@ def test_the_pelt_is_sampled_as_it_was_baked(baked: Path) -> None:
 def test_same_bytes_every_time(baked: Path, copy: Path) -> None:
     before = (baked / "report.html").read_bytes()
     stages: list[str] = []
-    assert report.write(copy, lambda stage, _fraction: stages.append(stage)) == copy / "report.html"
+    assert report.write(copy, lambda stage, _fraction: stages.append(stage), shown=False) == copy / "report.html"
     assert (copy / "report.html").read_bytes() == before
     assert sorted(set(stages), key=report.STAGES.index) == list(report.STAGES)
     assert sorted(path.name for path in copy.iterdir()) == sorted(path.name for path in baked.iterdir())
@@ -194,7 +196,7 @@ def test_pelts_of_the_presets_stay_light(baked: Path, make_pelt: Callable[..., P
 def test_eigen_without_a_colour_plane(tmp_path: Path, count: int) -> None:
     options = small(basis="eigen", coefficients=count, colour_plane=False, flat=True, layers=1)
     bake("sphere", tmp_path / "out", options)
-    report.write(tmp_path / "out")
+    report.write(tmp_path / "out", shown=False)
     html, _ = read(tmp_path / "out")
     assert f"eigen curves, {count} numbers per texel" in html
     assert f"× light curve {count}" in html
@@ -204,7 +206,7 @@ def test_eigen_without_a_colour_plane(tmp_path: Path, count: int) -> None:
 def test_states_are_shown_where_there_are_any(tmp_path: Path, baked: Path) -> None:
     folder = tmp_path / "fur"
     bake("plane:1x1", folder, small(size=8, lights=8, states=("dry", "soaked"), dirt=True, fins=False))
-    html = report.write(folder).read_text("utf-8")
+    html = report.write(folder, shown=False).read_text("utf-8")
     assert "<h2>Its states</h2>" in html
     assert [f'alt="{name} fur"' in html for name in ("dry", "soaked", "dirty")] == [True] * 3
     assert "<h2>Its states</h2>" not in (baked / report.NAME).read_text("utf-8")
@@ -215,14 +217,14 @@ def test_names_are_text_and_never_markup(copy: Path) -> None:
         record["input"]["name"] = "<b onclick=x>&.glb"
 
     change_record(copy, rename)
-    report.write(copy)
+    report.write(copy, shown=False)
     html, _ = read(copy)
     assert "<h1>&lt;b onclick=x&gt;&amp;.glb</h1>" in html
 
 
 def test_another_version_is_said(copy: Path) -> None:
     change_record(copy, lambda record: record.update(furbake="0.0.9"))
-    report.write(copy)
+    report.write(copy, shown=False)
     _, checker = read(copy)
     assert any("baked by furbake 0.0.9; its samples are shown here as furbake" in words for words in checker.words)
 
@@ -243,7 +245,7 @@ def test_what_is_no_bake(copy: Path, tmp_path: Path) -> None:
         (folder / "report.html").write_text("the old one", "utf-8")
         change(folder)
         with pytest.raises(AssetError, match=message) as caught:
-            report.write(folder)
+            report.write(folder, shown=False)
         assert "\n" not in str(caught.value)
         assert (folder / "report.html").read_text("utf-8") == "the old one"
         shutil.rmtree(folder)
@@ -252,7 +254,7 @@ def test_what_is_no_bake(copy: Path, tmp_path: Path) -> None:
         return lambda folder: change_record(folder, lambda found: change(found) and None)
 
     with pytest.raises(AssetError, match="no such folder, expected a folder that furbake wrote"):
-        report.write(tmp_path / "nowhere")
+        report.write(tmp_path / "nowhere", shown=False)
     broken(
         lambda folder: (folder / "bake.json").unlink(), r"bake.json: missing or empty, expected the record of a bake"
     )
@@ -264,8 +266,33 @@ def test_what_is_no_bake(copy: Path, tmp_path: Path) -> None:
     broken(record(lambda found: found["options"].update(layers=8) or 1), "bake.json: layers 8, expected 4 as in model")
 
 
+def test_the_model_opens_the_report(copy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn: list[list[str]] = []
+
+    def draw(script: str, arguments: list[str], part: str) -> None:
+        drawn.append([script, *arguments])
+        for side in SIDES:
+            (Path(arguments[1]) / f"{side}.jpg").write_bytes(side.encode())
+
+    monkeypatch.setattr("furbake.show.report.sides.draw", draw)
+    report.write(copy)
+    html, _ = read(copy)
+    assert re.findall(r"<h2>(.*?)</h2>", html) == ["The model", *SECTIONS]
+    pictures = re.findall(r'src="data:image/jpeg;base64,(.*?)"', html)
+    assert [base64.b64decode(picture).decode() for picture in pictures] == list(SIDES)
+    assert [call[:2] for call in drawn] == [["sides.mjs", str(copy.resolve())]]
+
+
+def test_a_model_that_cannot_be_drawn_is_said(copy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("furbake.page.shutil.which", lambda name: None)
+    report.write(copy)
+    _, checker = read(copy)
+    said = "Not shown here. node: not found, expected Node 20.19 or newer, which draws the model."
+    assert said in checker.words
+
+
 def test_a_place_that_cannot_be_written(copy: Path) -> None:
     (copy / "report.html").unlink()
     (copy / "report.html").mkdir()
     with pytest.raises(StoreError, match="is a folder, expected a file to write"):
-        report.write(copy)
+        report.write(copy, shown=False)

@@ -1,8 +1,8 @@
 /** Runs inside the page: the bunny in one grey with the demo's highlights and light from behind, and without. For `look.spec.ts`. */
 
-import { DEFAULT_LOOK } from '../../../web/demo/model/looks.ts';
 import { openBody } from '../../../web/measure/body.ts';
 import type { BodyJob } from '../../../web/measure/bodyJob.ts';
+import { DEFAULT_LOOK } from '../../../web/page/look.ts';
 
 /** Mean light of parts of a picture. */
 export interface Parts {

@@ -13,6 +13,7 @@ import {
 	furMethod,
 	updateFurs,
 } from '../../fur/index.ts';
+import { DEFAULT_LOOK } from '../../page/look.ts';
 import type { Store } from '../state/store.ts';
 import type { View } from '../state/view.ts';
 import { paint } from './colours.ts';
@@ -36,8 +37,6 @@ interface Look {
 
 /** Coarseness of the shells in the first frame. */
 const FIRST_COARSENESS = 4;
-/** Usual strength of highlights and of light from behind: as bright as traced hairs, see pelt/README.md. */
-export const DEFAULT_LOOK = { gloss: 0.25, backlight: 40 };
 
 /** Seconds of a fade between looks; largest share of it in a frame, so that slow frames do not jump. */
 const FADE_TIME = 0.6;

@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 Single = NDArray[np.float32]
 Progress = Callable[[str, float], None]
 
-STAGES = ("strands", "volume", "light", "lamps", "judge", "write")
+STAGES = ("strands", "volume", "light", "lamps", "judge", "model", "write")
 
 HIGHEST, LOWEST, SHOWN = 75.0, 15.0, 8
 """Elevations, degrees, between which the lights of the pictures go once around, and their number."""

@@ -41,8 +41,8 @@ CARDS = (
 """Figures of bake.json: key in `fit`, name, explanation."""
 
 
-def page(measured: Measured) -> str:
-    """The whole document."""
+def page(measured: Measured, opening: str = "") -> str:
+    """The whole document. opening : a further section before the others, HTML"""
     record, fur = measured.asset.record, measured.asset.fur
     name = escape(str(record["input"].get("name", "unnamed")))
     css = (files("furbake.show.report") / "style.css").read_text("utf-8")
@@ -54,6 +54,7 @@ def page(measured: Measured) -> str:
         f"{sum(measured.files.values()) / 1e6:.2f} MB",
     )
     sections = (
+        opening,
         _swatches(measured),
         *([_states(measured)] if len(fur["pelts"]) > 1 else []),
         _figures(measured),

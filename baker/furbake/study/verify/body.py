@@ -94,8 +94,8 @@ def verify_body(
     picture : optional PNG: a row per cell, page | truth | difference; of each further method FILE-METHOD.png
     progress : called with a stage of `STAGES` and the fraction of it that is done
 
-    Raises VerifyError where Mitsuba, Node or a browser is missing or Mitsuba crashes, AssetError where the folder is no
-    whole asset.
+    Raises VerifyError where Mitsuba is missing or crashes, PageError where Node or a browser is, AssetError where the
+    folder is no whole asset.
     """
     options = options or Options()
     case = prepared(folder, options, progress)

@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import json
-import re
 import shutil
-import subprocess
-from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,12 +15,9 @@ from numpy.typing import NDArray
 
 from furbake.asset.planes import read_png, write_png
 from furbake.asset.read import Asset, inside
+from furbake.page import draw
 from furbake.study.verify.ceiling import Ceiling, write_passes
 from furbake.study.verify.cells import FIELD_OF_VIEW, Cell, Floats, Frame
-from furbake.study.verify.pathtrace import VerifyError
-
-TOOL = Path(__file__).resolve().parents[4] / "web" / "tools" / "measure" / "verify.mjs"
-"""The drawing script, in furbake's own repository and not in the Python package."""
 
 SAMPLES = "samples"
 """Method whose light is that of the samples themselves."""
@@ -59,7 +53,7 @@ def show(
     coloured: bool = False,
     look: tuple[float, float] = (0.0, 0.0),
 ) -> Shown:
-    """The pictures of all cells by all methods. Raises VerifyError where there is no Node, no browser or a failure.
+    """The pictures of all cells by all methods. Raises PageError where there is no Node, no browser or a failure.
 
     albedo, skin : as of the tracer's hairs and skin
     ceiling : passes of a further method, `SAMPLES`
@@ -94,7 +88,7 @@ def show(
         if ceiling is not None:
             write_passes(ceiling, folder / "baked", folder / "baked" / "passes")
         (folder / "job.json").write_text(json.dumps(job), "utf-8")
-        _draw(folder, step)
+        draw("verify.mjs", ["--job", str(folder)], "the page's part of --body", step)
         return _read(folder, seen, cells, methods if ceiling is None else (*methods, SAMPLES), 4 if coloured else 2)
 
 
@@ -149,25 +143,6 @@ def _plain(document: dict[str, Any], skin: float) -> None:
     for mesh in document["meshes"]:
         for primitive in mesh["primitives"]:
             primitive["attributes"].pop("COLOR_0", None)
-
-
-def _draw(folder: Path, step: Callable[[float], None]) -> None:
-    node = shutil.which("node")
-    if node is None:
-        raise VerifyError("node: not found, expected Node 20.19 or newer, which draws the page's part of --body")
-    if not TOOL.exists():
-        raise VerifyError(f"{TOOL.name}: not found, expected furbake's own repository, whose page is compared")
-    output: deque[str] = deque(maxlen=5)
-    with subprocess.Popen(  # noqa: S603 — Node, and a file of ours
-        [node, str(TOOL), "--job", str(folder)], stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True
-    ) as run:
-        for line in run.stderr or ():
-            output.append(line.strip())
-            if match := re.fullmatch(r"furbake: page (\d+)/(\d+)", line.strip()):
-                step(int(match[1]) / int(match[2]))
-    if run.returncode != 0:
-        last = next((line.removeprefix("furbake: ") for line in reversed(output) if line.startswith("furbake: ")), "")
-        raise VerifyError(f"page: {last or ' '.join(output) or f'exit code {run.returncode}'}, expected its pictures")
 
 
 def _read(folder: Path, seen: Frame, cells: Sequence[Cell], methods: Sequence[str], channels: int) -> Shown:

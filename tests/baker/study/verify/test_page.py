@@ -11,15 +11,14 @@ from typing import Any, Self
 import numpy as np
 import pytest
 
-from furbake import BakeOptions
+from furbake import BakeOptions, page
 from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt, skin_colour
 from furbake.asset.validate import validate
+from furbake.page import PageError
 from furbake.pipeline import bake
-from furbake.study.verify import page
 from furbake.study.verify.cells import FIELD_OF_VIEW, Cell, Frame
 from furbake.study.verify.page import grey_copy, show
-from furbake.study.verify.pathtrace import VerifyError
 from helpers.cells import NEAR, cell
 
 
@@ -43,7 +42,7 @@ def test_the_grey_copy_is_a_valid_asset_without_colours(tmp_path: Path, tiny: Ba
 def test_missing_node_is_one_sentence(tmp_path: Path, tiny: BakeOptions, monkeypatch: pytest.MonkeyPatch) -> None:
     bake("plane:1x1", tmp_path / "a", tiny)
     monkeypatch.setattr(page.shutil, "which", lambda name: None)
-    with pytest.raises(VerifyError, match="node: not found, expected Node"):
+    with pytest.raises(PageError, match="node: not found, expected Node"):
         show(read_asset(tmp_path / "a"), 0.8, 0.2, NEAR, [cell((0, 0, 1))], ["ptm"])
 
 
@@ -92,7 +91,7 @@ def test_pictures_of_the_page_have_row_0_on_top(
         return Told(command, "furbake: no browser for the tests: install Chromium\n", 1)
 
     monkeypatch.setattr(subprocess, "Popen", broken)
-    with pytest.raises(VerifyError, match="page: no browser for the tests"):
+    with pytest.raises(PageError, match="page: no browser for the tests"):
         show(read_asset(tmp_path / "a"), 0.8, 0.2, NEAR, [cell((0, 0, 1))], ["ptm"])
 
 
@@ -101,7 +100,7 @@ def test_the_page_draws_a_job(tmp_path: Path, tiny: BakeOptions) -> None:
     browser = [shutil.which(name) for name in ("chromium", "chromium-browser", "google-chrome")]
     if not (any(browser) or os.environ.get("FURBAKE_CHROMIUM")) or shutil.which("node") is None:
         pytest.skip("needs Node and Chromium")
-    if not (page.TOOL.parents[3] / "node_modules").exists():
+    if not (page.TOOLS.parents[2] / "node_modules").exists():
         pytest.skip("needs the web wing: npm ci")
     thick = replace(tiny.coat, guard=replace(tiny.coat.guard, count=900), under=replace(tiny.coat.under, count=900))
     bake("plane:1x1", tmp_path / "a", replace(tiny, uv="own", fins=False, coat=thick))
