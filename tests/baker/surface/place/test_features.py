@@ -138,7 +138,16 @@ def test_the_bunnys_face_is_read() -> None:
     face = read_features(Path(__file__).parents[4] / "public" / "models" / "bunny.features.json")
     assert [feature.name for feature in face[:3]] == ["eye right", "eye left", "nose"]
     assert all(feature.on for feature in face[:3])
+    # Dark rims lie around the eyes, no farther forward; a mouth under the nose.
+    named = {feature.name: feature for feature in face}
+    for side in ("right", "left"):
+        rim, eye = named[f"rim {side}"], named[f"eye {side}"]
+        assert min(rim.radii[:2]) > max(eye.radii[:2])
+        assert max(rim.colour) < 0.02
+    mouth = [feature for feature in face if feature.name.startswith("mouth")]
+    assert len(mouth) == 3
+    assert all(feature.on and feature.centre[1] < named["nose"].centre[1] for feature in mouth)
     # Whiskers are long and thin, and no hair gives way to them.
-    whiskers = face[3:]
+    whiskers = [feature for feature in face if feature.name.startswith("whisker")]
     assert len(whiskers) == 8
     assert all(max(hair.radii) > 40 * min(hair.radii) and hair.clear == 1 and not hair.on for hair in whiskers)
