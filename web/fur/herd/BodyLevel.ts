@@ -9,6 +9,7 @@ import {
 	InstancedBufferGeometry,
 	type IUniform,
 	Material,
+	type Matrix4,
 	Mesh,
 	type Scene,
 	ShaderMaterial,
@@ -20,6 +21,7 @@ import {
 import type { Fur } from '../Fur.ts';
 import { beginClip, endClip, type FurColumns } from '../shells/clip.ts';
 import { followHue } from '../shells/hue.ts';
+import type { HerdPoses } from './HerdPoses.ts';
 import { Places } from './Places.ts';
 
 /** Copy of a fur's material for many bodies; shares all uniforms but the lights and its own. */
@@ -137,6 +139,11 @@ export class BodyLevel {
 		this.shells.geometry.setAttribute('bodyDetail', this.#details);
 		this.shells.name = `fur, up to ${most} shells`;
 		if (this.fins) this.fins.name = `fins of fur, up to ${most} shells`;
+	}
+
+	/** Lets its draws follow the joints of poses. @param units the shells' axes → the body's */
+	carry(poses: HerdPoses, units: Matrix4): void {
+		for (const draw of [this.shells, this.fins]) if (draw) poses.carry(draw, units);
 	}
 
 	/**

@@ -1,9 +1,7 @@
 import {
 	type Camera,
 	Frustum,
-	InstancedMesh,
 	Matrix4,
-	type Mesh,
 	Object3D,
 	type OrthographicCamera,
 	Sphere,
@@ -11,32 +9,23 @@ import {
 	type WebGLRenderer,
 } from 'three';
 import type { Fur } from '../Fur.ts';
-import { FurFins } from '../shells/FurFins.ts';
-import { FurShells } from '../shells/FurShells.ts';
 import { cutFor, pixelsPerUnit, shellsFor } from '../shells/lod.ts';
 import { BodyHull, BodyLevel, BodyMaterial } from './BodyLevel.ts';
-import { cullBodies, cutLevels, levelOf, measurePowers, sortFarFirst } from './bodies.ts';
-import { Places } from './Places.ts';
-import { gatherPieces, type Piece, placement } from './pieces.ts';
+import { boundAll, cullBodies, cutLevels, type Eye, findEye, levelOf, measurePowers, sortFarFirst } from './bodies.ts';
+import { HerdPoses, MAX_POSES } from './HerdPoses.ts';
+import { HerdSkin } from './HerdSkin.ts';
+import { placement } from './pieces.ts';
 
 /** Default number of shells per body of each level. */
 const LEVELS = [96, 48, 24, 12, 8] as const;
 
 const clip = new Matrix4();
 const matrix = new Matrix4();
+const own = new Matrix4();
 const frustum = new Frustum();
 const sphere = new Sphere();
 const viewport = new Vector4();
-const eye: [number, number, number, number] = [0, 0, 0, 1];
-
-/** A piece of the skin, for all bodies. */
-interface InstancedPiece {
-	piece: Piece;
-	mesh: InstancedMesh;
-	places: Places;
-	/** Matrices of all bodies. */
-	matrices: Float32Array;
-}
+const eye: Eye = [0, 0, 0, 1];
 
 /**
  * Many bodies of one furry asset: at most three draws per level of detail in use, however many bodies there are.
@@ -78,7 +67,12 @@ export class FurInstances extends Object3D {
 	readonly #texel: number;
 	/** Shells' axes → body's. */
 	readonly #furMatrix: Matrix4;
-	readonly #skins: InstancedPiece[];
+	readonly #skin: HerdSkin;
+	/** Poses of a body with joints, and the first joint of each body's. */
+	readonly #poses: HerdPoses | undefined;
+	readonly #firstJoints: Uint32Array;
+	/** Whether `capturePose` has been called. */
+	#captured = false;
 	readonly #levels: BodyLevel[];
 	readonly #finMaterial: BodyMaterial | undefined;
 	readonly #hull: BodyHull;
@@ -119,26 +113,30 @@ export class FurInstances extends Object3D {
 
 		const { shells, fins, skin } = fur;
 		const root = skin.parent ?? skin;
+		const { skeleton } = shells;
+		this.#poses = skeleton && new HerdPoses(skeleton.bones.length);
+		const joints = skeleton && this.#poses && { skeleton, poses: this.#poses };
+		this.#firstJoints = new Uint32Array(capacity);
 		this.#furMatrix = placement(shells, root);
 		this.#texel = fur.asset.length / (fur.asset.height * fur.asset.size);
 		this.fewestShells = fur.asset.layers / 2;
 		this.#fit();
 
-		const meshes: Mesh[] = [];
-		root.traverse((part) => {
-			if ((part as Mesh).isMesh && !(part instanceof FurShells || part instanceof FurFins)) meshes.push(part as Mesh);
+		this.#skin = new HerdSkin(root, capacity, this.#bounds, joints, (renderer) => {
+			this.height = renderer.getCurrentViewport(viewport).w;
 		});
-		this.#skins = gatherPieces(meshes, (mesh) => placement(mesh, root)).map((piece) => this.#makeSkin(piece));
 		this.#finMaterial = fins && new BodyMaterial(fins.material);
 		// Equally distant objects are drawn by age: create the coarsest level first.
 		const coarseFirst = levels
 			.toReversed()
 			.map((count) => new BodyLevel(fur, count, capacity, this.#finMaterial, this.#bounds));
 		this.#levels = coarseFirst.toReversed();
-		this.add(...this.#skins.map(({ mesh }) => mesh));
+		this.add(...this.#skin.meshes);
 		for (const { fins, shells } of coarseFirst) this.add(...(fins ? [fins] : []), shells);
 		this.#hull = new BodyHull(fur, (coarseFirst[0] as BodyLevel).shells.material, capacity, this.#bounds);
 		this.add(this.#hull);
+		for (const level of this.#levels) this.#poses && level.carry(this.#poses, this.#furMatrix);
+		this.#poses?.carry(this.#hull, this.#furMatrix);
 
 		const home = new Matrix4();
 		for (let i = 0; i < capacity; i++) this.setMatrixAt(i, home);
@@ -150,21 +148,8 @@ export class FurInstances extends Object3D {
 		const bounds = (fins ?? shells).geometry.boundingSphere ?? new Sphere();
 		this.#length = shells.furLength;
 		this.#sphere.copy(bounds).applyMatrix4(this.#furMatrix);
+		if (this.#poses && !this.#poses.sphere.isEmpty()) this.#sphere.copy(this.#poses.sphere);
 		this.#radius = (shells.geometry.boundingSphere?.radius ?? 0) * (this.#sphere.radius / bounds.radius);
-	}
-
-	#makeSkin(piece: Piece): InstancedPiece {
-		const { geometry, material, mesh: own } = piece;
-		const mesh = new InstancedMesh(geometry, material, 0);
-		const places = new Places(this.capacity);
-		mesh.instanceMatrix = places;
-		mesh.name = own.name;
-		mesh.castShadow = own.castShadow;
-		mesh.receiveShadow = own.receiveShadow;
-		mesh.frustumCulled = false;
-		mesh.boundingSphere = this.#bounds;
-		mesh.onBeforeRender = (renderer) => this.#learn(renderer);
-		return { piece, mesh, places, matrices: new Float32Array(this.capacity * 16) };
 	}
 
 	/** Number of bodies drawn, the first of all. */
@@ -189,9 +174,15 @@ export class FurInstances extends Object3D {
 	setMatrixAt(i: number, given: Matrix4): void {
 		given.toArray(this.#matrices, 16 * i);
 		matrix.multiplyMatrices(given, this.#furMatrix).toArray(this.#furMatrices, 16 * i);
-		for (const { piece, matrices } of this.#skins)
-			matrix.multiplyMatrices(given, piece.matrix).toArray(matrices, 16 * i);
+		const first = this.#firstJoints[i] as number;
+		this.#furMatrices[16 * i + 3] = first;
+		this.#skin.setMatrixAt(i, given, first);
 		this.#place(i, given);
+	}
+
+	#refit(): void {
+		this.#fit();
+		for (let i = 0; i < this.capacity; i++) this.#place(i, this.getMatrixAt(i, matrix));
 	}
 
 	#place(i: number, given: Matrix4): void {
@@ -199,6 +190,39 @@ export class FurInstances extends Object3D {
 		sphere.center.toArray(this.#spheres, 4 * i);
 		this.#spheres[4 * i + 3] = sphere.radius;
 		this.#moved = true;
+	}
+
+	/**
+	 * Keeps the fur's present pose: of a character, one of up to eight moments that its bodies share. Until the first call all
+	 * bodies stand in the fur's present pose.
+	 *
+	 *     for (let pose = 0; pose < 8; pose++) {
+	 *     	mixer.setTime(seconds + (pose / 8) * clip.duration);
+	 *     	herd.capturePose(pose);
+	 *     }
+	 *
+	 * Morph targets have no poses of their own: all bodies show the fur's present ones.
+	 *
+	 * @param pose 0 to 7
+	 */
+	capturePose(pose: number): void {
+		this.#captured = true;
+		this.#capture(pose);
+	}
+
+	#capture(pose: number): void {
+		const { shells, skin, material } = this.#fur;
+		const { skeleton } = shells;
+		if (!(skeleton || 'MORPHS' in material.defines) || !(pose >= 0 && pose < MAX_POSES)) return;
+		this.#fur.bounds(sphere);
+		matrix.copy((skin.parent ?? skin).matrixWorld).invert();
+		if (!skeleton || this.#poses?.capture(pose, skeleton, matrix, sphere)) this.#refit();
+	}
+
+	/** Puts a body into one of the poses kept by `capturePose`; at first all are in pose 0. */
+	setPoseAt(i: number, pose: number): void {
+		this.#firstJoints[i] = this.#poses?.first(pose) ?? 0;
+		this.setMatrixAt(i, this.getMatrixAt(i, own));
 	}
 
 	/** Matrix last given to `setMatrixAt`. */
@@ -214,24 +238,17 @@ export class FurInstances extends Object3D {
 	/** Culls, sorts and picks levels for the next draw by this camera. World matrices have to be up to date. */
 	update(camera: Camera): void {
 		const count = this.#count;
-		if (this.#length !== this.#fur.shells.furLength) {
-			this.#fit();
-			for (let i = 0; i < this.capacity; i++) this.#place(i, this.getMatrixAt(i, matrix));
-		}
-		if (this.#moved) this.#measure();
+		if (!this.#captured) this.#capture(0);
+		if (this.#length !== this.#fur.shells.furLength) this.#refit();
+		if (this.#moved) boundAll(this.#spheres, count, this.#bounds);
 		matrix.multiplyMatrices(camera.matrixWorldInverse, this.matrixWorld);
 		clip.multiplyMatrices(camera.projectionMatrix, matrix);
 		const { coordinateSystem, reversedDepth } = camera as OrthographicCamera;
 		frustum.setFromProjectionMatrix(clip, coordinateSystem, reversedDepth);
 		cullBodies(this.#spheres, count, frustum.planes, this.#seen);
 
-		// Camera in these axes: its position, or the direction to it where rays are parallel.
-		const parallel = camera.projectionMatrix.elements[15] === 1;
 		const scale = this.matrixWorld.getMaxScaleOnAxis();
-		matrix.invert();
-		const from = parallel ? 8 : 12;
-		for (let axis = 0; axis < 3; axis++) eye[axis] = matrix.elements[from + axis] as number;
-		eye[3] = parallel ? 0 : 1;
+		findEye(camera, matrix.invert(), eye);
 		measurePowers(this.#spheres, count, eye, this.#powers);
 		sortFarFirst(this.#order, count, this.#powers);
 
@@ -242,12 +259,7 @@ export class FurInstances extends Object3D {
 		cutLevels(this.#order, count, this.#seen, this.#level, this.#drawn, this.#ends);
 
 		const total = this.#ends[0] ?? 0;
-		for (const { piece, mesh, places, matrices } of this.#skins) {
-			piece.follow();
-			places.put(this.#drawn, total - 1, -1, total, matrices, this.#moved);
-			mesh.count = total;
-			mesh.visible = total > 0;
-		}
+		this.#skin.put(this.#drawn, total, this.#moved);
 		for (let l = 0; l < this.#levels.length; l++) {
 			const first = this.#ends[l + 1] ?? 0;
 			const bodies = (this.#ends[l] as number) - first;
@@ -271,27 +283,11 @@ export class FurInstances extends Object3D {
 		this.#details[2 * i + 1] = cutFor(this.#texel * unit * pixelsPerUnit(camera, this.height, away));
 	}
 
-	#measure(): void {
-		this.#bounds.makeEmpty();
-		for (let i = 0; i < this.#count; i++) {
-			sphere.center.fromArray(this.#spheres, 4 * i);
-			sphere.radius = this.#spheres[4 * i + 3] as number;
-			this.#bounds.union(sphere);
-		}
-	}
-
-	#learn(renderer: WebGLRenderer): void {
-		this.height = renderer.getCurrentViewport(viewport).w;
-	}
-
 	/** Frees everything but the fur. */
 	override dispose(): void {
 		this.removeFromParent();
-		for (const { mesh, piece } of this.#skins) {
-			mesh.removeFromParent();
-			mesh.dispose();
-			piece.dispose();
-		}
+		this.#skin.dispose();
+		this.#poses?.dispose();
 		for (const level of this.#levels) level.dispose();
 		this.#hull.dispose();
 		this.#finMaterial?.dispose();

@@ -1,19 +1,30 @@
 /** Culling, order and level of detail of many bodies, written into the caller's arrays. */
 
-import type { Plane } from 'three';
+import { type Camera, type Matrix4, type Plane, Sphere } from 'three';
+
+const sphere = new Sphere();
+
+/** Viewer: x, y, z, 1; where rays are parallel x, y, z of the unit vector to it, and 0. */
+export type Eye = [number, number, number, number];
+
+/** @param axes the camera's axes → those of the bodies; @param eye takes the camera in these */
+export function findEye(camera: Camera, axes: Matrix4, eye: Eye): void {
+	const parallel = camera.projectionMatrix.elements[15] === 1;
+	for (let axis = 0; axis < 3; axis++) eye[axis] = axes.elements[(parallel ? 8 : 12) + axis] as number;
+	eye[3] = parallel ? 0 : 1;
+}
 
 /**
  * Distance of each body as the power of its sphere, |c − eye|² − r². Among disjoint spheres none hides one of less power,
  * whatever their sizes (Edelsbrunner 1990, "An acyclicity theorem for cell complexes in d dimension").
  *
  * @param spheres x, y, z, r of each body
- * @param eye x, y, z, 1; where rays are parallel x, y, z of the unit vector to the viewer, and 0
  * @param powers takes the result
  */
 export function measurePowers(
 	spheres: Float32Array,
 	count: number,
-	eye: readonly [number, number, number, number],
+	eye: Readonly<Eye>,
 	powers: Float64Array,
 ): void {
 	for (let i = 0; i < count; i++) {
@@ -39,6 +50,16 @@ export function sortFarFirst(order: Uint32Array, count: number, powers: Float64A
 		let j = i - 1;
 		for (; j >= 0 && (powers[order[j] as number] as number) < power; j--) order[j + 1] = order[j] as number;
 		order[j + 1] = body;
+	}
+}
+
+/** @param bounds takes the sphere around all of them */
+export function boundAll(spheres: Float32Array, count: number, bounds: Sphere): void {
+	bounds.makeEmpty();
+	for (let i = 0; i < count; i++) {
+		sphere.center.fromArray(spheres, 4 * i);
+		sphere.radius = spheres[4 * i + 3] as number;
+		bounds.union(sphere);
 	}
 }
 

@@ -31,7 +31,7 @@ export interface Piece {
 	dispose(): void;
 }
 
-const KNOWN = new Set(['position', 'normal', 'tangent', 'color', 'uv']);
+const KNOWN = new Set(['position', 'normal', 'tangent', 'color', 'uv', 'skinIndex', 'skinWeight']);
 
 /** Whether vertices can carry all of the material: colour, roughness and metalness. */
 function isPlain({ material, geometry, customDepthMaterial }: Mesh): boolean {
@@ -40,18 +40,22 @@ function isPlain({ material, geometry, customDepthMaterial }: Mesh): boolean {
 	if (transparent || alphaTest > 0 || flatShading || wireframe || emissive.getHex() !== 0) return false;
 	if (Object.hasOwn(material, 'onBeforeCompile')) return false;
 	if (Object.values(material).some((value) => value instanceof Texture)) return false;
+	if (Object.keys(geometry.morphAttributes).length > 0) return false;
 	return Object.keys(geometry.attributes).every((name) => KNOWN.has(name));
 }
 
 /**
- * Merges closed meshes without textures into one, with colour, roughness and metalness per vertex; others stay as they are.
+ * Merges closed meshes without textures into one, with colour, roughness and metalness per vertex; others stay as they are,
+ * and those that joints move apart from those that they do not.
  *
  * @param placement a mesh's axes → the body's
  */
 export function gatherPieces(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Piece[] {
 	const plain = meshes.filter(isPlain);
-	const merged = plain.length > 1 ? [merge(plain, placement)] : [];
-	const alone = merged.length ? meshes.filter((mesh) => !plain.includes(mesh)) : meshes;
+	const groups = [true, false].map((moved) => plain.filter((mesh) => mesh.geometry.hasAttribute('skinIndex') === moved));
+	const shared = groups.filter((group) => group.length > 1);
+	const merged = shared.map((group) => merge(group, placement));
+	const alone = meshes.filter((mesh) => !shared.some((group) => group.includes(mesh)));
 	return [
 		...merged,
 		...alone.map((mesh) => ({
@@ -138,6 +142,8 @@ function merge(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Pie
 		}
 	}
 	const geometry = new BufferGeometry();
+	for (const name of ['skinIndex', 'skinWeight'])
+		if (mesh.geometry.hasAttribute(name)) geometry.setAttribute(name, joined(meshes, name, total));
 	geometry.setAttribute('position', new BufferAttribute(positions, 3));
 	geometry.setAttribute('normal', new BufferAttribute(normals, 3));
 	geometry.setAttribute('color', colours);
@@ -161,6 +167,18 @@ function merge(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Pie
 			palette.dispose();
 		},
 	};
+}
+
+/** Four numbers per vertex of all meshes, one after the other. */
+function joined(meshes: readonly Mesh[], name: string, total: number): BufferAttribute {
+	const values = new Float32Array(4 * total);
+	let at = 0;
+	for (const { geometry } of meshes) {
+		const attribute = geometry.getAttribute(name);
+		for (let i = 0; i < attribute.count; i++)
+			for (let c = 0; c < 4; c++) values[at++] = attribute.getComponent(i, c);
+	}
+	return new BufferAttribute(values, 4);
 }
 
 /** The first material for all of them: colours come by vertex, roughness and metalness by a palette of a texel each. */

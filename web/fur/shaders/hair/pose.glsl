@@ -4,12 +4,20 @@
 in vec4 tangent; // unit vector along the surface; W = hand of the frame
 
 #ifdef BODIES
-in mat4 body; // per instance: the mesh's axes → the axes of all bodies together
+// Per instance: the mesh's axes → the axes of all bodies together. Where joints move it, its fourth row, 0 otherwise, begins
+// with the first joint of the body's own pose.
+in mat4 body;
+
+mat4 bodyPlacement() {
+	mat4 placement = body;
+	placement[0][3] = 0.0;
+	return placement;
+}
 #endif
 
 mat4 bodyModel() {
 #ifdef BODIES
-	return modelMatrix * body;
+	return modelMatrix * bodyPlacement();
 #else
 	return modelMatrix;
 #endif
@@ -17,7 +25,7 @@ mat4 bodyModel() {
 
 mat4 bodyModelView() {
 #ifdef BODIES
-	return modelViewMatrix * body;
+	return modelViewMatrix * bodyPlacement();
 #else
 	return modelViewMatrix;
 #endif
@@ -68,6 +76,9 @@ mat3 rootTurn; // rest axes → pose, of joints alone
 float rootScale; // size in the pose over that at rest
 
 mat4 jointMatrix(float joint) {
+#ifdef BODIES
+	joint += body[0][3];
+#endif
 	int size = textureSize(boneTexture, 0).x, first = 4 * int(joint);
 	ivec2 at = ivec2(first % size, first / size);
 	return mat4(
