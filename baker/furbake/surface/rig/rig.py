@@ -1,4 +1,4 @@
-"""Everything that moves a model: nodes, joints, morph targets and clips (glTF 2.0, sections 3.7.2.2, 3.7.3 and 3.11)."""
+"""Everything that moves a model: nodes, joints, morph targets and clips (glTF 2.0, 3.7.2.2, 3.7.3, 3.11)."""
 
 from __future__ import annotations
 
