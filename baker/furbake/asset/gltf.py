@@ -65,7 +65,7 @@ class FurModel:
     ground : surface that charts, fur and fins stand on where it is not the skin itself but a simpler copy
     features : further opaque meshes of the scene; where they stand on the skin they are put there
     bare : linear colour of a skin that brings no colour at all; None: white
-    motion : what moves skin and ground; None: nothing. Where it has a stance all of the above is in that pose
+    motion : what moves skin and ground; None: nothing. Where its rig has a pose all of the above is in it
     """
 
     skin: Surface
@@ -141,18 +141,17 @@ def write_gltf(folder: Path, model: FurModel) -> Record:
 def _bound(model: FurModel) -> FurModel:
     """The model in the bind pose, in which it is stored."""
     motion = model.motion
-    if motion is None or motion.stance is None:
+    if motion is None or motion.rig.pose is None:
         return model
-    ground = model.ground or model.skin
-    skin, back = Return(motion.stance, motion.skin).surface(model.skin), Return(motion.stance, motion.ground)
-    bind = back.surface(ground)
+    skin = Return(motion.rig, motion.skin, model.skin)
+    ground = skin if model.ground is None else Return(motion.rig, motion.ground, model.ground)
     return replace(
         model,
-        skin=skin,
-        ground=None if model.ground is None else bind,
-        charts=back.charts(model.charts, bind),
-        fur=back.fur(model.fur, ground, bind),
-        fins=None if model.fins is None else back.fins(model.fins),
+        skin=skin.bind,
+        ground=None if model.ground is None else ground.bind,
+        charts=ground.charts(model.charts),
+        fur=ground.fur(model.fur),
+        fins=None if model.fins is None else ground.fins(model.fins),
     )
 
 

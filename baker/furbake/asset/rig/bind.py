@@ -6,65 +6,50 @@ from dataclasses import replace
 
 import numpy as np
 
-from furbake.asset.rig.motion import Stance
 from furbake.surface.charts import Charts
 from furbake.surface.mesh import Surface
 from furbake.surface.place.fins import Fins
 from furbake.surface.place.vertex_fur import VertexFur, tangential
 from furbake.surface.repair.topology import unit
 from furbake.surface.rig.follow import Follow
-from furbake.surface.rig.rig import Floats, Ints
-
-FLAT = 1e-9
-"""Determinant of a blend, as a share of its size cubed, below which nothing leads back from it."""
-
-
-def blends(stance: Stance, follow: Follow) -> Floats:
-    """(V, 4, 4) sum of the joints' matrices by the stored weights; 1 where there are no joints."""
-    if not len(stance.matrices):
-        return np.broadcast_to(np.eye(4), (len(follow.weights), 4, 4))
-    shares = follow.weights.astype(np.float64) / 255.0
-    return np.asarray(np.einsum("vk,vkij->vij", shares, stance.matrices[follow.joints.astype(np.int64)]))
+from furbake.surface.rig.pose import blend, unposed
+from furbake.surface.rig.rig import Floats, Ints, Rig
 
 
 class Return:
-    """The way of a posed surface's vertices back to the bind pose.
+    """The way of a posed surface back to the bind pose: each vertex goes through the inverse of its own blend.
 
-    Linear blends do not compose: each vertex goes through the inverse of its own.
+    posed, bind : the surface in the two poses
     """
 
-    def __init__(self, stance: Stance, follow: Follow) -> None:
-        blend = blends(stance, follow)
-        size = np.linalg.norm(blend[:, :3, :3], axis=(1, 2))
-        lost = ~(np.abs(np.linalg.det(blend[:, :3, :3])) > FLAT * size**3)
-        self._inverse = np.linalg.inv(np.where(lost[:, None, None], np.eye(4), blend))
-        self._moved = np.einsum("t,tvi->vi", stance.weights, follow.deltas)
+    def __init__(self, rig: Rig, follow: Follow, posed: Surface) -> None:
+        vertices, normals = unposed(rig, follow, posed.vertices, posed.normals)
+        self.posed, self.bind = posed, replace(posed, vertices=vertices, normals=normals)
+        self._blend = blend(rig, follow.joints, follow.weights)[:, :3, :3]
 
-    def _turned(self, vectors: Floats, source: slice | Ints = slice(None)) -> Floats:
-        return np.asarray(np.einsum("vij,vj->vi", self._inverse[source, :3, :3], vectors))
+    def charts(self, charts: Charts) -> Charts:
+        """Charts of the surface in the bind pose; tangents stay perpendicular to its normals."""
+        back = tangential(self._turned(charts.tangents[:, :3], charts.source), self.bind.normals[charts.source])
+        return replace(charts, tangents=np.column_stack([unit(back), charts.tangents[:, 3]]))
 
-    def surface(self, posed: Surface) -> Surface:
-        """The surface in the bind pose, morph targets at 0."""
-        vertices = self._turned(posed.vertices) + self._inverse[:, :3, 3] - self._moved
-        return replace(posed, vertices=vertices, normals=unit(self._turned(posed.normals)))
-
-    def charts(self, posed: Charts, bind: Surface) -> Charts:
-        """Charts of `bind`: tangents stay perpendicular to its normals."""
-        back = tangential(self._turned(posed.tangents[:, :3], posed.source), bind.normals[posed.source])
-        return replace(posed, tangents=np.column_stack([unit(back), posed.tangents[:, 3]]))
-
-    def fins(self, posed: Fins) -> Fins:
+    def fins(self, fins: Fins) -> Fins:
         """Fins in the bind pose; the angles of their faces stay those of the pose in which the fur was laid."""
-        return replace(posed, tangents=unit(self._turned(posed.tangents, posed.source)))
+        return replace(fins, tangents=self._turned(fins.tangents, fins.source))
 
-    def fur(self, posed: VertexFur, ground: Surface, bind: Surface) -> VertexFur:
-        """Fur on `bind`, combed by as much as on the posed `ground`."""
-        comb = tangential(posed.comb, ground.normals)
-        back = tangential(self._turned(comb), bind.normals)
-        return replace(posed, comb=np.linalg.norm(comb, axis=1, keepdims=True) * _short(back))
+    def fur(self, fur: VertexFur) -> VertexFur:
+        """Fur combed by as much as on the posed surface."""
+        comb = tangential(fur.comb, self.posed.normals)
+        back = tangential(self._turned(comb, np.arange(len(comb))), self.bind.normals)
+        size, short = (np.linalg.norm(vectors, axis=1, keepdims=True) for vectors in (comb, back))
+        return replace(fur, comb=back * size / np.maximum(short, 1e-300))
 
-
-def _short(vectors: Floats) -> Floats:
-    """Unit vectors; zero stays zero."""
-    size = np.linalg.norm(vectors, axis=1, keepdims=True)
-    return np.asarray(vectors / np.maximum(size, 1e-300))
+    def _turned(self, vectors: Floats, source: Ints) -> Floats:
+        """(n, 3) unit vectors at the vertices in `source`, in the bind pose; as they are where nothing leads back."""
+        blends = self._blend[source]
+        # By the adjugate, the inverse up to a factor, which exists of every matrix.
+        x, y, z = (blends[:, :, i] for i in range(3))
+        rows = np.stack([np.cross(y, z), np.cross(z, x), np.cross(x, y)], axis=1)
+        sign = np.sign(np.linalg.det(blends))[:, None]
+        back = sign * np.einsum("vij,vj->vi", rows, vectors)
+        lost = ~(np.linalg.norm(back, axis=1, keepdims=True) > 1e-12)
+        return unit(np.where(lost, vectors, back))

@@ -111,8 +111,8 @@ def hung(nodes: list[Record], features: tuple[Feature, ...], motion: Motion, sur
             break
         joint = strongest(motion, surface, np.array(feature.centre))
         to_joint = rig.inverse_bind[joint]
-        if motion.stance is not None:
-            to_joint = to_joint @ _inverse(motion.stance.matrices[joint])
+        if rig.pose is not None:
+            to_joint = to_joint @ _inverse(rig.pose.matrices[joint])
         size = np.linalg.norm(to_joint[:3, :3])
         if abs(np.linalg.det(to_joint[:3, :3])) <= THIN * size**3:
             continue
