@@ -51,14 +51,13 @@ class Buffer:
         return self._append({"bufferView": view} | _described(values, bounds, normalised))
 
     def displacements(self, values: NDArray[Any], bounds: bool = False) -> int:
-        """Index of a new accessor (count, width) of a morph target; sparse where that takes fewer bytes."""
+        """Index of a new accessor (count, width) of a morph target; sparse where most of it is 0."""
         count, width = values.shape
         rows = np.flatnonzero((values != 0).any(axis=1))
         rows = rows if len(rows) else np.zeros(1, dtype=np.int64)  # a sparse accessor has one at least
-        short = count <= 65535
-        dense = count * (-(-width * values.itemsize // 4) * 4)
-        if len(rows) * (width * values.itemsize + (2 if short else 4)) >= dense:
+        if 2 * len(rows) > count:
             return self.attribute(values, bounds)
+        short = count <= 65535
         sparse = {
             "count": len(rows),
             "indices": {

@@ -19,13 +19,15 @@ from furbake.asset.read import Asset, AssetError, inside, read_asset
 from furbake.asset.rig.check import clips, drawn, joints, targets, tree
 from furbake.asset.validate_pelts import curves, multiple, pelts, states
 
-JOINTS = ("JOINTS_0", "WEIGHTS_0")
 REQUIRED = ("POSITION", "NORMAL", "TANGENT", "TEXCOORD_0")
 ATTRIBUTES = {
-    "shells": (REQUIRED, {*REQUIRED, "COLOR_0", "_FUR", "_COMB", *JOINTS}),
-    "fins": ((*REQUIRED, "_EDGE"), {*REQUIRED, "COLOR_0", "_FUR", "_EDGE", *JOINTS}),
+    "shells": (REQUIRED, {*REQUIRED, "COLOR_0", "_FUR", "_COMB"}),
+    "fins": ((*REQUIRED, "_EDGE"), {*REQUIRED, "COLOR_0", "_FUR", "_EDGE"}),
 }
 """Attributes of the fur's vertices, required and optional."""
+
+JOINTS = ("JOINTS_0", "WEIGHTS_0")
+"""Further attributes where the node has a skin."""
 
 MAX_VERTEX_BYTES = 32
 """Bytes of a shell or fin vertex, its joints and weights aside."""
@@ -159,6 +161,7 @@ def _furry(asset: Asset, name: str) -> Iterator[str]:
     primitive = asset.primitive(asset.fur[name])
     yield from _primitive(asset, name, primitive, required)
     attributes = primitive["attributes"]
+    known = known | (set(JOINTS) if "skin" in asset.document["nodes"][asset.fur[name]] else set())
     strange = sorted(set(attributes) - known)
     if strange:
         yield f"{name}: {', '.join(strange)}, expected only {', '.join(sorted(known))}"

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from furbake.asset.rig.targets import charts_tangents, displaced_normals, fins_tangents
 from furbake.surface.charts import Charts
 from furbake.surface.mesh import Surface
 from furbake.surface.place.fins import Fins
@@ -24,17 +25,29 @@ class Return:
 
     def __init__(self, rig: Rig, follow: Follow, posed: Surface) -> None:
         vertices, normals = unposed(rig, follow, posed.vertices, posed.normals)
-        self.posed, self.bind = posed, replace(posed, vertices=vertices, normals=normals)
+        weights = np.zeros(0) if rig.pose is None else rig.pose.weights
+        self._weights, self._deltas = weights[weights != 0.0], follow.deltas[weights != 0.0]
         self._blend = blend(rig, follow.joints, follow.weights)[:, :3, :3]
+        bare = replace(posed, vertices=vertices, normals=normals)
+        self.posed = posed
+        self.bind = replace(bare, normals=self._without(displaced_normals(bare, self._deltas), normals))
 
     def charts(self, charts: Charts) -> Charts:
         """Charts of the surface in the bind pose; tangents stay perpendicular to its normals."""
-        back = tangential(self._turned(charts.tangents[:, :3], charts.source), self.bind.normals[charts.source])
-        return replace(charts, tangents=np.column_stack([unit(back), charts.tangents[:, 3]]))
+        back, sign = self._turned(charts.tangents[:, :3], charts.source), charts.tangents[:, 3:]
+        shaped = replace(charts, tangents=np.column_stack([back, sign]))
+        back = self._without(charts_tangents(self.bind, shaped, self._deltas), back)
+        back = unit(tangential(back, self.bind.normals[charts.source]))
+        return replace(charts, tangents=np.column_stack([back, sign]))
 
     def fins(self, fins: Fins) -> Fins:
         """Fins in the bind pose; the angles of their faces stay those of the pose in which the fur was laid."""
-        return replace(fins, tangents=self._turned(fins.tangents, fins.source))
+        back = self._turned(fins.tangents, fins.source)
+        return replace(fins, tangents=self._without(fins_tangents(self.bind, fins, self._deltas), back))
+
+    def _without(self, shapes: Floats, vectors: Floats) -> Floats:
+        """(n, 3) unit vectors without what the pose's targets, (T, n, 3), have added to them."""
+        return unit(vectors - np.einsum("t,tni->ni", self._weights, shapes))
 
     def fur(self, fur: VertexFur) -> VertexFur:
         """Fur combed by as much as on the posed surface."""

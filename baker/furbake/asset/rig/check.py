@@ -32,9 +32,8 @@ def joints(asset: Asset) -> Iterator[str]:
         if node.get("skin") != own:
             yield f"{name}: skin {node.get('skin')}, expected {own} as of the skin's node"
     if own is None:
-        for name in nodes:
-            if any("JOINTS_0" in each["attributes"] for each in asset.primitives(asset.fur[name])):
-                yield f"{name}: joints but its node has no skin, expected both or none"
+        if any("JOINTS_0" in each["attributes"] for each in asset.primitives(asset.fur["skin"])):
+            yield "skin: joints but its node has no skin, expected both or none"
         return
     skins = asset.document.get("skins", [])
     if own >= len(skins):

@@ -10,37 +10,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from furbake.asset.gltf import FurModel, write_gltf
-from furbake.asset.rig.motion import Motion
-from furbake.pelt.pelt import Pelt
-from furbake.surface.mesh import Surface
-from furbake.surface.place.fins import build_fins
-from furbake.surface.place.vertex_fur import VertexFur
-from furbake.surface.rig.follow import follow
-from furbake.surface.rig.rig import Rig
-from helpers.characters import arm
+from furbake.surface.mesh import simplify
+from furbake.surface.rig.rig import Rig, Target
+from helpers.characters import arm, shapes
 from helpers.gltf import lapped
 from helpers.khronos import errors
 from helpers.moving import Moving
 
-SHELLS, FINS = 1, 2
-
-
-@pytest.fixture
-def character(tmp_path: Path, make_pelt: Callable[..., Pelt]) -> Callable[..., Moving]:
-    """Write a character as a body with fur: character(surface, rig, ground=..., ...)."""
-
-    def build(surface: Surface, rig: Rig, **rest: Any) -> Moving:
-        ground = rest.get("ground", surface)
-        charts = lapped(ground)
-        follows = [follow(rig, each.vertices, each.normals) for each in (surface, ground)]
-        fins = build_fins(ground, np.cross(ground.normals, [1.0, 0.3, 0.2]), 0.3)
-        fur = VertexFur.even(len(ground.vertices))
-        model = FurModel(surface, charts, fur, (make_pelt(),), 0.12, fins, **rest, motion=Motion(rig, *follows))
-        write_gltf(tmp_path, model)
-        return Moving(tmp_path / "model.gltf")
-
-    return build
+SKIN, SHELLS, FINS = 0, 1, 2
+BYTE_WEIGHTS = 1.5 / 255
+"""What weights in bytes may move a vertex aside, model units per unit that its joints are apart."""
 
 
 def worlds(rig: Rig, moved: dict[int, dict[str, Any]]) -> list[Any]:
@@ -64,6 +43,11 @@ def expected(rig: Rig, moved: dict[int, dict[str, Any]], weights: Any) -> Any:
     return total
 
 
+def attributes(found: Moving, node: int) -> dict[str, Any]:
+    part = found.document["meshes"][node]["primitives"][0]
+    return {name: found.raw(index) for name, index in part["attributes"].items()}
+
+
 POSES: list[tuple[dict[int, dict[str, Any]], tuple[float, float]]] = [
     ({}, (0.0, 0.0)),
     ({}, (1.0, 0.5)),
@@ -78,14 +62,127 @@ def test_every_part_moves_as_the_rig_says(character: Callable[..., Moving], move
     found = character(surface, rig)
     start = len(found.document["nodes"]) - len(rig.nodes)
     pose: dict[int, dict[str, Any]] = {start + i: numbers for i, numbers in moved.items()} | {0: {"weights": weights}}
-    right = expected(rig, moved, weights)
-    body = found.posed(0, pose=pose)["POSITION"]
-    assert np.abs(body - right).max() < 1e-4 * surface.extent + 0.5 / 255 * 2  # weights are bytes
-    for node, part in ((SHELLS, found.posed(SHELLS, pose=pose, skin=0)), (FINS, found.posed(FINS, pose=pose, skin=0))):
+    body = found.posed(SKIN, pose=pose)["POSITION"]
+    assert np.abs(body - expected(rig, moved, weights)).max() < 1e-4 * surface.extent + BYTE_WEIGHTS
+    for node in (SHELLS, FINS):
         still = found.posed(node, pose={0: {"weights": (0.0, 0.0)}}, skin=0)["POSITION"]
         away = np.linalg.norm(still[:, None] - rig.vertices[None], axis=2)
         assert away.min(axis=1).max() < 1e-4
-        assert np.abs(part["POSITION"] - body[away.argmin(axis=1)]).max() < 2e-5 * surface.extent
+        part = found.posed(node, pose=pose, skin=0)["POSITION"]
+        assert np.abs(part - body[away.argmin(axis=1)]).max() < 1e-6 * surface.extent
+
+
+def test_weights_of_whole_bytes_move_exactly(character: Callable[..., Moving]) -> None:
+    surface, rig = arm(targets=False)
+    whole = np.round(rig.shares * 5) / 5  # 51 of 255
+    rig = replace(rig, shares=whole)
+    found, moved = character(surface, rig), POSES[3][0]
+    start = len(found.document["nodes"]) - len(rig.nodes)
+    body = found.posed(SKIN, pose={start + i: numbers for i, numbers in moved.items()})["POSITION"]
+    assert np.abs(body - expected(rig, moved, ())).max() < 2e-5 * surface.extent
+
+
+def test_copies_of_a_vertex_agree_to_the_byte(character: Callable[..., Moving]) -> None:
+    found = character(*arm())
+    seen: dict[tuple[Any, ...], tuple[Any, ...]] = {}
+    for node in (SKIN, SHELLS, FINS):
+        part = found.document["meshes"][node]["primitives"][0]
+        values = attributes(found, node)
+        moved = [found.raw(target[name]) for target in part["targets"] for name in ("POSITION", "NORMAL")]
+        follow = np.column_stack([values["JOINTS_0"], values["WEIGHTS_0"], *moved]).tolist()
+        for place, normal, row in zip(values["POSITION"].tolist(), values["NORMAL"].tolist(), follow, strict=True):
+            assert seen.setdefault((*place, *normal), tuple(row)) == tuple(row)
+    assert len(seen) == 386
+
+
+def test_a_vertex_takes_40_bytes(character: Callable[..., Moving]) -> None:
+    found = character(*arm())
+    for node in (SHELLS, FINS):
+        part = found.document["meshes"][node]["primitives"][0]
+        accessors = [found.document["accessors"][index] for index in part["attributes"].values()]
+        assert sum(found.document["bufferViews"][each["bufferView"]]["byteStride"] for each in accessors) <= 40
+        joints, weights = (found.document["accessors"][part["attributes"][name]] for name in ("JOINTS_0", "WEIGHTS_0"))
+        assert (joints["componentType"], joints.get("normalized")) == (5121, None)
+        assert (weights["componentType"], weights["normalized"]) == (5121, True)
+        assert set(found.raw(part["attributes"]["WEIGHTS_0"]).sum(axis=1, dtype=int)) == {255}
+
+
+def test_many_joints_take_16_bits(character: Callable[..., Moving], tmp_path: Path) -> None:
+    surface, rig = arm(joints=300, targets=False)
+    found = character(surface, rig)
+    values = attributes(found, SHELLS)["JOINTS_0"]
+    assert values.dtype == np.uint16
+    assert values.max() > 255
+    assert errors(tmp_path) == []
+
+
+def test_targets_turn_normals_and_tangents(character: Callable[..., Moving]) -> None:
+    """A target that turns the whole body turns all frames alike."""
+    surface, rig = arm(targets=False)
+    angle = np.radians(25)
+    turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
+    rig = replace(rig, targets=(Target("turn", surface.vertices @ turn.T - surface.vertices),), clips=())
+    found = character(surface, rig)
+    for node in (SKIN, SHELLS, FINS):
+        still, turned = (found.posed(node, pose={0: {"weights": (weight,)}}, skin=0) for weight in (0.0, 1.0))
+        assert set(still) == {"POSITION", "NORMAL"} | ({"TANGENT"} if node else set())
+        np.testing.assert_allclose(turned["POSITION"], still["POSITION"] @ turn.T, atol=2e-4)
+        for name in set(still) - {"POSITION"}:
+            np.testing.assert_allclose(turned[name], still[name] @ turn.T, atol=0.02)
+
+
+def test_targets_are_small(character: Callable[..., Moving]) -> None:
+    surface, rig = arm()
+    found = character(surface, rig)
+    shells = found.document["meshes"][SHELLS]["primitives"][0]
+    bump, twist = ({name: found.document["accessors"][i] for name, i in each.items()} for each in shells["targets"])
+    assert all("bufferView" not in each and "sparse" in each for each in bump.values())
+    assert "sparse" not in twist["POSITION"]
+    kinds = {name: (each["componentType"], each["normalized"]) for name, each in twist.items()}
+    assert kinds == {"POSITION": (5122, True), "NORMAL": (5120, True), "TANGENT": (5120, True)}
+
+
+def test_far_displacements_are_floats(character: Callable[..., Moving], tmp_path: Path) -> None:
+    surface, rig = arm(targets=False)
+    away = np.zeros_like(surface.vertices)
+    away[surface.vertices[:, 0] > 4.0] = (9.0, 0, 0)
+    found = character(surface, replace(rig, targets=(Target("far", away), Target("none", 0 * away)), clips=()))
+    target, none = found.document["meshes"][SKIN]["primitives"][0]["targets"]
+    assert found.document["accessors"][target["POSITION"]]["componentType"] == 5126
+    assert not found.raw(none["POSITION"]).any()
+    moved = found.posed(SKIN, pose={0: {"weights": (1.0, 1.0)}})["POSITION"]
+    np.testing.assert_allclose(moved, surface.vertices + away, atol=2e-4)
+    assert errors(tmp_path) == []
+
+
+def test_targets_alone_need_no_skin(character: Callable[..., Moving], tmp_path: Path) -> None:
+    surface, rig = arm()
+    alone = Rig((), (), np.zeros((0, 4, 4)), rig.vertices, rig.posed, rig.faces, rig.which * 0,
+                np.tile([1.0, 0, 0, 0], (len(rig.vertices), 1)), rig.targets, rig.clips[2:])  # fmt: skip
+    found = character(surface, alone)
+    assert "skins" not in found.document
+    assert all("skin" not in node for node in found.document["nodes"])
+    assert "JOINTS_0" not in attributes(found, SHELLS)
+    assert errors(tmp_path) == []
+    assert [mesh["weights"] for mesh in found.document["meshes"]] == [[0.0, 0.25]] * 3
+    assert [mesh["extras"]["targetNames"] for mesh in found.document["meshes"]] == [["bump", "twist"]] * 3
+    bump, twist = shapes(surface.vertices)
+    moved = found.posed(SKIN, pose=found.clip(0, 0.5))["POSITION"]
+    np.testing.assert_allclose(moved, surface.vertices + bump.deltas + 0.5 * twist.deltas, atol=2e-4)
+
+
+def test_a_simpler_ground_stays_on_the_skin(character: Callable[..., Moving]) -> None:
+    surface, rig = arm()
+    ground = simplify(surface, 300)
+    assert len(ground.vertices) < 200
+    found = character(surface, rig, ground=ground, charts=lapped(ground))
+    start = len(found.document["nodes"]) - len(rig.nodes)
+    pose: dict[int, dict[str, Any]] = {start + 3: {"rotation": (0, 0, 0.3, np.sqrt(0.91))}, 0: {"weights": (0.5, 1.0)}}
+    body = found.posed(SKIN, pose=pose)["POSITION"]
+    shells = found.posed(SHELLS, pose=pose, skin=0)["POSITION"]
+    corners = body[surface.faces]
+    points = np.vstack([body, corners.mean(axis=1), *(corners[:, [i, i - 1]].mean(axis=1) for i in range(3))])
+    assert np.linalg.norm(shells[:, None] - points[None], axis=2).min(axis=1).max() < 0.1
 
 
 @pytest.mark.parametrize("targets", [True, False])
