@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ import pytest
 
 from furbake.asset.gltf import FurModel, write_gltf
 from furbake.asset.rig.motion import Motion
-from furbake.pelt.pelt import Pelt
+from furbake.pelt.pelt import FinPelt, Pelt
 from furbake.surface.mesh import Surface
 from furbake.surface.place.fins import build_fins
 from furbake.surface.place.vertex_fur import VertexFur
@@ -25,6 +26,11 @@ FIGURES = ("psnr", "psnr_worst_layer", "psnr_composite", "r2", "psnr_quantised",
            "psnr_quantisation")  # fmt: skip
 
 
+def side(pelt: Pelt) -> FinPelt:
+    """Side view of a pelt: its lowest slab."""
+    return FinPelt(pelt.codes[0], pelt.alpha[0], pelt.tint[0], None, pelt.scale, pelt.bias)
+
+
 @pytest.fixture
 def character(tmp_path: Path, make_pelt: Callable[..., Pelt]) -> Callable[..., Moving]:
     """Write a character as a body with fur and fins: character(surface, rig, ground=..., ...)."""
@@ -35,7 +41,8 @@ def character(tmp_path: Path, make_pelt: Callable[..., Pelt]) -> Callable[..., M
         follows = [follow(rig, each.vertices, each.normals) for each in (surface, ground)]
         fins = build_fins(ground, np.cross(ground.normals, [1.0, 0.3, 0.2]), 0.3)
         fur = rest.pop("fur", None) or VertexFur.even(len(ground.vertices))
-        model = FurModel(surface, charts, fur, (make_pelt(),), 0.12, fins, **rest, motion=Motion(rig, *follows))
+        pelt = replace(make_pelt(colour=False), fin=side(make_pelt()))
+        model = FurModel(surface, charts, fur, (pelt,), 0.12, fins, **rest, motion=Motion(rig, *follows))
         fit = dict.fromkeys(FIGURES, 1.0) | {"bound": {"rank": 6, "psnr": 1.0, "psnr_composite": 1.0}}
         record = {"furbake": "0", "libraries": {}, "options": {}, "input": {}, "key": "", "fit": fit}
         record["asset"] = write_gltf(tmp_path, model)
