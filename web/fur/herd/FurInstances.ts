@@ -6,7 +6,6 @@ import {
 	type OrthographicCamera,
 	Sphere,
 	Vector4,
-	type WebGLRenderer,
 } from 'three';
 import type { Fur } from '../Fur.ts';
 import { cutFor, pixelsPerUnit, shellsFor } from '../shells/lod.ts';
