@@ -81,6 +81,7 @@ test('the wetter fur is, the darker, and muddy fur has another colour', async ({
 });
 
 test('a limb whose joint turns has other moments under the lamp, which stays', async ({ page }) => {
+	await page.setViewportSize({ width: 900, height: 800 });
 	await open(page, 'learn.html?still=1&lang=en#pose');
 	await show(page, 'pose');
 	const canvas = figure(page, 'pose').locator('canvas');
