@@ -33,7 +33,12 @@ class Additions {
 	constructor(readonly made: Made) {}
 
 	/** @returns index of the accessor */
-	add(values: ArrayLike<number> & { buffer: ArrayBufferLike }, type: string, componentType: number, normalized = false): number {
+	add(
+		values: ArrayLike<number> & { buffer: ArrayBufferLike },
+		type: string,
+		componentType: number,
+		normalized = false,
+	): number {
 		const { json, buffers } = this.made;
 		const bytes = new Uint8Array(values.buffer);
 		const size = { SCALAR: 1, VEC3: 3, VEC4: 4, MAT4: 16 }[type] ?? 1;
@@ -169,7 +174,10 @@ function wave(additions: Additions, root: number, skin: number): Json {
 		{ input: times, output: floats(turns(head, [0.2, -1.1, 0.8]), 'VEC4'), interpolation: 'STEP' },
 		{
 			input: times,
-			output: floats([...flat, 0, 0.1, 0, 0.5, 0, 0, ...flat, 0, 0.4, 0.1, ...flat, ...flat, 0.2, 0, 0, ...flat], 'VEC3'),
+			output: floats(
+				[...flat, 0, 0.1, 0, 0.5, 0, 0, ...flat, 0, 0.4, 0.1, ...flat, ...flat, 0.2, 0, 0, ...flat],
+				'VEC3',
+			),
 			interpolation: 'CUBICSPLINE',
 		},
 		{ input: times, output: floats([0, 0, 1, 0.3, -0.2, 1], 'SCALAR') },

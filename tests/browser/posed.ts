@@ -174,7 +174,8 @@ export class PosedGltf {
 					const matrix = skin === undefined ? world : (matrices[joints[4 * v + k] ?? 0] as Matrix);
 					const share = skin === undefined ? 1 : (shares[4 * v + k] ?? 0);
 					for (let row = 0; row < 3; row++)
-						for (let c = 0; c < 4; c++) moved[row] = (moved[row] ?? 0) + share * (matrix[4 * c + row] ?? 0) * (point[c] ?? 0);
+						for (let c = 0; c < 4; c++)
+							moved[row] = (moved[row] ?? 0) + share * (matrix[4 * c + row] ?? 0) * (point[c] ?? 0);
 				}
 				places.push(...moved);
 			}
