@@ -4,7 +4,7 @@ import type { FurFollicles } from '../body/FurFollicles.ts';
 import type { FurAsset } from '../format.ts';
 import { BodyMotion } from './BodyMotion.ts';
 import { CpuSprings } from './CpuSprings.ts';
-import { calm } from './drive.ts';
+import { calm, type Drive } from './drive.ts';
 import { GpuSprings } from './GpuSprings.ts';
 import { completed, type FurMotionOptions } from './options.ts';
 import { type Roots, rootsOf } from './roots.ts';
@@ -61,7 +61,7 @@ export class FurMotion extends FurAttachment {
 	readonly #bodyMotion: BodyMotion;
 	readonly #strokes: Strokes;
 	readonly #stopwatch: Stopwatch;
-	readonly #drive = calm();
+	readonly #drive: Drive;
 	readonly #meshFromWorld = new Matrix4();
 	#solver: Solver;
 	/** Seconds since the end of the last sub-step. */
@@ -89,7 +89,9 @@ export class FurMotion extends FurAttachment {
 		this.wind = this.#wind = new Wind(seed);
 		this.#strokes = new Strokes(follicles, relaxation);
 		const furLength = asset.length / shells.scale.x;
-		this.#bodyMotion = new BodyMotion(shells, follicles.position, furLength, this.#spring.pace);
+		const { joints } = this.#roots;
+		this.#bodyMotion = new BodyMotion(shells, follicles, joints, furLength, this.#spring.pace);
+		this.#drive = calm(joints.bones.length);
 		this.#stopwatch = new Stopwatch(BUDGET, clock);
 		this.#solver = new CpuSprings(this.#roots, this.#spring, this.#strokes);
 		body.motion = this;
@@ -189,7 +191,7 @@ export class FurMotion extends FurAttachment {
 	#driven(moved: boolean): boolean {
 		const weight = this.#gravity;
 		const first = Number.isNaN(this.#weight);
-		const heavier = first ? this.#bodyMotion.sag(weight).lengthSq() > 0 : weight !== this.#weight;
+		const heavier = first ? this.#bodyMotion.sags(weight) : weight !== this.#weight;
 		this.#weight = weight;
 		const stirs = this.#wind.stirs();
 		return moved || heavier || stirs || this.#strokes.pending || !this.#bodyMotion.caughtUp() || this.#lost;
@@ -247,11 +249,10 @@ export class FurMotion extends FurAttachment {
 	/** Writes the forces of a sub-step. @param share of the frame at its end */
 	#pull(share: number, steady: boolean): void {
 		const drive = this.#drive;
-		const { center, radius } = this.#bodyMotion.sphere;
 		this.#bodyMotion.write(drive, share, this.#gravity);
-		this.#wind.write(drive, this.#bodyMotion.turn, center, radius, steady);
+		this.#wind.write(drive, steady);
 		drive.fade = this.#strokes.fade;
-		this.#bent = drive.gale > 0 || drive.sag[0] !== 0 || drive.sag[1] !== 0 || drive.sag[2] !== 0;
+		this.#bent = drive.gale > 0 || drive.sags;
 	}
 
 	#stepsToRest(): number {
