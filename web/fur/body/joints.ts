@@ -22,8 +22,17 @@ export interface Joints {
 	readonly weights: Float32Array;
 }
 
-/** Finds the joints of a body's follicles: a body without a skeleton has one joint and one run. */
-export function jointsOf({ count, position, bones }: FurFollicles): Joints {
+/** Joints by their follicles, which motion and weather share. */
+const known = new WeakMap<FurFollicles, Joints>();
+
+/** Joints of a body's follicles: a body without a skeleton has one joint and one run. */
+export function jointsOf(follicles: FurFollicles): Joints {
+	const joints = known.get(follicles) ?? find(follicles);
+	known.set(follicles, joints);
+	return joints;
+}
+
+function find({ count, position, bones }: FurFollicles): Joints {
 	const { numbers, weights } = bones ?? { numbers: new Uint16Array(4), weights: Float32Array.of(1, 0, 0, 0) };
 	// All follicles of a body without a skeleton are as the first.
 	const at = (i: number) => (bones ? 4 * i : 0);

@@ -1,8 +1,10 @@
 import type { Joints } from '../body/joints.ts';
 import { type Drive, JOINT } from './drive.ts';
 
-/** Steps towards a rotation: enough for joints bent to a right angle. */
+/** Most steps towards a rotation: enough for joints bent to a right angle. */
 export const STEPS = 3;
+/** Squared difference from a rotation that counts as none. */
+const STRAIGHT = 1e-10;
 
 /**
  * Forces of a drive on follicles of the same joints and weights, brought to the rest axes of the shells' mesh;
@@ -44,7 +46,8 @@ export class Blend {
 			this.blow[row] = x * (blow[0] as number) + y * (blow[1] as number) + z * (blow[2] as number);
 			if (!kicks) continue;
 			for (let i = 12; i < 16; i++)
-				kick[4 * row + i - 12] = x * (place[i] as number) + y * (place[i + 4] as number) + z * (place[i + 8] as number);
+				kick[4 * row + i - 12] =
+					x * (place[i] as number) + y * (place[i + 4] as number) + z * (place[i + 8] as number);
 		}
 	}
 
@@ -52,51 +55,71 @@ export class Blend {
 	#mix(numbers: Float32Array, at: number, count: number): void {
 		const { place } = this;
 		const { joints, weights } = this.#joints;
-		place.fill(0);
-		for (let c = at; c < at + 4; c++) {
-			const weight = weights[c] as number;
-			if (weight === 0) continue;
-			const from = JOINT * (joints[c] as number);
-			for (let i = 0; i < count; i++) place[i] = (place[i] as number) + weight * (numbers[from + i] as number);
-		}
+		const a = weights[at] as number;
+		const b = weights[at + 1] as number;
+		const c = weights[at + 2] as number;
+		const d = weights[at + 3] as number;
+		const p = JOINT * (joints[at] as number);
+		const q = JOINT * (joints[at + 1] as number);
+		const r = JOINT * (joints[at + 2] as number);
+		const s = JOINT * (joints[at + 3] as number);
+		for (let i = 0; i < count; i++) place[i] = a * (numbers[p + i] as number) + b * (numbers[q + i] as number);
+		if (c === 0 && d === 0) return;
+		for (let i = 0; i < count; i++)
+			place[i] = (place[i] as number) + c * (numbers[r + i] as number) + d * (numbers[s + i] as number);
 	}
 
+	// Long: nine numbers by name are three times as fast as in an array.
 	/**
 	 * Find the rotation next to the mixed matrix, scaled, by Newton and Schulz's steps X' = (3 − X·Xᵀ)·X / 2. Where a body is
 	 * folded flat, forces across the fold are lost.
 	 */
 	#straighten(): void {
 		const m = this.place;
-		let [ax, ay, az] = [m[0] as number, m[4] as number, m[8] as number];
-		let [bx, by, bz] = [m[1] as number, m[5] as number, m[9] as number];
-		let [cx, cy, cz] = [m[2] as number, m[6] as number, m[10] as number];
-		let aa = ax * ax + ay * ay + az * az;
-		let bb = bx * bx + by * by + bz * bz;
-		let cc = cx * cx + cy * cy + cz * cz;
-		const square = aa + bb + cc;
-		// Squares of the lengths sum to 3.
-		let scale = square > 0 ? Math.sqrt(3 / square) : 0;
+		let ax = m[0] as number;
+		let ay = m[4] as number;
+		let az = m[8] as number;
+		let bx = m[1] as number;
+		let by = m[5] as number;
+		let bz = m[9] as number;
+		let cx = m[2] as number;
+		let cy = m[6] as number;
+		let cz = m[10] as number;
+		const square = ax * ax + ay * ay + az * az + bx * bx + by * by + bz * bz + cx * cx + cy * cy + cz * cz;
+		// The squares sum to 3 then.
+		const scale = square > 0 ? Math.sqrt(3 / square) : 0;
+		ax *= scale;
+		ay *= scale;
+		az *= scale;
+		bx *= scale;
+		by *= scale;
+		bz *= scale;
+		cx *= scale;
+		cy *= scale;
+		cz *= scale;
 		for (let step = 0; step < STEPS; step++) {
-			const s = 0.5 * scale ** 2;
-			const ab = s * (ax * bx + ay * by + az * bz);
-			const ac = s * (ax * cx + ay * cy + az * cz);
-			const bc = s * (bx * cx + by * cy + bz * cz);
-			const [a, b, c] = [1.5 - s * aa, 1.5 - s * bb, 1.5 - s * cc];
-			const [px, py, pz] = [ax, ay, az];
-			const [qx, qy, qz] = [bx, by, bz];
-			ax = scale * (a * px - ab * qx - ac * cx);
-			ay = scale * (a * py - ab * qy - ac * cy);
-			az = scale * (a * pz - ab * qz - ac * cz);
-			bx = scale * (b * qx - ab * px - bc * cx);
-			by = scale * (b * qy - ab * py - bc * cy);
-			bz = scale * (b * qz - ab * pz - bc * cz);
-			cx = scale * (c * cx - ac * px - bc * qx);
-			cy = scale * (c * cy - ac * py - bc * qy);
-			cz = scale * (c * cz - ac * pz - bc * qz);
-			aa = ax * ax + ay * ay + az * az;
-			bb = bx * bx + by * by + bz * bz;
-			cc = cx * cx + cy * cy + cz * cz;
-			scale = 1;
+			const ab = 0.5 * (ax * bx + ay * by + az * bz);
+			const ac = 0.5 * (ax * cx + ay * cy + az * cz);
+			const bc = 0.5 * (bx * cx + by * cy + bz * cz);
+			const aa = 0.5 - 0.5 * (ax * ax + ay * ay + az * az);
+			const bb = 0.5 - 0.5 * (bx * bx + by * by + bz * bz);
+			const cc = 0.5 - 0.5 * (cx * cx + cy * cy + cz * cz);
+			if (ab * ab + ac * ac + bc * bc + aa * aa + bb * bb + cc * cc < STRAIGHT) break;
+			const px = ax;
+			const py = ay;
+			const pz = az;
+			ax += aa * px - ab * bx - ac * cx;
+			ay += aa * py - ab * by - ac * cy;
+			az += aa * pz - ab * bz - ac * cz;
+			const qx = bx;
+			const qy = by;
+			const qz = bz;
+			bx += bb * qx - ab * px - bc * cx;
+			by += bb * qy - ab * py - bc * cy;
+			bz += bb * qz - ab * pz - bc * cz;
+			cx += cc * cx - ac * px - bc * qx;
+			cy += cc * cy - ac * py - bc * qy;
+			cz += cc * cz - ac * pz - bc * qz;
 		}
 		const turn = this.#turn;
 		turn[0] = ax;

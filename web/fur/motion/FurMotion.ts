@@ -1,6 +1,7 @@
-import { Matrix4, type Mesh, type Texture, type Vector3, type WebGLRenderer } from 'three';
+import type { Mesh, Texture, Vector3, WebGLRenderer } from 'three';
 import { FurAttachment } from '../body/FurAttachment.ts';
 import type { FurFollicles } from '../body/FurFollicles.ts';
+import { PosedBody } from '../body/PosedBody.ts';
 import type { FurAsset } from '../format.ts';
 import { BodyMotion } from './BodyMotion.ts';
 import { CpuSprings } from './CpuSprings.ts';
@@ -44,7 +45,7 @@ export interface FurMotionBody {
  *     // each frame, before it is drawn
  *     fur.update(seconds);
  *
- * The body's node may be moved freely: `Fur.update` reads its placement. Other furs of the same body share it by
+ * The body's node and bones may be moved freely, by clips too: `Fur.update` reads their placements. Other furs of the same body share it by
  * `dressed.motion = motion`. Time advances in sub-steps of a thirtieth of a second at
  * any frame rate, shown one sub-step late. Without forces the fur falls asleep as it was baked, and costs nothing.
  */
@@ -53,7 +54,6 @@ export class FurMotion extends FurAttachment {
 	readonly wind: FurWind;
 	/** Gravity over the baked one: 0 is weightless. */
 	gravity: number;
-	readonly #body: FurMotionBody;
 	readonly #renderer: WebGLRenderer | undefined;
 	readonly #roots: Roots;
 	readonly #spring: Spring;
@@ -62,7 +62,7 @@ export class FurMotion extends FurAttachment {
 	readonly #strokes: Strokes;
 	readonly #stopwatch: Stopwatch;
 	readonly #drive: Drive;
-	readonly #meshFromWorld = new Matrix4();
+	readonly #posed: PosedBody;
 	#solver: Solver;
 	/** Seconds since the end of the last sub-step. */
 	#behind = 0;
@@ -81,7 +81,6 @@ export class FurMotion extends FurAttachment {
 		super();
 		const { frequency, damping, coupling, relaxation, gravity, seed, clock } = completed(options);
 		const { shells, asset, follicles } = body;
-		this.#body = body;
 		this.#renderer = options.renderer;
 		this.gravity = gravity;
 		this.#roots = rootsOf(follicles, coupling);
@@ -91,6 +90,7 @@ export class FurMotion extends FurAttachment {
 		const furLength = asset.length / shells.scale.x;
 		const { joints } = this.#roots;
 		this.#bodyMotion = new BodyMotion(shells, follicles, joints, furLength, this.#spring.pace);
+		this.#posed = new PosedBody(shells, follicles);
 		this.#drive = calm(joints.bones.length);
 		this.#stopwatch = new Stopwatch(BUDGET, clock);
 		this.#solver = new CpuSprings(this.#roots, this.#spring, this.#strokes);
@@ -144,12 +144,10 @@ export class FurMotion extends FurAttachment {
 	 * @param radius of the lane, world units
 	 */
 	stroke(from: Vector3, to: Vector3, radius: number): void {
-		const { shells } = this.#body;
-		shells.updateWorldMatrix(true, false);
-		const own = radius / shells.matrixWorld.getMaxScaleOnAxis();
-		if (!(own > 0)) return;
-		this.#meshFromWorld.copy(shells.matrixWorld).invert();
-		this.#strokes.add(from, to, this.#meshFromWorld, own);
+		this.#posed.find(from);
+		const { restFromWorld } = this.#posed;
+		const own = radius * restFromWorld.getMaxScaleOnAxis();
+		if (own > 0) this.#strokes.add(from, to, restFromWorld, own);
 	}
 
 	/** Jumps to the equilibrium of gravity, lanes and a wind without gusts: for still pictures. */
