@@ -1,4 +1,4 @@
-import type { Joints } from '../body/joints.ts';
+import type { Joints } from '../body/joints/joints.ts';
 import { type Drive, JOINT } from './drive.ts';
 
 /** Most steps towards a rotation: enough for joints bent to a right angle. */

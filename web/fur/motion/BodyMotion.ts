@@ -1,7 +1,7 @@
 import { type Object3D, Sphere, Vector3 } from 'three';
 import type { FurFollicles } from '../body/FurFollicles.ts';
-import type { Joints } from '../body/joints.ts';
-import { Placements } from '../body/Placements.ts';
+import type { Joints } from '../body/joints/joints.ts';
+import { Placements } from '../body/joints/Placements.ts';
 import { type Drive, JOINT } from './drive.ts';
 
 /** Displacement of the longest tips by gravity on a wall, share of the length. */

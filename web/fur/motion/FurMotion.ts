@@ -1,7 +1,6 @@
-import type { Mesh, Texture, Vector3, WebGLRenderer } from 'three';
+import { Matrix4, type Mesh, type Object3D, type Texture, type Vector3, type WebGLRenderer } from 'three';
 import { FurAttachment } from '../body/FurAttachment.ts';
 import type { FurFollicles } from '../body/FurFollicles.ts';
-import { PosedBody } from '../body/PosedBody.ts';
 import type { FurAsset } from '../format.ts';
 import { BodyMotion } from './BodyMotion.ts';
 import { CpuSprings } from './CpuSprings.ts';
@@ -62,7 +61,8 @@ export class FurMotion extends FurAttachment {
 	readonly #strokes: Strokes;
 	readonly #stopwatch: Stopwatch;
 	readonly #drive: Drive;
-	readonly #posed: PosedBody;
+	readonly #shells: Object3D;
+	readonly #meshFromWorld = new Matrix4();
 	#solver: Solver;
 	/** Seconds since the end of the last sub-step. */
 	#behind = 0;
@@ -90,7 +90,7 @@ export class FurMotion extends FurAttachment {
 		const furLength = asset.length / shells.scale.x;
 		const { joints } = this.#roots;
 		this.#bodyMotion = new BodyMotion(shells, follicles, joints, furLength, this.#spring.pace);
-		this.#posed = new PosedBody(shells, follicles);
+		this.#shells = shells;
 		this.#drive = calm(joints.bones.length);
 		this.#stopwatch = new Stopwatch(BUDGET, clock);
 		this.#solver = new CpuSprings(this.#roots, this.#spring, this.#strokes);
@@ -137,17 +137,20 @@ export class FurMotion extends FurAttachment {
 	}
 
 	/**
-	 * Strokes the fur along a finger's path since the last frame; the lane fades over seconds.
+	 * Strokes the fur along a finger's path since the last frame; the lane fades over seconds. Points are on the skin, world
+	 * axes; on a body in a pose they are those of the body at rest where its node stands.
 	 *
-	 * @param from start on the skin, world axes
-	 * @param to end, world axes
+	 * @param from start
+	 * @param to end
 	 * @param radius of the lane, world units
 	 */
 	stroke(from: Vector3, to: Vector3, radius: number): void {
-		this.#posed.find(from);
-		const { restFromWorld } = this.#posed;
-		const own = radius * restFromWorld.getMaxScaleOnAxis();
-		if (own > 0) this.#strokes.add(from, to, restFromWorld, own);
+		const shells = this.#shells;
+		shells.updateWorldMatrix(true, false);
+		const own = radius / shells.matrixWorld.getMaxScaleOnAxis();
+		if (!(own > 0)) return;
+		this.#meshFromWorld.copy(shells.matrixWorld).invert();
+		this.#strokes.add(from, to, this.#meshFromWorld, own);
 	}
 
 	/** Jumps to the equilibrium of gravity, lanes and a wind without gusts: for still pictures. */

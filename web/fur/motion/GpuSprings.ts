@@ -12,7 +12,7 @@ import {
 	WebGLRenderTarget,
 } from 'three';
 import { FOLLICLES_PER_ROW } from '../body/FurFollicles.ts';
-import type { Joints } from '../body/joints.ts';
+import type { Joints } from '../body/joints/joints.ts';
 import { STEPS } from './Blend.ts';
 import { calm, type Drive, GUST, JOINT, LEE, STRENGTHS, VEER, WAVES } from './drive.ts';
 import type { Roots } from './roots.ts';

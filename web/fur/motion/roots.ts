@@ -1,7 +1,7 @@
 /** Follicles prepared for both solvers. */
 
 import type { FurFollicles } from '../body/FurFollicles.ts';
-import { type Joints, jointsOf } from '../body/joints.ts';
+import { type Joints, jointsOf } from '../body/joints/joints.ts';
 import { LIMIT } from './spring.ts';
 
 /** Follicles with their joints, comb and coupling weights. */

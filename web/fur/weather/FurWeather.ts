@@ -1,9 +1,8 @@
 /** Wetness and dirt over a body's fur, and its drying. */
 
-import { DataTexture, type Object3D, RGFormat, UnsignedByteType, Vector3 } from 'three';
+import { DataTexture, Matrix4, type Object3D, RGFormat, UnsignedByteType, Vector3 } from 'three';
 import { FurAttachment } from '../body/FurAttachment.ts';
 import type { FurFollicles } from '../body/FurFollicles.ts';
-import { PosedBody } from '../body/PosedBody.ts';
 
 /** Byte that stores 1; divisible by 2, 3, 4, 5, 6 and 8, so that the usual states are exact. */
 export const STAIN_STEPS = 240;
@@ -26,7 +25,7 @@ export interface FurWeatherBody {
 	/** Points of the skin, in the axes of the shells. */
 	readonly follicles: FurFollicles;
 	/** Placement of the follicles' axes. */
-	readonly shells: Object3D;
+	readonly shells: Pick<Object3D, 'matrixWorld' | 'updateWorldMatrix'>;
 	/** Attached weather, if any. */
 	weather: FurWeather | undefined;
 }
@@ -40,6 +39,7 @@ export interface FurWeatherOptions {
 /** Share clamped to 0..1; NaN is 0. */
 const bounded = (share: number) => Math.min(Math.max(share, 0), 1) || 0;
 
+const inverse = new Matrix4();
 const place = new Vector3();
 
 /**
@@ -57,8 +57,6 @@ const place = new Vector3();
 export class FurWeather extends FurAttachment {
 	readonly #body: FurWeatherBody;
 	readonly #follicles: FurFollicles;
-	/** Made by the first brush. */
-	#posed: PosedBody | undefined;
 	readonly #rate: number;
 	/** Painted wetness of each follicle, 0..1. */
 	readonly #wet: Float32Array;
@@ -210,16 +208,24 @@ export class FurWeather extends FurAttachment {
 
 	/** Paint all follicles within reach that face as the nearest one does: the back of a thin ear stays dry. */
 	#brush(point: Vector3, radius: number, paint: (i: number, share: number) => void): void {
-		this.#posed ??= new PosedBody(this.#body.shells, this.#follicles);
-		const nearest = this.#posed.find(point);
-		const { restFromWorld } = this.#posed;
+		const { shells } = this.#body;
+		shells.updateWorldMatrix(true, false);
+		const { matrixWorld } = shells;
 		const { position, normal, count } = this.#follicles;
-		const { x, y, z } = place.copy(point).applyMatrix4(restFromWorld);
-		const reach = (radius * restFromWorld.getMaxScaleOnAxis()) ** 2;
+		const { x, y, z } = place.copy(point).applyMatrix4(inverse.copy(matrixWorld).invert());
+		const reach = (radius / matrixWorld.getMaxScaleOnAxis()) ** 2;
 		const away = (i: number) =>
 			((position[3 * i] as number) - x) ** 2 +
 			((position[3 * i + 1] as number) - y) ** 2 +
 			((position[3 * i + 2] as number) - z) ** 2;
+		let nearest = 0;
+		let closest = Number.POSITIVE_INFINITY;
+		for (let i = 0; i < count; i++) {
+			const distance = away(i);
+			if (distance >= closest) continue;
+			closest = distance;
+			nearest = i;
+		}
 		const [nx, ny, nz] = [normal[3 * nearest], normal[3 * nearest + 1], normal[3 * nearest + 2]] as [
 			number,
 			number,

@@ -1,7 +1,7 @@
 /** Joints that carry follicles: the bones of a skeleton, or the one node of a body without. */
 
 import { Sphere, Vector3 } from 'three';
-import type { FurFollicles } from './FurFollicles.ts';
+import type { FurFollicles } from '../FurFollicles.ts';
 
 /** Weight from which a follicle counts to the sphere of its joint. */
 const HEAVY = 1 / 8;
@@ -22,7 +22,7 @@ export interface Joints {
 	readonly weights: Float32Array;
 }
 
-/** Joints by their follicles, which motion and weather share. */
+/** Joints by their follicles, which motions of one body share. */
 const known = new WeakMap<FurFollicles, Joints>();
 
 /** Joints of a body's follicles: a body without a skeleton has one joint and one run. */
