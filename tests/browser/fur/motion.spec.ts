@@ -13,7 +13,9 @@ for (const [name, jointed] of [
 	['bunny', false],
 	['bunny', true],
 ] as const)
-	test(`${name}${jointed ? ', carried by bones' : ''}: CPU and GPU agree to 1e-3, from the frame on in which the GPU takes over`, async ({ page }) => {
+	test(`${name}${jointed ? ', carried by bones' : ''}: CPU and GPU agree to 1e-3, from the frame on in which the GPU takes over`, async ({
+		page,
+	}) => {
 		const url = served(`public/models/${name}/model.gltf`);
 		const result = await page.evaluate(([url, jointed]) => loaded.agree(url, 3, jointed), [url, jointed] as const);
 		test.info().annotations.push({ type: 'springs', description: JSON.stringify(result) });

@@ -7,6 +7,14 @@ import { weld } from './weld.ts';
 /** Width of textures with a texel per follicle: follicle i has the texel (i % 256, ⌊i / 256⌋). */
 export const FOLLICLES_PER_ROW = 256;
 
+/** Bones that carry follicles. */
+export interface FollicleBones {
+	/** Four of each follicle, numbers in the skeleton. */
+	readonly numbers: Uint16Array;
+	/** Weight of each of the four. */
+	readonly weights: Float32Array;
+}
+
 type Attribute = BufferAttribute | InterleavedBufferAttribute;
 
 /** Follicles by the position attribute, which furs of one body share. */
@@ -35,8 +43,8 @@ export class FurFollicles {
 	readonly first: Uint32Array;
 	/** Neighbours along the surface's edges, each edge from both its ends. */
 	readonly links: Uint32Array;
-	/** Four bones that carry each, numbers in the skeleton, and their weights; undefined: a body without a skeleton. */
-	readonly bones: { readonly numbers: Uint16Array; readonly weights: Float32Array } | undefined;
+	/** Bones that carry them; undefined: a body without a skeleton. */
+	readonly bones: FollicleBones | undefined;
 	/** Attributes `follicle` by the position attribute of their geometry. */
 	readonly #marks = new WeakMap<Attribute, BufferAttribute>();
 
@@ -146,7 +154,7 @@ function lowerBound(order: Uint32Array, before: (at: number) => boolean): number
 }
 
 /** @param point follicle of each vertex, all of whose vertices hang on the same bones */
-function bonesOf(surface: BufferGeometry, point: Uint32Array, count: number): FurFollicles['bones'] {
+function bonesOf(surface: BufferGeometry, point: Uint32Array, count: number): FollicleBones | undefined {
 	const [index, weight] = [surface.getAttribute('skinIndex'), surface.getAttribute('skinWeight')];
 	if (!index || !weight) return undefined;
 	const [numbers, weights] = [new Uint16Array(4 * count), new Float32Array(4 * count)];

@@ -46,8 +46,7 @@ export class Blend {
 			this.blow[row] = x * (blow[0] as number) + y * (blow[1] as number) + z * (blow[2] as number);
 			if (!kicks) continue;
 			for (let i = 12; i < 16; i++)
-				kick[4 * row + i - 12] =
-					x * (place[i] as number) + y * (place[i + 4] as number) + z * (place[i + 8] as number);
+				kick[4 * row + i - 12] = x * (place[i] as number) + y * (place[i + 4] as number) + z * (place[i + 8] as number);
 		}
 	}
 

@@ -1,6 +1,14 @@
 /** Hairs of a body that moves by its joints. */
 
-import { AnimationClip, AnimationMixer, Euler, Quaternion, QuaternionKeyframeTrack, Vector3 } from 'three';
+import {
+	AnimationClip,
+	AnimationMixer,
+	type DataTexture,
+	Euler,
+	Quaternion,
+	QuaternionKeyframeTrack,
+	Vector3,
+} from 'three';
 import { describe, expect, it } from 'vitest';
 import { FurMotion } from '../../../../web/fur/motion/FurMotion.ts';
 import { FurWeather } from '../../../../web/fur/weather/FurWeather.ts';
@@ -121,7 +129,7 @@ describe('hairs of a character', () => {
 		const body = limb();
 		const i = follicleAt(body, new Vector3(2, 0, RADIUS));
 		const rate = 0.4;
-		const pose = (t: number) => body.elbow.rotation.set(0, rate * (t < 0.3 ? t * t / 0.6 : t - 0.15), 0);
+		const pose = (t: number) => body.elbow.rotation.set(0, rate * (t < 0.3 ? (t * t) / 0.6 : t - 0.15), 0);
 		const path = moved(body, i, pose, 1.5);
 		const out = rate ** 2 / (2 * Math.PI * PACE) ** 2 / LENGTH;
 		const tail = path.slice(60).map(({ x }) => x / out);
@@ -218,9 +226,9 @@ describe('weather on a character', () => {
 		const body = limb();
 		const weather = new FurWeather(Object.assign(body.fur, { weather: undefined }));
 		const place = new Vector3(1.8, 0, RADIUS);
-		weather.mud(skinned(body, place), 0.2, 1);
+		weather.mud(place, 0.2, 1);
 		weather.update(FRAME);
-		const painted = () => [...(weather.stains?.image.data as Uint8Array)];
+		const painted = () => [...((weather.stains as DataTexture).image.data as Uint8Array)];
 		const before = painted();
 		const dirt = (x: number) => before[2 * follicleAt(body, new Vector3(x, 0, RADIUS)) + 1];
 		expect([dirt(1.8), dirt(0.2), dirt(1)]).toEqual([240, 0, 0]);

@@ -56,7 +56,11 @@ export function limb(hold = bend): Limb {
 /** Where the limb's skin is, by three's own sums. @param rest place along, up and aside, model units */
 export function skinned({ place, shoulder, elbow }: Limb, rest: Vector3, share = bend(rest.x)): Vector3 {
 	place.updateMatrixWorld();
-	const by = (bone: Bone, x: number) => rest.clone().sub(new Vector3(x, 0, 0)).applyMatrix4(bone.matrixWorld);
+	const by = (bone: Bone, x: number) =>
+		rest
+			.clone()
+			.sub(new Vector3(x, 0, 0))
+			.applyMatrix4(bone.matrixWorld);
 	return by(shoulder, 0).lerp(by(elbow, 1), share);
 }
 
@@ -64,7 +68,10 @@ export function skinned({ place, shoulder, elbow }: Limb, rest: Vector3, share =
 export function follicleAt({ fur }: Body, place: Vector3): number {
 	const { count, position } = fur.follicles;
 	const away = Array.from({ length: count }, (_, i) =>
-		new Vector3().fromArray(position, 3 * i).divideScalar(UNITS).distanceTo(place),
+		new Vector3()
+			.fromArray(position, 3 * i)
+			.divideScalar(UNITS)
+			.distanceTo(place),
 	);
 	return away.indexOf(Math.min(...away));
 }
