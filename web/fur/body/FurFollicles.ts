@@ -7,14 +7,6 @@ import { weld } from './weld.ts';
 /** Width of textures with a texel per follicle: follicle i has the texel (i % 256, ⌊i / 256⌋). */
 export const FOLLICLES_PER_ROW = 256;
 
-/** Bones that carry follicles. */
-export interface FollicleBones {
-	/** Four of each follicle, numbers in the skeleton. */
-	readonly numbers: Uint16Array;
-	/** Weight of each of the four. */
-	readonly weights: Float32Array;
-}
-
 type Attribute = BufferAttribute | InterleavedBufferAttribute;
 
 /** Follicles by the position attribute, which furs of one body share. */
@@ -43,8 +35,10 @@ export class FurFollicles {
 	readonly first: Uint32Array;
 	/** Neighbours along the surface's edges, each edge from both its ends. */
 	readonly links: Uint32Array;
-	/** Bones that carry them; undefined: a body without a skeleton. */
-	readonly bones: FollicleBones | undefined;
+	/** Four bones that carry each, numbers in the skeleton; undefined: a body without a skeleton. */
+	readonly bones: Uint16Array | undefined;
+	/** Weight of each of the four. */
+	readonly boneWeights: Float32Array | undefined;
 	/** Attributes `follicle` by the position attribute of their geometry. */
 	readonly #marks = new WeakMap<Attribute, BufferAttribute>();
 
@@ -81,7 +75,7 @@ export class FurFollicles {
 			if (comb) vector.fromBufferAttribute(comb, i).toArray(this.comb, 3 * at);
 			if (fur) this.length[at] = fur.getY(i);
 		}
-		this.bones = bonesOf(surface, point, count);
+		[this.bones, this.boneWeights] = bonesOf(surface, point, count);
 		[this.first, this.links] = neighbours(surface, point, count);
 		this.#marks.set(position, new BufferAttribute(Float32Array.from(point), 1));
 	}
@@ -153,10 +147,10 @@ function lowerBound(order: Uint32Array, before: (at: number) => boolean): number
 	return low;
 }
 
-/** @param point follicle of each vertex, all of whose vertices hang on the same bones */
-function bonesOf(surface: BufferGeometry, point: Uint32Array, count: number): FollicleBones | undefined {
+/** @param point follicle of each vertex, all of whose vertices hang on the same bones @returns bones and weights */
+function bonesOf(surface: BufferGeometry, point: Uint32Array, count: number): [Uint16Array?, Float32Array?] {
 	const [index, weight] = [surface.getAttribute('skinIndex'), surface.getAttribute('skinWeight')];
-	if (!index || !weight) return undefined;
+	if (!index || !weight) return [];
 	const [numbers, weights] = [new Uint16Array(4 * count), new Float32Array(4 * count)];
 	for (const [i, at] of point.entries()) {
 		for (let c = 0; c < 4; c++) {
@@ -164,7 +158,7 @@ function bonesOf(surface: BufferGeometry, point: Uint32Array, count: number): Fo
 			weights[4 * at + c] = weight.getComponent(i, c);
 		}
 	}
-	return { numbers, weights };
+	return [numbers, weights];
 }
 
 /** @param point follicle of each vertex @returns start of each one's neighbours, and the neighbours */

@@ -68,7 +68,6 @@ export class Blend {
 			place[i] = (place[i] as number) + c * (numbers[r + i] as number) + d * (numbers[s + i] as number);
 	}
 
-	// Long: nine numbers by name are three times as fast as in an array.
 	/**
 	 * Find the rotation next to the mixed matrix, scaled, by Newton and Schulz's steps X' = (3 − X·Xᵀ)·X / 2. Where a body is
 	 * folded flat, forces across the fold are lost.

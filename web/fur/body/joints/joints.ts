@@ -32,8 +32,8 @@ export function jointsOf(follicles: FurFollicles): Joints {
 	return joints;
 }
 
-function find({ count, position, bones }: FurFollicles): Joints {
-	const { numbers, weights } = bones ?? { numbers: new Uint16Array(4), weights: Float32Array.of(1, 0, 0, 0) };
+function find({ count, position, bones, boneWeights }: FurFollicles): Joints {
+	const [numbers, weights] = bones && boneWeights ? [bones, boneWeights] : [new Uint16Array(4), Float32Array.of(1)];
 	// All follicles of a body without a skeleton are as the first.
 	const at = (i: number) => (bones ? 4 * i : 0);
 	const starts: number[] = [];
