@@ -1,7 +1,13 @@
-import { type BufferGeometry, type Color, Object3D, Scene, type Texture } from 'three';
+import type { Intersection, Object3D, Sphere, Texture, Vector3 } from 'three';
 import type { FurMethod } from './baselines/furMethod.ts';
+import { Bending } from './body/Bending.ts';
 import { FurFollicles } from './body/FurFollicles.ts';
-import type { Skin, Wetness } from './body/Skin.ts';
+import { FurParts } from './body/FurParts.ts';
+import { type FurPose, restPoint } from './body/FurPose.ts';
+import type { Ground } from './body/Ground.ts';
+import { Morphs } from './body/Morphs.ts';
+import { type Owned, Sharers } from './body/Sharers.ts';
+import { shareGeometry } from './body/shareGeometry.ts';
 import type { FurAsset, Pelt } from './format.ts';
 import type { FurTextures } from './light/texels.ts';
 import type { FurMotion } from './motion/FurMotion.ts';
@@ -11,31 +17,16 @@ import { FurFinMaterial } from './shells/FurFinMaterial.ts';
 import { FurFins } from './shells/FurFins.ts';
 import { FurMaterial } from './shells/FurMaterial.ts';
 import { FurShells } from './shells/FurShells.ts';
+import { copyLook } from './shells/look.ts';
+import { setMorphs, writeMorphs } from './shells/morphs.ts';
+import { type FurStates, Staining } from './shells/Staining.ts';
 import { updateFurs } from './updateFurs.ts';
 import type { FurWeather } from './weather/FurWeather.ts';
 
-/** Surfaces of a body that fur is drawn on. */
-export interface Ground {
-	skin: Skin;
-	/** Base colour of the model, which multiplies the fur's. */
-	colour: Color;
-	/** Geometry below the shells, the shells' node, and the quads of the fins. */
-	surface: BufferGeometry;
-	placement: Object3D;
-	quads: BufferGeometry | undefined;
-	/** Node of the quads; its axes may differ from the shells'. */
-	quadPlacement: Object3D | undefined;
-	/** Factor of the fins' second texture coordinate that makes it 1 at the tips. */
-	finHeights: number;
-}
+export type { FurStates, Ground };
 
-/** Weather that a fur can show. */
-export interface FurStates {
-	/** Whether it can be wet. */
-	wet: boolean;
-	/** Whether it can be dirty. */
-	dirt: boolean;
-}
+/** Furs by their parts. */
+const furs = new WeakMap<Object3D, Fur>();
 
 /** Shells, fins and the shade of the skin below them: `gltf.userData.fur` of a loaded asset, or made by `dressFur`. */
 export class Fur {
@@ -59,19 +50,26 @@ export class Fur {
 	readonly pelt: PeltStates;
 	/** Method applied to the shells by `FurMethod.apply`, if any. */
 	method: FurMethod | undefined;
-	readonly #parts = new Object3D();
-	readonly #release: () => void;
+	readonly #parts: FurParts;
+	readonly #pose: FurPose | undefined;
+	readonly #sharers: Sharers;
+	readonly #bending = new Bending<FurMotion>(this);
+	readonly #staining: Staining;
 	#clip: FurColumns | undefined;
-	#motion: FurMotion | undefined;
-	#weather: FurWeather | undefined;
 	/** Argument of `updateFurs`, made once. */
 	readonly #itself = [this];
 
-	/** @param release frees what belongs to this fur alone beside its materials, geometry included */
-	constructor(asset: FurAsset, pelt: PeltStates, ground: Ground, release: () => void) {
+	/**
+	 * @param owned what is this fur's and its copies', to be freed with the last of them
+	 * @param copied fur that this one is a copy of, and the group that takes its parts
+	 */
+	constructor(asset: FurAsset, pelt: PeltStates, ground: Ground, owned: Owned, copied?: { of: Fur; parts: FurParts }) {
 		const [{ textures }, fins] = pelt.cuts;
 		const finTextures = fins?.textures;
 		const { skin, surface, placement, quads, quadPlacement, colour, finHeights } = ground;
+		// Of a pelt on a surface that is not the body's the joints move nothing.
+		const pose = surface.hasAttribute('skinIndex') || Morphs.of(surface) ? skin.pose : undefined;
+		this.#pose = pose;
 		const { fin } = asset.pelts[0] as Pelt;
 		this.asset = asset;
 		this.pelt = pelt;
@@ -79,19 +77,86 @@ export class Fur {
 		this.finTextures = finTextures;
 		this.ground = ground;
 		this.skin = skin.object;
-		this.#release = release;
 		this.material = new FurMaterial(asset, textures, { skinColour: colour.clone() });
+		setMorphs(this.material, surface, pose);
 		this.fins =
 			fin && quads && finTextures
-				? new FurFins(quads, new FurFinMaterial(fin, finTextures, this.material, { finHeights }))
+				? new FurFins(quads, new FurFinMaterial(fin, finTextures, this.material, { finHeights }), pose)
 				: undefined;
-		this.shells = new FurShells(surface, placement, asset, this.material);
+		this.shells = new FurShells(surface, placement, asset, this.material, pose);
 		this.fins?.join(this.shells, quadPlacement ?? this.shells);
-		this.#parts.name = 'fur of a body';
+		if (this.fins) setMorphs(this.fins.material, this.fins.geometry, pose);
+		this.#parts = copied?.parts ?? new FurParts();
+		this.#sharers = copied ? copied.of.#sharers : new Sharers(owned);
+		this.#sharers.add(this);
 		for (const part of [this.fins, this.shells]) if (part) this.#parts.add(part);
-		this.skin.parent?.add(this.#parts);
+		if (!copied) this.skin.parent?.add(this.#parts);
+		this.#parts.owner = { skin: this.skin, copyTo: this.#copyTo, follow: this.#follow };
+		furs.set(this.#parts, this);
 		skin.cover(asset);
-		pelt.subscribe(this.#stain);
+		this.#staining = new Staining(this);
+	}
+
+	/**
+	 * Fur of a character: that of a loaded scene, or of a copy by `clone` of three's SkeletonUtils, which is a fur of its own.
+	 *
+	 *     const twin = SkeletonUtils.clone(gltf.scene);
+	 *     const fur = Fur.of(twin);
+	 *
+	 * @param object scene or a group with the character in it; of several furs, the first visible one
+	 */
+	static of(object: Object3D): Fur | undefined {
+		const found: Fur[] = [];
+		object.traverse((part) => {
+			const fur = furs.get(part);
+			if (fur) found.push(fur);
+		});
+		return found.find(({ visible }) => visible) ?? found[0];
+	}
+
+	/** Become a fur of a copy of this body. */
+	readonly #copyTo = (parts: FurParts, candidate: Object3D | undefined): void => {
+		const skin = this.ground.skin.of(candidate);
+		if (!skin) return;
+		const quads = this.fins && shareGeometry(this.fins.geometry);
+		const ground = { ...this.ground, skin, surface: this.shells.geometry, quads, quadPlacement: undefined };
+		const copy = new Fur(this.asset, this.pelt, ground, 'nothing', { of: this, parts });
+		copyLook(this, copy);
+		if (!this.visible) copy.visible = false;
+	};
+
+	/** Take the pose of the skin. */
+	readonly #follow = (): void => {
+		const pose = this.#pose;
+		if (!pose) return;
+		pose.update(this.shells, this.shells.geometry);
+		writeMorphs(this.material, pose);
+		this.shells.fit(pose);
+		this.fins?.fit(this.shells);
+	};
+
+	/**
+	 * Sphere around body and fur in their present pose, world. World matrices of the joints are updated for it.
+	 *
+	 * @param target takes the result
+	 */
+	bounds(target: Sphere): Sphere {
+		const { shells, fins } = this;
+		shells.updateWorldMatrix(true, false);
+		this.#pose?.refresh();
+		this.#follow();
+		const sphere = (fins ?? shells).geometry.boundingSphere;
+		return sphere ? target.copy(sphere).applyMatrix4(shells.matrixWorld) : target.makeEmpty();
+	}
+
+	/**
+	 * Place on the body at rest of a point where a ray has met its skin in a pose: paint weather and stroke there.
+	 *
+	 * @param hit from three's Raycaster, of this fur's skin
+	 * @param target takes the place, world; on a body without a pose that is where the ray has met it
+	 */
+	restPoint(hit: Intersection, target: Vector3): Vector3 {
+		return restPoint(hit, target);
 	}
 
 	/** Whether shells and fins are drawn and the skin is shaded. Of several furs of a body, the one shown last shades the skin. */
@@ -101,7 +166,7 @@ export class Fur {
 
 	set visible(on: boolean) {
 		this.#parts.visible = on;
-		if (on) this.ground.skin.cover(this.asset, this.#wetness());
+		if (on) this.ground.skin.cover(this.asset, this.#staining.wetness());
 		else this.ground.skin.bare(this.asset);
 	}
 
@@ -140,25 +205,12 @@ export class Fur {
 
 	/** Springs of the hairs; undefined: as baked. Furs of one body may share it. */
 	get motion(): FurMotion | undefined {
-		return this.#motion;
+		return this.#bending.motion;
 	}
 
 	set motion(motion: FurMotion | undefined) {
-		if (motion === this.#motion) return;
-		this.#motion?.leave(this.#bending);
-		this.#motion = motion;
-		motion?.join(this.#bending);
-		this.swing = motion?.swing;
+		this.#bending.motion = motion;
 	}
-
-	readonly #bending = {
-		follow: () => {
-			this.swing = this.#motion?.swing;
-		},
-		detach: () => {
-			this.motion = undefined;
-		},
-	};
 
 	/**
 	 * Displacement of hairs beyond their comb: RGBA floats, a texel per follicle, XYZ = displacement of the tip in the
@@ -171,17 +223,10 @@ export class Fur {
 	}
 
 	set swing(texture: Texture | undefined) {
-		const before = this.material.swing;
-		if (texture === before) return;
+		if (texture === this.swing) return;
 		if (texture) this.#mark();
-		before?.removeEventListener('dispose', this.#straighten);
-		texture?.addEventListener('dispose', this.#straighten);
-		this.material.swing = texture;
+		this.#bending.show(texture);
 	}
-
-	readonly #straighten = (): void => {
-		this.swing = undefined;
-	};
 
 	/**
 	 * Columns of the picture in which shells and fins are drawn; undefined: all. Lets two furs of a body, lit differently,
@@ -220,65 +265,29 @@ export class Fur {
 
 	/** Wetness and dirt over the body; undefined: dry and clean. Furs of one body may share it. */
 	get weather(): FurWeather | undefined {
-		return this.#weather;
+		return this.#staining.weather;
 	}
 
 	set weather(weather: FurWeather | undefined) {
-		if (weather === this.#weather) return;
-		this.#weather?.leave(this.#staining);
-		this.#weather = weather;
-		weather?.join(this.#staining);
+		if (!this.#staining.attach(weather)) return;
 		if (weather) this.#mark();
-		this.#stain();
+		this.#staining.show();
 	}
 
-	readonly #staining = {
-		follow: () => this.#stain(),
-		detach: () => {
-			this.weather = undefined;
-		},
-	};
-
-	/** Show the weather as far as there are states for it. */
-	readonly #stain = (): void => {
-		const weather = this.#weather;
-		const { stains, driest = 0, wettest = 0, dirtiest = 0 } = weather ?? {};
-		const { wet, dirty, loaded, all } = this.pelt;
-		const mud = dirtiest > 0 && loaded && all.dirty ? this.asset.mud : undefined;
-		this.material.setTextures(this.textures);
-		if (this.finTextures) this.fins?.material.setTextures(this.finTextures);
-		const shown = stains && (mud || (wettest > 0 && wet.length > 1));
-		const states = wettest > 0 ? wet : wet.slice(0, 1);
-		this.material.setStains(shown ? { stains, wet: states, mud, clumps: dirty ? wet.length : undefined } : undefined);
-		this.ground.skin.soak(this.asset, this.#wetness());
-		if (weather || this.#isInScene()) this.pelt.request(this.#stain, driest, wettest);
-		else this.pelt.request(this.#stain, 1, 0);
-	};
-
-	/** Whether the fur stands in a scene. A pelt that only dresses other bodies need not, and then asks for no states. */
-	#isInScene(): boolean {
-		let top: Object3D = this.#parts;
-		while (top.parent) top = top.parent;
-		return top instanceof Scene;
-	}
-
-	/** Wetness of the skin; undefined unless wet states are shown. */
-	#wetness(): Wetness | undefined {
-		const weather = this.#weather;
-		return 'WET' in this.material.defines && weather
-			? { follicles: this.follicles, at: (follicle) => weather.wetnessAt(follicle) }
-			: undefined;
-	}
-
-	/** Frees geometry, materials and textures; for a fur made by `dressFur` the materials alone, the rest is the body's and the pelt's. */
+	/**
+	 * Frees materials, and what is shared with copies of the body and other furs of the pelt once nobody else uses it; for a
+	 * fur made by `dressFur` the materials alone, the rest is the body's and the pelt's.
+	 */
 	readonly dispose = (): void => {
 		this.motion = undefined;
 		this.weather = undefined;
 		this.swing = undefined;
-		this.pelt.unsubscribe(this.#stain);
+		this.#staining.dispose();
 		this.#parts.removeFromParent();
+		this.#parts.owner = undefined;
+		furs.delete(this.#parts);
 		this.ground.skin.bare(this.asset);
-		this.#release();
+		this.#sharers.leave(this);
 		for (const part of [this.fins, this.shells]) {
 			part?.dispose();
 			part?.material.dispose();

@@ -1,12 +1,12 @@
 import {
+	type BufferAttribute,
 	ClampToEdgeWrapping,
 	Color,
-	LoaderUtils,
-	LoadingManager,
 	Material,
 	Mesh,
 	type MeshStandardMaterial,
 	type Object3D,
+	SkinnedMesh,
 	type Texture,
 } from 'three';
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
@@ -14,14 +14,14 @@ import { checkGeometry } from './body/checkGeometry.ts';
 import { Skin } from './body/Skin.ts';
 import { Fur } from './Fur.ts';
 import { checkGltf } from './format/gltf.ts';
+import { checkRig } from './format/rig.ts';
 import { type Fin, FUR_EXTENSION, FUR_VERSION, type FurAsset, type Pelt, parseFur } from './format.ts';
 import type { FurTextures } from './light/texels.ts';
-import { download } from './planes/download.ts';
 import { checkLimits, type FurLimits } from './planes/furLimits.ts';
+import { GltfFiles } from './planes/GltfFiles.ts';
 import { decodePlanes, type Layout, type PlaneFile, type Role } from './planes/mipLevels.ts';
 import { type Cut, PeltStates } from './planes/PeltStates.ts';
 import { textureArray } from './planes/planes.ts';
-import { isWholePng } from './planes/png.ts';
 import { statesOf } from './planes/states.ts';
 import { ALPHA_CUT } from './shells/lod.ts';
 
@@ -37,12 +37,6 @@ const MIN_LAYERS = 256;
 
 /** Image indices of a pelt or fin. */
 type Stored = Pick<Pelt, 'planes' | 'colour' | 'direction'>;
-
-/** File of an image, undecoded. */
-interface StoredImage {
-	name: string;
-	bytes: Uint8Array;
-}
 
 /** Options of FurLoaderPlugin. */
 export interface FurLoaderOptions {
@@ -76,13 +70,16 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 	readonly name = FUR_EXTENSION;
 	readonly #parser: GLTFParser;
 	readonly #options: FurLoaderOptions;
-	readonly #buffers: Promise<ArrayBuffer>[] = [];
+	readonly #files: GltfFiles;
 
 	/** @throws Error for an asset with fur whose glTF itself is broken: three's loader would read it without a look */
 	constructor(parser: GLTFParser, options: FurLoaderOptions = {}) {
 		this.#parser = parser;
 		this.#options = options;
-		if (this.#extension) checkGltf(parser.json);
+		this.#files = new GltfFiles(parser);
+		if (!this.#extension) return;
+		checkGltf(parser.json);
+		checkRig(parser.json, this.#extension);
 	}
 
 	get #extension() {
@@ -92,23 +89,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 	/** Called by the loader: reads from a buffer that has arrived whole. */
 	loadBufferView(index: number): Promise<ArrayBuffer> | null {
 		if (!this.#extension) return null;
-		const { buffer, byteOffset = 0, byteLength } = this.#parser.json.bufferViews[index];
-		this.#buffers[buffer] ??= this.#buffer(buffer);
-		return this.#buffers[buffer].then((bytes) => bytes.slice(byteOffset, byteOffset + byteLength));
-	}
-
-	async #buffer(index: number): Promise<ArrayBuffer> {
-		const { json, options, extensions } = this.#parser;
-		const { uri, byteLength } = json.buffers[index];
-		const name = nameOf(uri) ?? `buffer ${index}`;
-		const isWhole = (bytes: ArrayBuffer) => bytes.byteLength >= byteLength;
-		const bytes: ArrayBuffer | undefined =
-			uri === undefined
-				? extensions.KHR_binary_glTF?.body
-				: await this.#download(name, LoaderUtils.resolveURL(uri, options.path), options.manager, isWhole);
-		const got = bytes?.byteLength ?? 0;
-		if (!bytes || got < byteLength) throw new Error(`${name}: got ${got} bytes, expected ${byteLength}`);
-		return bytes;
+		return this.#files.bufferView(index);
 	}
 
 	/** Called by the loader: grows the fur. */
@@ -146,17 +127,14 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		const cuts = [shells, fins].filter((cut) => cut !== undefined) as [Cut, Cut?];
 		const { states = Number.POSITIVE_INFINITY, limits = { layers: MIN_LAYERS } } = this.#options;
 		const worn = new PeltStates(asset, cuts, states, limits.layers);
-		return new Fur(asset, worn, ground, () => {
-			skin.dispose();
-			worn.dispose();
-		});
+		return new Fur(asset, worn, ground, 'body');
 	}
 
 	/** Skin, shells' mesh and base colour; the skin stays unshaded until there is fur. */
 	async #body(asset: FurAsset, scene: Object3D): Promise<{ skin: Skin; surface: Mesh; colour: Color }> {
 		const [surface, object] = await Promise.all([this.#mesh(asset.shells, 'shells'), this.#skin(asset.skin)]);
 		const pieces = isMesh(object) ? [object] : (object.children as Mesh[]);
-		for (const { geometry } of pieces) checkGeometry(`${FUR_EXTENSION}/skin`, geometry);
+		for (const piece of pieces) checkGeometry(`${FUR_EXTENSION}/skin`, piece.geometry, jointsOf(piece));
 		// Vertex colours of the shells already contain the base colour of every material or picture.
 		const own = pieces[0]?.material as MeshStandardMaterial | undefined;
 		const colour = (!surface.geometry.hasAttribute('color') && own?.color) || new Color(1, 1, 1);
@@ -173,8 +151,21 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		for (const name of ['normal', 'tangent', 'uv']) {
 			if (!object.geometry.hasAttribute(name)) throw new Error(`${FUR_EXTENSION}/${role}: the mesh has no ${name}s`);
 		}
-		checkGeometry(`${FUR_EXTENSION}/${role}`, object.geometry);
+		object.geometry.morphAttributes = { ...object.geometry.morphAttributes, ...(await this.#tangents(node)) };
+		checkGeometry(`${FUR_EXTENSION}/${role}`, object.geometry, jointsOf(object));
 		return object;
+	}
+
+	/** Changes of the tangents by morph targets, which three leaves out. */
+	async #tangents(node: number): Promise<Record<string, BufferAttribute[]>> {
+		const { nodes, meshes } = this.#parser.json;
+		const targets: { TANGENT?: number }[] = meshes[nodes[node].mesh].primitives[0].targets ?? [];
+		if (!targets.some(({ TANGENT }) => TANGENT !== undefined)) return {};
+		return {
+			tangent: await Promise.all(
+				targets.map(({ TANGENT }) => this.#parser.getDependency('accessor', TANGENT as number)),
+			),
+		};
 	}
 
 	async #skin(node: number): Promise<Object3D> {
@@ -211,7 +202,9 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 
 	/** @param partOf the cut's part of a state */
 	async #cut(asset: FurAsset, worn: Stored, layout: Layout, partOf: (state: Pelt) => Stored): Promise<Cut> {
-		const planes = this.#planes(worn).map(({ role, index }) => this.#image(index).then((file) => ({ role, ...file })));
+		const planes = this.#planes(worn).map(({ role, index }) =>
+			this.#files.image(index).then((file) => ({ role, ...file })),
+		);
 		const textures: Record<string, Texture> = {};
 		for (const { role, name, levels } of await decodePlanes(await Promise.all(planes), layout))
 			textures[role] = textureArray(name, levels, layout.extent, role === 'colour');
@@ -222,7 +215,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 			const stored = this.#planes({ planes, ...(!state.dirt && colour !== undefined && { colour }) });
 			const wanted = await Promise.all(
 				stored.map(async ({ role, index }) => {
-					const file = await this.#later(index);
+					const file = await this.#files.later(index);
 					return () => file().then((found) => ({ role, ...found }));
 				}),
 			);
@@ -239,65 +232,13 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 			index === undefined ? [] : [{ role: role as Role, index }],
 		);
 	}
-
-	/**
-	 * Loader of an image that may be needed later; nothing is fetched over the network now. Data in memory (a .glb, a blob
-	 * address that its owner may revoke) is kept.
-	 */
-	async #later(index: number): Promise<() => Promise<StoredImage>> {
-		const { json, options } = this.#parser;
-		const { uri } = json.images?.[index] ?? {};
-		try {
-			const url = uri && options.manager.resolveURL(LoaderUtils.resolveURL(uri, options.path));
-			if (url && !/^(blob|data):/i.test(url)) return () => this.#file(uri, url, new LoadingManager());
-			const image = await this.#image(index);
-			return async () => image;
-		} catch (error) {
-			return () => Promise.reject(error);
-		}
-	}
-
-	/** File of an image, undecoded: the loader's own textures have gone through the browser's decoder. */
-	async #image(index: number): Promise<StoredImage> {
-		const { json, options } = this.#parser;
-		const definition = json.images?.[index];
-		if (!definition) throw new Error(`${FUR_EXTENSION}/pelts: image ${index} is not in the file`);
-		if (definition.bufferView !== undefined) {
-			const bytes: ArrayBuffer = await this.#parser.getDependency('bufferView', definition.bufferView);
-			return { name: definition.name ?? `image ${index}`, bytes: new Uint8Array(bytes) };
-		}
-		const { uri, name = `image ${index}` } = definition;
-		return this.#file(nameOf(uri) ?? name, LoaderUtils.resolveURL(uri, options.path), options.manager);
-	}
-
-	async #file(name: string, url: string, manager: LoadingManager): Promise<StoredImage> {
-		const bytes = await this.#download(name, url, manager, (bytes) => isWholePng(new Uint8Array(bytes)));
-		return { name, bytes: new Uint8Array(bytes) };
-	}
-
-	async #download(
-		name: string,
-		url: string,
-		manager: LoadingManager,
-		isWhole: (bytes: ArrayBuffer) => boolean,
-	): Promise<ArrayBuffer> {
-		const { requestHeader, crossOrigin } = this.#parser.options;
-		try {
-			return await download(
-				{ url, requestHeader, withCredentials: crossOrigin === 'use-credentials', isWhole },
-				manager,
-			);
-		} catch (error) {
-			throw new Error(`${name}: could not be loaded (${(error as Error).message})`);
-		}
-	}
-}
-
-/** Name of a file; undefined for data in the address itself. */
-function nameOf(uri: string | undefined): string | undefined {
-	return uri?.startsWith('data:') ? undefined : uri;
 }
 
 function isMesh(object: Object3D | undefined): object is Mesh {
 	return object instanceof Mesh && object.material instanceof Material;
+}
+
+/** Number of joints that a mesh's vertices may name; undefined: it has none. */
+function jointsOf(mesh: Mesh): number | undefined {
+	return mesh instanceof SkinnedMesh ? mesh.skeleton.bones.length : undefined;
 }

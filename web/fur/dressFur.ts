@@ -1,21 +1,7 @@
-import { BufferGeometry } from 'three';
+import { shareGeometry } from './body/shareGeometry.ts';
 import { Fur } from './Fur.ts';
 import type { FurAsset } from './format.ts';
-
-/** Another geometry of the same vertices. */
-function shareGeometry(source: BufferGeometry): BufferGeometry {
-	const into = new BufferGeometry();
-	into.setIndex(source.index);
-	for (const [name, attribute] of Object.entries(source.attributes)) into.setAttribute(name, attribute);
-	into.userData = source.userData;
-	return into;
-}
-
-/** Detach shared attributes before disposing of such a geometry, which would delete them on the GPU. */
-function unshareGeometry(geometry: BufferGeometry): void {
-	geometry.setIndex(null);
-	for (const name of Object.keys(geometry.attributes)) geometry.deleteAttribute(name);
-}
+import { copyLight } from './shells/look.ts';
 
 /** Options of `dressFur`. */
 export interface FurDressOptions {
@@ -44,20 +30,12 @@ export function dressFur(body: Fur, pelt: Fur, { tips = 1 }: FurDressOptions = {
 	const tiles = ((body.asset.tiles ?? 1) * (body.asset.length / body.asset.height)) / tile;
 	const asset: FurAsset = { ...own, skin, shells, tiles, length, ...(fins !== undefined && { fins }) };
 	const quads = body.fins && shareGeometry(body.fins.geometry);
-	const dressed = new Fur(
-		asset,
-		pelt.pelt,
-		{ ...ground, surface: body.shells.geometry, quads, quadPlacement: undefined },
-		() => {
-			unshareGeometry(dressed.shells.geometry);
-			if (quads) unshareGeometry(quads);
-		},
-	);
+	const worn = { ...ground, surface: body.shells.geometry, quads, quadPlacement: undefined };
+	const dressed = new Fur(asset, pelt.pelt, worn, 'nothing');
 	dressed.swing = body.swing;
 	dressed.motion = body.motion;
 	dressed.weather = body.weather;
-	const { gloss, sharpness, backlight, environment, lampsPerFragment, multisampled } = body.material;
-	const look = { gloss, sharpness, backlight, environment, lampsPerFragment, multisampled };
-	Object.assign(dressed.material, look, { tipShare: tips });
+	copyLight(body.material, dressed.material);
+	dressed.material.tipShare = tips;
 	return dressed;
 }

@@ -34,7 +34,7 @@ export class FurPatch extends Object3D {
 		this.height = pelt.asset.height;
 		const asset = { ...pelt.asset, tiles: 1, length: this.height };
 		const ground = { ...pelt.ground, colour: new Color(1, 1, 1), surface, placement: new Object3D(), quads: undefined };
-		this.fur = new Fur(asset, pelt.pelt, ground, () => surface.dispose());
+		this.fur = new Fur(asset, pelt.pelt, ground, 'vertices');
 		this.shells = this.fur.shells;
 		this.shells.castShadow = this.shells.receiveShadow = false;
 		const shade = new Color(...asset.ramp.root).multiplyScalar(SHADE);

@@ -37,7 +37,7 @@ function pair(): [Fur, Fur] {
 		},
 		...{ subscribe() {}, unsubscribe() {}, request() {} },
 	} as unknown as PeltStates;
-	const grow = (surface: Ground['surface']) => new Fur(asset, pelt, { ...ground, surface }, () => {});
+	const grow = (surface: Ground['surface']) => new Fur(asset, pelt, { ...ground, surface }, 'vertices');
 	const own = grow(ground.surface);
 	return [own, grow(own.shells.geometry)];
 }

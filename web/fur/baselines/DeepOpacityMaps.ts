@@ -31,6 +31,7 @@ import type { FurShells } from '../shells/FurShells.ts';
 import { HullMaterial } from '../shells/HullMaterial.ts';
 import { BaselineMaterial } from './BaselineMaterial.ts';
 import { firstLamp } from './firstLamp.ts';
+import { LightDouble } from './LightDouble.ts';
 import deepOpacity from './shaders/deep/deepOpacity.glsl?raw';
 import hullFragment from './shaders/deep/lightHull.frag.glsl?raw';
 import hullVertex from './shaders/deep/lightHull.vert.glsl?raw';
@@ -60,7 +61,6 @@ export interface MappedFur {
 
 /** Largest opacity in a byte, e-foldings; more is invisible. */
 const BYTE_OPACITY = 8;
-
 /** Uniforms that the maps depend on, beside the light's direction and the fur's transform. */
 const WATCHED = ['furLength', 'furTrim', 'shellCount', 'firstShell', 'tiles', 'density'] as const;
 const TEXTURES = ['plane0', 'plane1', 'swing', 'stains'] as const;
@@ -90,8 +90,7 @@ export class DeepOpacityMaps {
 	readonly #camera = new OrthographicCamera();
 	readonly #depthScene = new Scene();
 	readonly #opacityScene = new Scene();
-	/** Meshes drawn for the light, with their originals. */
-	readonly #doubles: { double: Mesh; of: Mesh }[] = [];
+	readonly #doubles: LightDouble[] = [];
 	readonly #materials: ShaderMaterial[];
 	#drawnTo: readonly [depths: WebGLRenderTarget, opacity: WebGLRenderTarget] | undefined;
 	#depthBuffer: DepthTexture | undefined;
@@ -162,11 +161,9 @@ export class DeepOpacityMaps {
 	}
 
 	#double(of: Mesh, material: ShaderMaterial, scene: Scene): Mesh {
-		const double = new Mesh(of.geometry, material);
-		double.frustumCulled = false;
-		double.matrixAutoUpdate = double.matrixWorldAutoUpdate = false;
+		const double = new LightDouble(of, material);
 		scene.add(double);
-		this.#doubles.push({ double, of });
+		this.#doubles.push(double);
 		return double;
 	}
 
@@ -202,10 +199,12 @@ export class DeepOpacityMaps {
 
 	/** Move the doubles to the fur, and find the light's direction. */
 	#aim(light: DirectionalLight): void {
-		for (const { double, of } of this.#doubles) {
-			of.updateWorldMatrix(true, false);
-			double.matrixWorld.copy(of.matrixWorld);
-		}
+		const { shells } = this.#fur;
+		for (const bone of shells.skeleton?.bones ?? []) bone?.updateWorldMatrix(true, false);
+		shells.updateWorldMatrix(true, false);
+		// Its parts take their pose.
+		shells.parent?.updateMatrixWorld();
+		for (const double of this.#doubles) double.follow();
 		light.updateWorldMatrix(true, false);
 		light.target.updateWorldMatrix(true, false);
 		this.#from.setFromMatrixPosition(light.target.matrixWorld);
@@ -217,7 +216,8 @@ export class DeepOpacityMaps {
 		this.#cursor = 0;
 		this.#differs = false;
 		for (const axis of AXES) this.#note(this.#towards[axis]);
-		for (const { double } of this.#doubles) for (const element of double.matrixWorld.elements) this.#note(element);
+		for (const double of this.#doubles) double.tell(this.#note);
+		for (const bone of this.#fur.shells.skeleton?.bones ?? []) bone?.matrixWorld.elements.forEach(this.#note);
 		for (const name of WATCHED) this.#note(this.#shells.uniforms[name]?.value ?? 0);
 		for (const name of TEXTURES) {
 			const texture = this.#shells.uniforms[name]?.value;
@@ -228,10 +228,10 @@ export class DeepOpacityMaps {
 		return this.#differs;
 	}
 
-	#note(value: number): void {
+	readonly #note = (value: number): void => {
 		this.#differs ||= this.#drawnFor[this.#cursor] !== value;
 		this.#drawnFor[this.#cursor++] = value;
-	}
+	};
 
 	/** Fit the light's camera to the fur's bounding sphere. */
 	#fit(): void {

@@ -12,6 +12,8 @@ import {
 } from 'three';
 import type { FurAsset } from '../format.ts';
 import type { FurFollicles } from './FurFollicles.ts';
+import { FurPose } from './FurPose.ts';
+import { shareGeometry, unshareGeometry } from './shareGeometry.ts';
 
 /** Fur shorter than this share of the longest begins to let the skin's own colour through. */
 const SHORT = 1 / 8;
@@ -63,6 +65,10 @@ interface Vertices {
 /** Piece of the skin, with a copy of its material that is darkened below fur. */
 export class ShadedPiece {
 	readonly material: MeshStandardMaterial;
+	/** Material as loaded. */
+	readonly #plain: MeshStandardMaterial;
+	/** Colours of the vertices as loaded. */
+	#colours: ReturnType<BufferGeometry['getAttribute']> | undefined;
 	readonly #own: Color | undefined;
 	readonly #roughness: number | undefined;
 	/** Mean cover. */
@@ -81,6 +87,8 @@ export class ShadedPiece {
 	constructor(piece: Mesh, cover: Float32Array | undefined) {
 		this.#piece = piece;
 		const own = piece.material as MeshStandardMaterial;
+		this.#plain = own;
+		this.#colours = piece.geometry.attributes.color;
 		this.material = own.clone();
 		this.#own = own.color?.clone();
 		this.#roughness = own.roughness;
@@ -89,6 +97,14 @@ export class ShadedPiece {
 		this.#bare = cover !== undefined;
 		if (cover) this.#colour(cover);
 		piece.material = this.material;
+	}
+
+	/** Gives a copy of the piece an unshaded look and a geometry of its own, of the same vertices. */
+	undress(copy: Mesh): void {
+		copy.material = this.#plain;
+		copy.geometry = shareGeometry(this.#piece.geometry);
+		if (this.#colours) copy.geometry.setAttribute('color', this.#colours);
+		else copy.geometry.deleteAttribute('color');
 	}
 
 	/** Give each vertex a colour, for good. */
@@ -149,16 +165,21 @@ export class ShadedPiece {
 	}
 }
 
+/** Skins by their objects. */
+const known = new WeakMap<Object3D, Skin>();
+
 /** Skin of a body with one fur or several in turn: shaded by the one shown last, unshaded without any. */
 export class Skin {
 	/** Largest side of the box around it, model units. */
 	readonly extent: number;
+	/** Pose of the body; undefined for one that has no joints and no morph targets. */
+	readonly pose: FurPose | undefined;
 	readonly #meshes: readonly Mesh[];
 	readonly #pieces: readonly ShadedPiece[];
 	/** Visible furs, the one shown last at the end, with the shade below each. */
 	readonly #visible = new Map<FurAsset, { shade: Color; wetness: Wetness | undefined }>();
-	/** Whether the shells' surface is in the skin's axes. */
-	readonly #under: boolean;
+	/** Geometry of the shells, if its axes are the skin's. */
+	readonly #surface: BufferGeometry | undefined;
 
 	/**
 	 * @param object a mesh, or a group of one for each material
@@ -170,13 +191,17 @@ export class Skin {
 		surface: BufferGeometry | undefined,
 	) {
 		this.#meshes = meshes;
-		this.#under = surface !== undefined;
+		this.#surface = surface;
+		this.pose = FurPose.of(meshes);
+		known.set(object, this);
 		this.#pieces = meshes.map((mesh) => new ShadedPiece(mesh, surface && furCover(mesh.geometry, surface)));
 		const box = new Box3();
 		for (const mesh of meshes) {
 			mesh.castShadow = mesh.receiveShadow = true;
-			mesh.geometry.computeBoundingBox();
-			const own = mesh.geometry.boundingBox?.clone().applyMatrix4(mesh.matrix);
+			// At rest, without morph targets.
+			const points = new BufferGeometry().setAttribute('position', mesh.geometry.getAttribute('position'));
+			points.computeBoundingBox();
+			const own = points.boundingBox?.applyMatrix4(mesh.matrix);
 			if (own) box.union(mesh === object ? own : own.applyMatrix4(object.matrix));
 		}
 		this.extent = Math.max(...box.getSize(new Vector3()).toArray());
@@ -205,10 +230,34 @@ export class Skin {
 
 	#shade(): void {
 		const { shade, wetness } = [...this.#visible.values()].at(-1) ?? {};
-		for (const piece of this.#pieces) piece.shade(shade, this.#under ? wetness : undefined);
+		for (const piece of this.#pieces) piece.shade(shade, this.#surface ? wetness : undefined);
 	}
 
-	dispose(): void {
+	/** Geometries of its pieces. */
+	get geometries(): BufferGeometry[] {
+		return this.#meshes.map(({ geometry }) => geometry);
+	}
+
+	/**
+	 * Skin of a copy of the object, made by three's `clone`.
+	 *
+	 * @returns undefined where it is no copy
+	 */
+	of(copy: Object3D | undefined): Skin | undefined {
+		if (!copy || copy === this.object) return undefined;
+		const before = known.get(copy);
+		if (before) return before;
+		const meshes = (this.object === this.#meshes[0] ? [copy] : copy.children) as Mesh[];
+		if (!this.#meshes.every(({ geometry }, i) => meshes[i]?.geometry === geometry)) return undefined;
+		for (const [i, piece] of this.#pieces.entries()) piece.undress(meshes[i] as Mesh);
+		return new Skin(copy, meshes, this.#surface);
+	}
+
+	/** @param others geometries that keep attributes; undefined: all belong to this skin alone */
+	dispose(others: readonly BufferGeometry[] = []): void {
+		this.pose?.release();
+		known.delete(this.object);
+		for (const geometry of this.geometries) unshareGeometry(geometry, others);
 		for (const { material } of this.#pieces) material.dispose();
 		for (const { geometry } of this.#meshes) geometry.dispose();
 	}

@@ -6,6 +6,7 @@ import {
 	type IUniform,
 	type Light,
 	type Material,
+	type Matrix4,
 	type Mesh,
 	NearestFilter,
 	NoBlending,
@@ -15,6 +16,7 @@ import {
 	RGBAIntegerFormat,
 	type Scene,
 	ShaderMaterial,
+	type Skeleton,
 	UniformsLib,
 	UniformsUtils,
 	UnsignedIntType,
@@ -24,6 +26,7 @@ import {
 	type WebGLRenderer,
 	WebGLRenderTarget,
 } from 'three';
+import type { FurPose, Jointed } from '../body/FurPose.ts';
 import fragmentShader from '../shaders/draw/bodyLight.frag.glsl?raw';
 import bodyLight from '../shaders/draw/bodyLight.glsl?raw';
 import vertexMain from '../shaders/draw/bodyLight.vert.glsl?raw';
@@ -40,7 +43,7 @@ const VERTICES_PER_ROW = 1024;
 const SKY_HEIGHTS = 11;
 
 /** Parts of the shells' shaders that place and bend hairs and light them by the sky. */
-const PARTS = ['SWING', 'TRIMMED', 'WET', 'SKY'];
+const PARTS = ['SWING', 'TRIMMED', 'WET', 'SKY', 'MORPHS'];
 
 /** Parts of the shells' shaders that belong to the pelt. */
 const PELT_PARTS = ['LAYERS', 'EYE', 'TWO_PLANES', 'CURVES', 'CURVES_LOW', 'CURVES_HIGH'];
@@ -60,7 +63,14 @@ const count = (object: Object3D): void => {
  * per shell. Drawn as points, one per vertex and lamp or height, into textures of integers, which every GPU can draw, unlike
  * floats. Format 2.x.
  */
-export class BodyLight extends Points<InstancedBufferGeometry, ShaderMaterial> {
+export class BodyLight extends Points<InstancedBufferGeometry, ShaderMaterial> implements Jointed {
+	/** Joints of the body, as on three's SkinnedMesh; those of the skin. */
+	declare isSkinnedMesh?: true;
+	declare skeleton?: Skeleton;
+	declare bindMatrix?: Matrix4;
+	declare bindMatrixInverse?: Matrix4;
+	declare bind?: Jointed['bind'];
+	readonly #pose: FurPose | undefined;
 	readonly #shells: Shells;
 	readonly #source: FurMaterial;
 	readonly #target: WebGLRenderTarget;
@@ -79,7 +89,8 @@ export class BodyLight extends Points<InstancedBufferGeometry, ShaderMaterial> {
 		this.geometry.dispose();
 	};
 
-	constructor(shells: Shells) {
+	/** @param pose of the body, if it has any */
+	constructor(shells: Shells, pose?: FurPose) {
 		const source = shells.material;
 		const { count: vertices = 0 } = shells.geometry.getAttribute('position') ?? {};
 		const rows = Math.max(Math.ceil(vertices / VERTICES_PER_ROW), 1);
@@ -132,6 +143,13 @@ export class BodyLight extends Points<InstancedBufferGeometry, ShaderMaterial> {
 		// Before all blending: a change of target costs most in the middle of it.
 		this.renderOrder = -Number.MAX_SAFE_INTEGER;
 		switchPart(source, 'BODY_LIGHT', '');
+		this.#pose = pose;
+		pose?.carry(this);
+	}
+
+	override updateMatrixWorld(force?: boolean): void {
+		super.updateMatrixWorld(force);
+		this.#pose?.follow(this);
 	}
 
 	/** Ignored by ray casting. */

@@ -5,6 +5,7 @@ import fragmentMain from '../shaders/draw/fins.frag.glsl?raw';
 import ends from '../shaders/draw/fins.glsl?raw';
 import vertexMain from '../shaders/draw/fins.vert.glsl?raw';
 import type { FurMaterial } from './FurMaterial.ts';
+import { morphUniforms } from './morphs.ts';
 import { PeltMaterial } from './PeltMaterial.ts';
 
 /** Properties that a FurFinMaterial has beside those of every material. */
@@ -35,7 +36,7 @@ const SHARED = [
 		'backlight',
 		'density',
 	],
-	...['swing', 'stains', 'wetnesses', 'traits', 'mud'],
+	...['swing', 'stains', 'wetnesses', 'traits', 'mud', 'morphCount', 'morphs'],
 	...['skinColour', 'root', 'tip', 'tip2', 'tipShare', 'rampPower'],
 ];
 
@@ -66,6 +67,7 @@ export class FurFinMaterial extends PeltMaterial {
 				fragmentShader: [fragmentMain, ends].join('\n'),
 				uniforms: {
 					...Object.fromEntries(shared),
+					...morphUniforms(),
 					finLength: { value: 1.05 },
 					finOpacity: { value: 0.9 },
 					finHeights: { value: shells.uniforms.tiles?.value },

@@ -5,11 +5,13 @@ import {
 	Matrix4,
 	Mesh,
 	type Object3D,
+	type Skeleton,
 	Sphere,
 	Vector3,
 	type WebGLRenderer,
 } from 'three';
 import { BodyCurvature } from '../body/BodyCurvature.ts';
+import type { FurPose, Jointed } from '../body/FurPose.ts';
 import { beginClip, endClip, type FurColumns } from './clip.ts';
 import type { FurFinMaterial } from './FurFinMaterial.ts';
 import type { FurMaterial } from './FurMaterial.ts';
@@ -17,24 +19,36 @@ import type { FurMaterial } from './FurMaterial.ts';
 /** Strips per fin where light changes with the height. */
 const STRIPS = 4;
 
+const everywhere = new Sphere(new Vector3(), Number.POSITIVE_INFINITY);
+
 /**
  * The fins of a furry surface: one draw, before the shells.
  *
  * The renderer sorts transparent objects by the distance of their bounding spheres, then by age. So fins are created before
  * their shells and share placement and sphere with them, to the bit.
  */
-export class FurFins extends Mesh<BufferGeometry, FurFinMaterial> {
+export class FurFins extends Mesh<BufferGeometry, FurFinMaterial> implements Jointed {
+	/** Joints of the body, as on three's SkinnedMesh; those of the skin. */
+	declare isSkinnedMesh?: true;
+	declare skeleton?: Skeleton;
+	declare bindMatrix?: Matrix4;
+	declare bindMatrixInverse?: Matrix4;
+	declare bind?: Jointed['bind'];
 	/** Columns of the picture to draw; undefined: all. */
 	clip: FurColumns | undefined;
+	readonly #pose: FurPose | undefined;
 
 	/**
 	 * @param quads four vertices per edge with position (on the skin), normal, tangent (along the edge), uv (tiles along
 	 * the edge, height 0..1), _edge and _fur
+	 * @param pose of the body, if it has any
 	 */
-	constructor(quads: BufferGeometry, material: FurFinMaterial) {
+	constructor(quads: BufferGeometry, material: FurFinMaterial, pose?: FurPose) {
 		super(material.means ? cutFins(quads, STRIPS) : quads, material);
 		this.name = 'fins';
 		this.receiveShadow = true;
+		this.#pose = pose;
+		pose?.carry(this);
 	}
 
 	/**
@@ -47,7 +61,12 @@ export class FurFins extends Mesh<BufferGeometry, FurFinMaterial> {
 		for (const object of [shells, placement]) object.updateMatrix();
 		if (!placement.matrix.equals(shells.matrix)) {
 			const between = new Matrix4().copy(shells.matrix).invert().multiply(placement.matrix);
-			this.geometry.setAttribute('position', transformed(this.geometry.getAttribute('position'), between));
+			const { geometry } = this;
+			geometry.setAttribute('position', transformed(geometry.getAttribute('position'), between));
+			// Changes have a length, but no place.
+			between.setPosition(0, 0, 0);
+			const { position } = geometry.morphAttributes;
+			if (position) geometry.morphAttributes.position = position.map((changes) => transformed(changes, between));
 		}
 		this.position.copy(shells.position);
 		this.quaternion.copy(shells.quaternion);
@@ -56,11 +75,17 @@ export class FurFins extends Mesh<BufferGeometry, FurFinMaterial> {
 		this.fit(shells);
 	}
 
-	/** Copies the shells' bounding sphere; call again when the length changes. */
+	override updateMatrixWorld(force?: boolean): void {
+		super.updateMatrixWorld(force);
+		this.#pose?.follow(this);
+	}
+
+	/** Copies the shells' bounding sphere; call again when that changes. */
 	fit(shells: Mesh<BufferGeometry, FurMaterial>): void {
-		const { center, radius } = shells.geometry.boundingSphere ?? new Sphere(new Vector3(), Number.POSITIVE_INFINITY);
 		const longer = Math.max(this.material.finLength - 1, 0) * shells.material.furLength;
-		this.geometry.boundingSphere = new Sphere(center.clone(), radius + longer);
+		this.geometry.boundingSphere ??= new Sphere();
+		const sphere = this.geometry.boundingSphere.copy(shells.geometry.boundingSphere ?? everywhere);
+		sphere.radius += longer;
 	}
 
 	/** Restrict the draw to `clip`. */
@@ -90,17 +115,28 @@ export function cutFins(quads: BufferGeometry, strips: number): BufferGeometry {
 	const cut = new BufferGeometry();
 	const rows = strips + 1;
 	const edges = quads.getAttribute('position').count / 4;
+	const count = edges * rows * 2;
+	/** Root below a vertex of the strips. */
+	const rootOf = (vertex: number) => 4 * Math.floor(vertex / (2 * rows)) + (vertex % 2);
 	for (const [name, attribute] of Object.entries(quads.attributes)) {
+		// Joints are numbers, not quantities: all of a fin follows its roots.
+		if (name === 'skinIndex' || name === 'skinWeight') {
+			cut.setAttribute(name, copiesOf(attribute, count, rootOf));
+			continue;
+		}
 		const { itemSize } = attribute;
-		const values = new Float32Array(edges * rows * 2 * itemSize);
-		for (let vertex = 0, at = 0; vertex < edges * rows * 2; vertex++) {
+		const values = new Float32Array(count * itemSize);
+		for (let vertex = 0, at = 0; vertex < count; vertex++) {
 			const share = (Math.floor(vertex / 2) % rows) / strips;
-			const root = 4 * Math.floor(vertex / (2 * rows)) + (vertex % 2);
+			const root = rootOf(vertex);
 			for (let c = 0; c < itemSize; c++, at++)
 				values[at] = attribute.getComponent(root, c) * (1 - share) + attribute.getComponent(root + 2, c) * share;
 		}
 		cut.setAttribute(name, new BufferAttribute(values, itemSize));
 	}
+	for (const [name, targets] of Object.entries(quads.morphAttributes))
+		cut.morphAttributes[name as 'position'] = targets.map((changes) => copiesOf(changes, count, rootOf));
+	cut.morphTargetsRelative = quads.morphTargetsRelative;
 	const corners = Array.from({ length: edges * strips }, (_, i) => {
 		const first = 2 * (Math.floor(i / strips) * rows + (i % strips));
 		return [first, first + 1, first + 3, first, first + 3, first + 2];
@@ -120,4 +156,20 @@ function transformed(position: BufferAttribute | InterleavedBufferAttribute, mat
 			.toArray(moved.array, i * 3);
 	}
 	return moved;
+}
+
+/** An attribute of `count` vertices, each a copy of one of another attribute. */
+function copiesOf(
+	attribute: BufferAttribute | InterleavedBufferAttribute,
+	count: number,
+	sourceOf: (vertex: number) => number,
+): BufferAttribute {
+	const { itemSize, normalized, array } = attribute;
+	const { data, offset = 0 } = attribute as Partial<InterleavedBufferAttribute>;
+	const stride = data?.stride ?? itemSize;
+	const values = new (array.constructor as Float32ArrayConstructor)(count * itemSize);
+	for (let vertex = 0; vertex < count; vertex++)
+		for (let c = 0; c < itemSize; c++)
+			values[vertex * itemSize + c] = array[sourceOf(vertex) * stride + offset + c] as number;
+	return new BufferAttribute(values, itemSize, normalized);
 }

@@ -12,6 +12,7 @@ import hairOut from '../shaders/hair/hair.vert.glsl?raw';
 import opacity from '../shaders/hair/opacity.glsl?raw';
 import shell from '../shaders/hair/shell.glsl?raw';
 import { ALPHA_CUT } from './lod.ts';
+import { morphUniforms, weightUniforms } from './morphs.ts';
 import { PeltMaterial } from './PeltMaterial.ts';
 
 /** Properties that a FurMaterial has beside those of every material. */
@@ -114,6 +115,8 @@ export class FurMaterial extends PeltMaterial {
 					lean: { value: leanOf(asset) },
 					bent: { value: bentWeights(asset) },
 					...eyeUniforms(asset),
+					...morphUniforms(),
+					...weightUniforms(),
 					alphaCut: { value: ALPHA_CUT },
 					skinColour: { value: new Color(1, 1, 1) },
 					root: { value: new Color(...ramp.root) },

@@ -2,9 +2,11 @@ import {
 	BufferGeometry,
 	type Camera,
 	InstancedBufferGeometry,
+	Matrix4,
 	Mesh,
 	type Object3D,
 	type Scene,
+	type Skeleton,
 	Sphere,
 	Vector3,
 	Vector4,
@@ -12,6 +14,7 @@ import {
 } from 'three';
 import { BodyCurvature } from '../body/BodyCurvature.ts';
 import { sharedComb } from '../body/comb.ts';
+import type { FurPose, Jointed } from '../body/FurPose.ts';
 import type { FurAsset } from '../format.ts';
 import { BodyLight } from './BodyLight.ts';
 import { beginClip, endClip, type FurColumns } from './clip.ts';
@@ -25,15 +28,22 @@ export const MAX_SHELLS = 256;
 const eye = new Vector3();
 const middle = new Vector3();
 const viewport = new Vector4();
+const inverse = new Matrix4();
 
 /** Shells of a furry surface: one instanced draw, instance = shell, the innermost first. */
-export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
+export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> implements Jointed {
 	/** Draws the hull into shadow maps. */
 	override readonly customDepthMaterial: HullMaterial;
 	/** Whether the picture determines the number of shells; setting `shellCount` turns it off. */
 	automatic = true;
 	/** Spacing of automatic shells over what looks best: 2 draws half as many. */
 	coarseness = 1;
+	/** Joints of the body, as on three's SkinnedMesh; those of the skin. */
+	declare isSkinnedMesh?: true;
+	declare skeleton?: Skeleton;
+	declare bindMatrix?: Matrix4;
+	declare bindMatrixInverse?: Matrix4;
+	declare bind?: Jointed['bind'];
 	/** Columns of the picture to draw; undefined: all. */
 	clip: FurColumns | undefined;
 	/** Width of a texel, model units. */
@@ -42,13 +52,17 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 	/** Lamps at the body's vertices, for all shells; format 2.x. */
 	readonly #light: BodyLight | undefined;
 	/** Radius of the surface below, the mesh's own units. */
-	readonly #radius: number;
+	#radius: number;
+	/** Size in the pose over that at rest. */
+	#stretch = 1;
+	readonly #pose: FurPose | undefined;
 
 	/**
 	 * @param surface the skin's vertices with normal, tangent, uv (tiles), _fur, _comb and color; or other shells'
 	 * @param placement the node whose transform takes the surface's units to the model's; uniform scale
+	 * @param pose of the body, if it has any
 	 */
-	constructor(surface: BufferGeometry, placement: Object3D, asset: FurAsset, material: FurMaterial) {
+	constructor(surface: BufferGeometry, placement: Object3D, asset: FurAsset, material: FurMaterial, pose?: FurPose) {
 		const geometry = new InstancedBufferGeometry();
 		geometry.setIndex(surface.index);
 		for (const [name, attribute] of Object.entries(surface.attributes)) geometry.setAttribute(name, attribute);
@@ -76,10 +90,12 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 		this.#texel = length / (height * size);
 		if (material.means) {
 			BodyCurvature.of(surface).mark(geometry);
-			this.#light = new BodyLight(this);
+			this.#light = new BodyLight(this, pose);
 			this.add(this.#light);
 		}
 		this.furLength = length;
+		this.#pose = pose;
+		pose?.carry(this);
 	}
 
 	/** Longest hairs, model units; of a fur, set `Fur.length`. */
@@ -89,7 +105,21 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> {
 
 	set furLength(length: number) {
 		this.material.furLength = length / this.scale.x;
-		(this.geometry.boundingSphere as Sphere).radius = this.#radius + this.material.furLength;
+		(this.geometry.boundingSphere as Sphere).radius = this.#radius + this.#stretch * this.material.furLength;
+	}
+
+	override updateMatrixWorld(force?: boolean): void {
+		super.updateMatrixWorld(force);
+		this.#pose?.follow(this);
+	}
+
+	/** Fits the bounding sphere to the body's pose. @internal */
+	fit({ sphere, unit }: FurPose): void {
+		const bounds = this.geometry.boundingSphere as Sphere;
+		bounds.copy(sphere).applyMatrix4(inverse.copy(this.matrixWorld).invert());
+		this.#radius = bounds.radius;
+		this.#stretch = unit / this.matrixWorld.getMaxScaleOnAxis();
+		bounds.radius += this.#stretch * this.material.furLength;
 	}
 
 	/** Number of shells, 1 to 256, independent of the number of slabs; fractions are allowed. */

@@ -6,10 +6,13 @@ import type { FurMaterial } from './FurMaterial.ts';
 import { followParts } from './switches.ts';
 
 /** Uniforms shared with the shells. */
-const SHARED = ['furLength', 'furTrim', 'swing', 'stains', 'wetnesses', 'traits'];
+const SHARED = [
+	...['furLength', 'furTrim', 'swing', 'stains', 'wetnesses', 'traits'],
+	...['morphDeltas', 'morphUnit', 'morphCount', 'morphs'],
+];
 
 /** Parts of the shells' shaders that change a hull. */
-const PARTS = ['SWING', 'TRIMMED', 'WET'];
+const PARTS = ['SWING', 'TRIMMED', 'WET', 'MORPHS'];
 
 /**
  * Shadow caster of fur: a closed hull at three quarters of the hairs' length, where hairs hide half of grazing light.

@@ -1,10 +1,10 @@
 /** GLSL chunks shared by several materials. */
 
-import body from '../shaders/hair/body.glsl?raw';
 import comb from '../shaders/hair/comb.glsl?raw';
 import density from '../shaders/hair/density.glsl?raw';
 import displacement from '../shaders/hair/displacement.glsl?raw';
 import follicle from '../shaders/hair/follicle.glsl?raw';
+import pose from '../shaders/hair/pose.glsl?raw';
 import trim from '../shaders/hair/trim.glsl?raw';
 import weatherIn from '../shaders/hair/weather.frag.glsl?raw';
 import weather from '../shaders/hair/weather.glsl?raw';
@@ -23,7 +23,7 @@ import trimmed from '../shaders/light/trimmed.glsl?raw';
 import view from '../shaders/light/view.glsl?raw';
 
 /** Positions of hairs. */
-export const hairChunks = [body, follicle, comb, weather, weatherOut, trim, displacement];
+export const hairChunks = [pose, follicle, comb, weather, weatherOut, trim, displacement];
 
 /** Reading of texels. */
 export const texelChunks = [trim, density, weather, weatherIn];

@@ -3,7 +3,7 @@
 import type { ShaderMaterial } from 'three';
 
 /** Parts that change position and coverage of hairs, whatever lights them. */
-export const SHAPE = ['DENSITY', 'SWING', 'TRIMMED', 'WET', 'DIRTY', 'MUD'] as const;
+export const SHAPE = ['DENSITY', 'SWING', 'TRIMMED', 'WET', 'DIRTY', 'MUD', 'MORPHS'] as const;
 
 /**
  * Compile a part in or out. The renderer keeps a material's programs, so switching back and forth is cheap.

@@ -5,6 +5,7 @@ flat out uvec4 vEntry1;
 flat out uvec4 vEntry2;
 
 void main() {
+	takePose();
 	feelWeather();
 	mat3 frame = skinFrame();
 	mat4 placement = bodyModelView();
@@ -15,7 +16,7 @@ void main() {
 	// Half the hair's height stands for all heights under a lamp.
 	point.s = height < 0 ? 0.5 * furTrim : min((point.slab + 0.5) / float(LAYERS), furTrim);
 	vec3 comb = furComb(_comb);
-	point.pointVS = (placement * vec4(furPoint(position, frame[2], comb, _fur.y, point.s), 1.0)).xyz;
+	point.pointVS = (placement * vec4(furPoint(rootPosition, frame[2], comb, _fur.y, point.s), 1.0)).xyz;
 	point.curvature = furCurvature(_fur.y);
 	point.comb = comb * frame;
 	Bending bending = bendingOf(point.comb, point.s);

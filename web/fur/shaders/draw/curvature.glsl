@@ -15,5 +15,8 @@ float furReach(float lengthShare) {
 #ifdef WET
 	lengthShare *= furTraits.x;
 #endif
+#ifdef USE_SKINNING
+	lengthShare *= rootScale;
+#endif
 	return furLength * lengthShare * length(bodyModel()[0].xyz);
 }

@@ -1,4 +1,3 @@
-in vec4 tangent; // unit vector along the edge
 layout(location = 12) in vec4 color; // colour of the skin, linear
 layout(location = 13) in vec4 _fur; // see frame.glsl
 layout(location = 15) in vec4 _edge; // XY = angles of the two faces' normals about the edge, over π; ZW = comb along the edge and across it
@@ -11,6 +10,19 @@ out vec2 vAt; // tiles along the edge, height
 out vec4 vSkin; // RGB = factor of the hairs' colour, A = mix of tip and tip2
 out float vFade;
 
+// Cosines between the viewer and the two faces' normals. upright, across: axes about the edge from which their angles count.
+vec2 facesTowards(vec3 viewer, vec3 upright, vec3 across) {
+	vec2 angle = PI * _edge.xy;
+#ifdef USE_SKINNING
+	return vec2(
+		dot(posedNormal(cos(angle.x) * upright + sin(angle.x) * across), viewer),
+		dot(posedNormal(cos(angle.y) * upright + sin(angle.y) * across), viewer)
+	);
+#else
+	return cos(angle) * dot(upright, viewer) + sin(angle) * dot(across, viewer);
+#endif
+}
+
 // Opacity of a fin: full at the silhouette, where one face looks to the viewer and the other away; less where both look the
 // same way; 0 where they look straight, and where the fin is seen from its end.
 float finFade(vec2 facing, float broadside) {
@@ -20,25 +32,30 @@ float finFade(vec2 facing, float broadside) {
 }
 
 void main() {
+	takePose();
 	feelWeather();
-	vec3 n = normalize(normal);
-	vec3 edge = normalize(tangent.xyz);
+	vec3 n = normalize(rootNormal);
+	vec3 edge = normalize(rootTangent);
 	vec3 across = normalize(cross(edge, n));
 	vec3 upright = cross(across, edge);
 	mat3 frame = mat3(cross(n, across), n, across);
 	mat4 placement = bodyModelView();
 	mat3 turn = mat3(placement) / length(placement[0].xyz);
 
-	vec3 viewer = viewerVS((placement * vec4(position, 1.0)).xyz) * turn;
-	vec2 angle = PI * _edge.xy;
-	float broadside = dot(across, viewer);
-	vFade = finFade(cos(angle) * dot(upright, viewer) + sin(angle) * broadside, broadside);
+	vec3 viewer = viewerVS((placement * vec4(rootPosition, 1.0)).xyz) * turn;
+#ifdef USE_SKINNING
+	vec3 restEdge = normalize(restTangent);
+	vec3 restAcross = normalize(cross(restEdge, restNormal));
+	vFade = finFade(facesTowards(viewer, normalize(cross(restAcross, restEdge)), restAcross), dot(across, viewer));
+#else
+	vFade = finFade(facesTowards(viewer, upright, across), dot(across, viewer));
+#endif
 
 	vAt = uv * vec2(tiles, finHeights * furTrim);
 	// An invisible quad collapses to its root and has no fragments.
 	float s = vFade > 0.0 ? min(vAt.y, furTrim) : 0.0;
-	vec3 comb = furComb(frame * vec3(_edge.z, 0.0, _edge.w));
-	vec3 pointVS = (placement * vec4(furPoint(position, n, comb, _fur.y * finLength, s), 1.0)).xyz;
+	vec3 comb = finComb(frame * vec3(_edge.z, 0.0, _edge.w));
+	vec3 pointVS = (placement * vec4(furPoint(rootPosition, n, comb, _fur.y * finLength, s), 1.0)).xyz;
 	gl_Position = projectionMatrix * vec4(pointVS, 1.0);
 	vSkin = vec4(skinColour * color.rgb, tipShare * _fur.w);
 #ifdef WET

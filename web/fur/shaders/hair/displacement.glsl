@@ -12,5 +12,8 @@ vec3 furPoint(vec3 root, vec3 outward, vec3 comb, float lengthShare, float s) {
 #ifdef WET
 	lengthShare *= furTraits.x;
 #endif
+#ifdef USE_SKINNING
+	lengthShare *= rootScale;
+#endif
 	return root + (furRise(comb) * outward + s * comb) * (furLength / furTrim * lengthShare * s);
 }

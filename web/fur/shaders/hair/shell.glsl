@@ -67,6 +67,7 @@ float sharesOf(int slab, float count) {
 
 // Places the vertex and writes varyings that are independent of the light.
 ShellPoint shellPoint() {
+	takePose();
 	feelWeather();
 	ShellPoint point;
 #ifdef BODIES
@@ -88,7 +89,7 @@ ShellPoint shellPoint() {
 	vec3 comb = furComb(_comb);
 	point.frameVS = point.turn * frame;
 	point.comb = comb * frame;
-	point.pointVS = (placement * vec4(furPoint(position, n, comb, _fur.y, point.s), 1.0)).xyz;
+	point.pointVS = (placement * vec4(furPoint(rootPosition, n, comb, _fur.y, point.s), 1.0)).xyz;
 
 	// A shell off its slab's middle is sheared by the hairs' drift from there, so that hairs are continuous, not stepped.
 #ifdef TRIMMED
