@@ -8,9 +8,16 @@ declare const loaded: typeof import('../inPage/motion.ts');
 
 test.beforeEach(({ page }) => openModule(page, site, served('tests/browser/inPage/motion.ts')));
 
-for (const name of ['torus-512', 'bunny'])
-	test(`${name}: CPU and GPU agree to 1e-3, from the frame on in which the GPU takes over`, async ({ page }) => {
-		const result = await page.evaluate((url) => loaded.agree(url, 3), served(`public/models/${name}/model.gltf`));
+for (const [name, jointed] of [
+	['torus-512', false],
+	['bunny', false],
+	['bunny', true],
+] as const)
+	test(`${name}${jointed ? ', carried by bones' : ''}: CPU and GPU agree to 1e-3, from the frame on in which the GPU takes over`, async ({
+		page,
+	}) => {
+		const url = served(`public/models/${name}/model.gltf`);
+		const result = await page.evaluate(([url, jointed]) => loaded.agree(url, 3, jointed), [url, jointed] as const);
 		test.info().annotations.push({ type: 'springs', description: JSON.stringify(result) });
 		expect(result.processors).toEqual(['cpu', 'gpu']);
 		expect(result.swung).toBeGreaterThan(0.4);

@@ -1,6 +1,19 @@
 /** Runs inside the page: the same fur moved by CPU and GPU. Its answers go to `motion.spec.ts`. */
 
-import { type DataTexture, type Texture, Vector3, Vector4, WebGLRenderer, WebGLRenderTarget } from 'three';
+import {
+	Bone,
+	type Box3,
+	BufferAttribute,
+	type DataTexture,
+	Matrix4,
+	type Object3D,
+	Skeleton,
+	type Texture,
+	Vector3,
+	Vector4,
+	WebGLRenderer,
+	WebGLRenderTarget,
+} from 'three';
 import { dressFur, type Fur, FurMotion, type FurMotionOptions } from '../../../web/fur/index.ts';
 import { loadFur } from '../../../web/measure/studio.ts';
 
@@ -36,8 +49,39 @@ function slow(growth = 0.9): () => number {
 	};
 }
 
+/** Bones by the fur they carry. */
+const bones = new WeakMap<Fur, readonly Bone[]>();
+
+/** Lets three bones carry a body: one more on the left, one on the right, one above. Call it before the first use of follicles. */
+function carry(fur: Fur): void {
+	const { geometry } = fur.shells;
+	const position = geometry.getAttribute('position');
+	geometry.computeBoundingBox();
+	const { min, max } = geometry.boundingBox as Box3;
+	const [joints, weights] = [new Float32Array(4 * position.count), new Float32Array(4 * position.count)];
+	for (let i = 0; i < position.count; i++) {
+		const along = (position.getX(i) - min.x) / (max.x - min.x);
+		const up = 0.3 * ((position.getY(i) - min.y) / (max.y - min.y));
+		joints.set([0, 1, 2, 0], 4 * i);
+		weights.set([(1 - up) * (1 - along), (1 - up) * along, up, 0], 4 * i);
+	}
+	geometry.setAttribute('skinIndex', new BufferAttribute(joints, 4));
+	geometry.setAttribute('skinWeight', new BufferAttribute(weights, 4));
+	const each = [new Bone(), new Bone(), new Bone()];
+	const placement = fur.shells.matrix.compose(fur.shells.position, fur.shells.quaternion, fur.shells.scale);
+	const skeleton = new Skeleton(
+		each,
+		each.map(() => placement.clone()),
+	);
+	const parent = fur.shells.parent as Object3D;
+	for (const bone of each) parent.add(bone);
+	Object.assign(fur.shells, { skeleton, bindMode: 'attached', bindMatrix: new Matrix4() });
+	bones.set(fur, each);
+}
+
 /** Gusts, a stroke and a body that is carried about. @param frame of 60 a second */
-function act({ shells, skin }: Fur, motion: FurMotion, frame: number): void {
+function act(fur: Fur, motion: FurMotion, frame: number): void {
+	const { shells, skin } = fur;
 	const t = frame / 60;
 	motion.wind.strength = 0.6;
 	motion.wind.gusts = 1;
@@ -45,6 +89,10 @@ function act({ shells, skin }: Fur, motion: FurMotion, frame: number): void {
 	const place = skin.parent ?? skin;
 	place.position.set(0.3 * Math.sin(4 * t), 0, 0);
 	place.rotation.set(0.3 * Math.sin(3 * t), t, 0);
+	for (const [i, bone] of (bones.get(fur) ?? []).entries()) {
+		bone.rotation.set(0.6 * Math.sin(5 * t + i), 0, 0.8 * i * Math.sin(4 * t));
+		bone.position.y = 0.1 * Math.sin(6 * t + 2 * i);
+	}
 	const { center, radius } = shells.geometry.boundingSphere ?? { center: new Vector3(), radius: 1 };
 	const at = (x: number) =>
 		new Vector3(center.x + x * radius, center.y + 0.5 * radius, center.z).applyMatrix4(shells.matrixWorld);
@@ -57,11 +105,12 @@ async function onGpu(url: string, options: FurMotionOptions = {}): Promise<{ fur
 	return { fur, motion: new FurMotion(fur, { ...options, renderer, clock: slow() }) };
 }
 
-/** Both go through the same for some seconds. */
-export async function agree(url: string, seconds: number) {
-	const fur = await loadFur(url);
+/** Both go through the same for some seconds. @param jointed whether bones carry them, which move too */
+export async function agree(url: string, seconds: number, jointed = false) {
+	const [fur, other] = [await loadFur(url), await loadFur(url)];
+	if (jointed) for (const each of [fur, other]) carry(each);
 	const cpu = new FurMotion(fur, { seed: 5 });
-	const { fur: other, motion: gpu } = await onGpu(url, { seed: 5 });
+	const gpu = new FurMotion(other, { seed: 5, renderer, clock: slow() });
 	const distances: number[] = [];
 	let [jump, swung, moved] = [0, 0, false];
 	for (let frame = 0; frame < 60 * seconds; frame++) {

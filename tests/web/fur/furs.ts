@@ -22,9 +22,8 @@ export interface Body {
 	readonly place: Group;
 }
 
-/** A fur of this surface. @param length of the longest, model units */
-export function bodyOf(geometry: BufferGeometry, length: number, scale = 1): Body {
-	const shells = new Mesh(geometry);
+/** A fur of this surface. @param length of the longest, model units; @param shells its mesh */
+export function bodyOf(geometry: BufferGeometry, length: number, scale = 1, shells = new Mesh(geometry)): Body {
 	shells.scale.setScalar(scale);
 	const place = new Group().add(shells);
 	const fur = {

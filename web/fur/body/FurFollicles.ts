@@ -35,6 +35,10 @@ export class FurFollicles {
 	readonly first: Uint32Array;
 	/** Neighbours along the surface's edges, each edge from both its ends. */
 	readonly links: Uint32Array;
+	/** Four bones that carry each, numbers in the skeleton; undefined: a body without a skeleton. */
+	readonly bones: Uint16Array | undefined;
+	/** Weight of each of the four. */
+	readonly boneWeights: Float32Array | undefined;
 	/** Attributes `follicle` by the position attribute of their geometry. */
 	readonly #marks = new WeakMap<Attribute, BufferAttribute>();
 
@@ -71,6 +75,7 @@ export class FurFollicles {
 			if (comb) vector.fromBufferAttribute(comb, i).toArray(this.comb, 3 * at);
 			if (fur) this.length[at] = fur.getY(i);
 		}
+		[this.bones, this.boneWeights] = bonesOf(surface, point, count);
 		[this.first, this.links] = neighbours(surface, point, count);
 		this.#marks.set(position, new BufferAttribute(Float32Array.from(point), 1));
 	}
@@ -140,6 +145,20 @@ function lowerBound(order: Uint32Array, before: (at: number) => boolean): number
 		else high = middle;
 	}
 	return low;
+}
+
+/** @param point follicle of each vertex, all of whose vertices hang on the same bones @returns bones and weights */
+function bonesOf(surface: BufferGeometry, point: Uint32Array, count: number): [Uint16Array?, Float32Array?] {
+	const [index, weight] = [surface.getAttribute('skinIndex'), surface.getAttribute('skinWeight')];
+	if (!index || !weight) return [];
+	const [numbers, weights] = [new Uint16Array(4 * count), new Float32Array(4 * count)];
+	for (const [i, at] of point.entries()) {
+		for (let c = 0; c < 4; c++) {
+			numbers[4 * at + c] = index.getComponent(i, c);
+			weights[4 * at + c] = weight.getComponent(i, c);
+		}
+	}
+	return [numbers, weights];
 }
 
 /** @param point follicle of each vertex @returns start of each one's neighbours, and the neighbours */

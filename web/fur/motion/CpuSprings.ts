@@ -1,5 +1,6 @@
 import { DataTexture, FloatType, RGBAFormat } from 'three';
 import { FOLLICLES_PER_ROW } from '../body/FurFollicles.ts';
+import { Blend } from './Blend.ts';
 import { type Drive, GUST, LEE, STRENGTHS, VEER } from './drive.ts';
 import type { Roots } from './roots.ts';
 import type { Strokes } from './Strokes.ts';
@@ -20,6 +21,7 @@ export class CpuSprings implements Solver, SpringStates {
 	readonly #roots: Roots;
 	readonly #spring: Spring;
 	readonly #strokes: Strokes;
+	readonly #blend: Blend;
 	readonly #texels: Float32Array;
 	/** SpringStates at the beginning and the end of the last sub-step. */
 	#before: Float32Array;
@@ -31,6 +33,7 @@ export class CpuSprings implements Solver, SpringStates {
 		this.#roots = roots;
 		this.#spring = spring;
 		this.#strokes = strokes;
+		this.#blend = new Blend(roots.joints);
 		this.#before = new Float32Array(STATE * count);
 		this.#after = new Float32Array(STATE * count);
 		this.#texels = new Float32Array(4 * FOLLICLES_PER_ROW * rows);
@@ -49,19 +52,29 @@ export class CpuSprings implements Solver, SpringStates {
 	}
 
 	// Long: one pass over the follicles reads each one's numbers once, which saves a quarter of the time.
-	step({ sag, gale, blow, gusts, waves, kick, kicks, fade }: Drive): void {
+	step(drive: Drive): void {
+		const { gale, gusts, waves, kicks, fade } = drive;
+		const { sag, blow, kick, place } = this.#blend;
 		const old = this.#after;
 		const states = this.#before;
 		this.#before = old;
 		this.#after = states;
-		const { follicles, comb, weights } = this.#roots;
+		const { follicles, joints, comb, weights } = this.#roots;
 		const { count, position, normal, length, first, links } = follicles;
 		const { offsets } = this.#strokes;
 		const { xx, xv, vx: vFromX, vv, fastest } = this.#spring;
 		const lanes = this.#strokes.widest > 0;
-		const [sagX, sagY, sagZ] = [sag[0] as number, sag[1] as number, sag[2] as number];
-		const [blowX, blowY, blowZ] = [blow[0] as number, blow[1] as number, blow[2] as number];
-		for (let i = 0, at = 0, s = 0; i < count; i++, at += 3, s += STATE) {
+		let [sagX, sagY, sagZ, blowX, blowY, blowZ] = [0, 0, 0, 0, 0, 0];
+		for (let i = 0, at = 0, s = 0, run = 0; i < count; i++, at += 3, s += STATE) {
+			if (i === joints.first[run]) {
+				this.#blend.set(drive, run++);
+				sagX = sag[0] as number;
+				sagY = sag[1] as number;
+				sagZ = sag[2] as number;
+				blowX = blow[0] as number;
+				blowY = blow[1] as number;
+				blowZ = blow[2] as number;
+			}
 			const nx = normal[at] as number;
 			const ny = normal[at + 1] as number;
 			const nz = normal[at + 2] as number;
@@ -81,11 +94,14 @@ export class CpuSprings implements Solver, SpringStates {
 				const facing = 0.5 + 0.5 * (nx * blowX + ny * blowY + nz * blowZ);
 				let force = gale * (1 - LEE * facing * facing);
 				if (gusts > 0) {
+					const x = row(place, 0, px, py, pz);
+					const y = row(place, 4, px, py, pz);
+					const z = row(place, 8, px, py, pz);
 					const gust =
-						STRENGTHS[0] * wave(waves, 0, px, py, pz) +
-						STRENGTHS[1] * wave(waves, 4, px, py, pz) +
-						STRENGTHS[2] * wave(waves, 8, px, py, pz);
-					const veer = VEER * gusts * force * wave(waves, 12, px, py, pz);
+						STRENGTHS[0] * wave(waves, 0, x, y, z) +
+						STRENGTHS[1] * wave(waves, 4, x, y, z) +
+						STRENGTHS[2] * wave(waves, 8, x, y, z);
+					const veer = VEER * gusts * force * wave(waves, 12, x, y, z);
 					force *= 1 + GUST * gusts * gust;
 					leadX += veer * (ny * blowZ - nz * blowY);
 					leadY += veer * (nz * blowX - nx * blowZ);
@@ -232,7 +248,7 @@ function wave(waves: Float32Array, at: number, x: number, y: number, z: number):
 }
 
 /** Row of a matrix with four columns times (position, 1). */
-function row(matrix: Float32Array, at: number, x: number, y: number, z: number): number {
+function row(matrix: Float64Array, at: number, x: number, y: number, z: number): number {
 	return (
 		(matrix[at] as number) * x +
 		(matrix[at + 1] as number) * y +

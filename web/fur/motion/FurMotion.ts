@@ -1,10 +1,10 @@
-import { Matrix4, type Mesh, type Texture, type Vector3, type WebGLRenderer } from 'three';
+import { Matrix4, type Mesh, type Object3D, type Texture, type Vector3, type WebGLRenderer } from 'three';
 import { FurAttachment } from '../body/FurAttachment.ts';
 import type { FurFollicles } from '../body/FurFollicles.ts';
 import type { FurAsset } from '../format.ts';
 import { BodyMotion } from './BodyMotion.ts';
 import { CpuSprings } from './CpuSprings.ts';
-import { calm } from './drive.ts';
+import { calm, type Drive } from './drive.ts';
 import { GpuSprings } from './GpuSprings.ts';
 import { completed, type FurMotionOptions } from './options.ts';
 import { type Roots, rootsOf } from './roots.ts';
@@ -44,7 +44,7 @@ export interface FurMotionBody {
  *     // each frame, before it is drawn
  *     fur.update(seconds);
  *
- * The body's node may be moved freely: `Fur.update` reads its placement. Other furs of the same body share it by
+ * The body's node and bones may be moved freely, by clips too: `Fur.update` reads their placements. Other furs of the same body share it by
  * `dressed.motion = motion`. Time advances in sub-steps of a thirtieth of a second at
  * any frame rate, shown one sub-step late. Without forces the fur falls asleep as it was baked, and costs nothing.
  */
@@ -53,7 +53,6 @@ export class FurMotion extends FurAttachment {
 	readonly wind: FurWind;
 	/** Gravity over the baked one: 0 is weightless. */
 	gravity: number;
-	readonly #body: FurMotionBody;
 	readonly #renderer: WebGLRenderer | undefined;
 	readonly #roots: Roots;
 	readonly #spring: Spring;
@@ -61,7 +60,8 @@ export class FurMotion extends FurAttachment {
 	readonly #bodyMotion: BodyMotion;
 	readonly #strokes: Strokes;
 	readonly #stopwatch: Stopwatch;
-	readonly #drive = calm();
+	readonly #drive: Drive;
+	readonly #shells: Object3D;
 	readonly #meshFromWorld = new Matrix4();
 	#solver: Solver;
 	/** Seconds since the end of the last sub-step. */
@@ -81,7 +81,6 @@ export class FurMotion extends FurAttachment {
 		super();
 		const { frequency, damping, coupling, relaxation, gravity, seed, clock } = completed(options);
 		const { shells, asset, follicles } = body;
-		this.#body = body;
 		this.#renderer = options.renderer;
 		this.gravity = gravity;
 		this.#roots = rootsOf(follicles, coupling);
@@ -89,7 +88,10 @@ export class FurMotion extends FurAttachment {
 		this.wind = this.#wind = new Wind(seed);
 		this.#strokes = new Strokes(follicles, relaxation);
 		const furLength = asset.length / shells.scale.x;
-		this.#bodyMotion = new BodyMotion(shells, follicles.position, furLength, this.#spring.pace);
+		const { joints } = this.#roots;
+		this.#bodyMotion = new BodyMotion(shells, follicles, joints, furLength, this.#spring.pace);
+		this.#shells = shells;
+		this.#drive = calm(joints.bones.length);
 		this.#stopwatch = new Stopwatch(BUDGET, clock);
 		this.#solver = new CpuSprings(this.#roots, this.#spring, this.#strokes);
 		body.motion = this;
@@ -135,14 +137,15 @@ export class FurMotion extends FurAttachment {
 	}
 
 	/**
-	 * Strokes the fur along a finger's path since the last frame; the lane fades over seconds.
+	 * Strokes the fur along a finger's path since the last frame; the lane fades over seconds. Points are on the skin, world
+	 * axes; on a body in a pose they are those of the body at rest where its node stands.
 	 *
-	 * @param from start on the skin, world axes
-	 * @param to end, world axes
+	 * @param from start
+	 * @param to end
 	 * @param radius of the lane, world units
 	 */
 	stroke(from: Vector3, to: Vector3, radius: number): void {
-		const { shells } = this.#body;
+		const shells = this.#shells;
 		shells.updateWorldMatrix(true, false);
 		const own = radius / shells.matrixWorld.getMaxScaleOnAxis();
 		if (!(own > 0)) return;
@@ -189,7 +192,7 @@ export class FurMotion extends FurAttachment {
 	#driven(moved: boolean): boolean {
 		const weight = this.#gravity;
 		const first = Number.isNaN(this.#weight);
-		const heavier = first ? this.#bodyMotion.sag(weight).lengthSq() > 0 : weight !== this.#weight;
+		const heavier = first ? this.#bodyMotion.sags(weight) : weight !== this.#weight;
 		this.#weight = weight;
 		const stirs = this.#wind.stirs();
 		return moved || heavier || stirs || this.#strokes.pending || !this.#bodyMotion.caughtUp() || this.#lost;
@@ -247,11 +250,10 @@ export class FurMotion extends FurAttachment {
 	/** Writes the forces of a sub-step. @param share of the frame at its end */
 	#pull(share: number, steady: boolean): void {
 		const drive = this.#drive;
-		const { center, radius } = this.#bodyMotion.sphere;
 		this.#bodyMotion.write(drive, share, this.#gravity);
-		this.#wind.write(drive, this.#bodyMotion.turn, center, radius, steady);
+		this.#wind.write(drive, steady);
 		drive.fade = this.#strokes.fade;
-		this.#bent = drive.gale > 0 || drive.sag[0] !== 0 || drive.sag[1] !== 0 || drive.sag[2] !== 0;
+		this.#bent = drive.gale > 0 || drive.sags;
 	}
 
 	#stepsToRest(): number {

@@ -12,7 +12,9 @@ import {
 	WebGLRenderTarget,
 } from 'three';
 import { FOLLICLES_PER_ROW } from '../body/FurFollicles.ts';
-import { type Drive, GUST, LEE, STRENGTHS, VEER, WAVES } from './drive.ts';
+import type { Joints } from '../body/joints/joints.ts';
+import { STEPS } from './Blend.ts';
+import { calm, type Drive, GUST, JOINT, LEE, STRENGTHS, VEER, WAVES } from './drive.ts';
 import type { Roots } from './roots.ts';
 import type { Strokes } from './Strokes.ts';
 import showFragment from './shaders/show.frag.glsl?raw';
@@ -25,6 +27,8 @@ const float = (value: number) => value.toFixed(6);
 
 const DEFINES = {
 	ROW: FOLLICLES_PER_ROW,
+	JOINT: JOINT / 4,
+	STEPS,
 	WAVES,
 	LIMIT: float(LIMIT),
 	LEE: float(LEE),
@@ -49,6 +53,8 @@ export class GpuSprings implements Solver {
 	/** SpringStates from the CPU: displacements before, displacements and velocities after the last sub-step. */
 	readonly #given: readonly [DataTexture, DataTexture, DataTexture];
 	readonly #offsets: DataTexture;
+	/** Joints of the last drive. */
+	readonly #motions: DataTexture;
 	readonly #tables: DataTexture[];
 	/** Version of the uploaded stroke offsets. */
 	#version = -1;
@@ -62,14 +68,15 @@ export class GpuSprings implements Solver {
 	};
 
 	/** Whether a GPU can draw to such targets and fits all follicles. */
-	static suits({ extensions, capabilities }: WebGLRenderer, { follicles }: Roots): boolean {
-		const rows = Math.ceil(Math.max(follicles.count, follicles.links.length) / FOLLICLES_PER_ROW);
+	static suits({ extensions, capabilities }: WebGLRenderer, { follicles, joints }: Roots): boolean {
+		const texels = Math.max(follicles.links.length, 4 * follicles.count, (JOINT / 4) * joints.bones.length);
+		const rows = Math.ceil(texels / FOLLICLES_PER_ROW);
 		return extensions.has('EXT_color_buffer_float') && rows <= capabilities.maxTextureSize;
 	}
 
 	/** @param states initial states */
 	constructor(renderer: WebGLRenderer, roots: Roots, spring: Spring, strokes: Strokes, states: SpringStates) {
-		const { follicles, comb, weights } = roots;
+		const { follicles, joints, comb, weights } = roots;
 		const { count, position, normal, length, first, links } = follicles;
 		const rows = Math.ceil(count / FOLLICLES_PER_ROW);
 		this.#renderer = renderer;
@@ -80,7 +87,9 @@ export class GpuSprings implements Solver {
 		const neighbours = (i: number) => (first[i + 1] as number) - (first[i] as number);
 		const combs = table(count, 4, (i, c) => (c < 3 ? (comb[3 * i + c] as number) : neighbours(i)));
 		const pairs = table(links.length, 2, (i, c) => (c === 0 ? links[i] : weights[i]) as number);
-		this.#tables = [places, normals, combs, pairs];
+		const carriers = table(4 * count, 2, carrierOf(joints));
+		this.#tables = [places, normals, combs, pairs, carriers];
+		this.#motions = texture(calm(joints.bones.length).joints, RGBAFormat);
 		const given = (from: Float32Array, part: number) =>
 			table(count, 4, (i, c) => (c < 3 ? (from[STATE * i + part + c] as number) : 0));
 		this.#given = [given(states.before, 0), given(states.after, 0), given(states.after, 3)];
@@ -95,17 +104,19 @@ export class GpuSprings implements Solver {
 				normals: { value: normals },
 				combs: { value: combs },
 				links: { value: pairs },
+				carriers: { value: carriers },
+				joints: { value: this.#motions },
 				offsets: { value: this.#offsets },
 				displacements: { value: after },
 				velocities: { value: velocities },
 				spring: { value: new Vector4(xx, xv, vx, vv) },
 				fastest: { value: fastest },
-				sag: { value: null },
+				pull: { value: null },
+				laid: { value: null },
 				blow: { value: null },
 				gale: { value: 0 },
 				gusts: { value: 0 },
 				waves: { value: null },
-				kick: { value: null },
 				fade: { value: 1 },
 			},
 			DEFINES,
@@ -137,6 +148,8 @@ export class GpuSprings implements Solver {
 			this.#version = this.#strokes.version;
 			this.#offsets.needsUpdate = true;
 		}
+		(this.#motions.image.data as Float32Array).set(drive.joints);
+		this.#motions.needsUpdate = true;
 		const target = this.#targets[this.#next];
 		for (const name of NAMES) (uniforms[name] as IUniform).value = drive[name];
 		this.#step.draw(this.#renderer, target);
@@ -188,12 +201,22 @@ export class GpuSprings implements Solver {
 	#free(): void {
 		for (const pass of [this.#step, this.#show]) pass.dispose();
 		for (const target of [...this.#targets, this.#shown]) target.dispose();
-		for (const table of [...this.#tables, ...this.#given, this.#offsets]) table.dispose();
+		for (const table of [...this.#tables, ...this.#given, this.#offsets, this.#motions]) table.dispose();
 	}
 }
 
 /** Uniforms copied from the drive. */
-const NAMES = ['sag', 'blow', 'gale', 'gusts', 'waves', 'kick', 'fade'] as const satisfies (keyof Drive)[];
+const NAMES = ['pull', 'laid', 'blow', 'gale', 'gusts', 'waves', 'fade'] as const satisfies (keyof Drive)[];
+
+/** Joint of each of a follicle's four carriers, and its weight. */
+function carrierOf({ first, joints, weights }: Joints): (carrier: number, channel: number) => number {
+	let run = 0;
+	return (carrier, channel) => {
+		while (carrier >= 4 * (first[run + 1] as number)) run++;
+		const at = 4 * run + (carrier % 4);
+		return (channel === 0 ? joints[at] : weights[at]) as number;
+	};
+}
 
 /** Texture with a texel of numbers per follicle. */
 function table(count: number, size: 2 | 4, value: (i: number, channel: number) => number): DataTexture {

@@ -1,6 +1,5 @@
 import { Vector3 } from 'three';
 import { type Drive, WAVES } from './drive.ts';
-import type { Turn } from './Turn.ts';
 
 /** Displacement of the longest tips by a storm from ahead, share of the length. */
 const LAY = 0.7;
@@ -79,14 +78,8 @@ export class Wind implements FurWind {
 		this.#travel += seconds * (BREATH + STORM * this.#force);
 	}
 
-	/**
-	 * Writes the wind's part of the drive.
-	 *
-	 * @param turn orientation of the body
-	 * @param centre centre of the body, and its radius, units of its mesh
-	 * @param steady whether to leave out gusts
-	 */
-	write(drive: Drive, turn: Turn, centre: Vector3, radius: number, steady: boolean): void {
+	/** Writes the wind's part of the drive. @param steady whether to leave out gusts */
+	write(drive: Drive, steady: boolean): void {
 		const along = this.#along.copy(this.direction).normalize();
 		const right = this.#right.set(along.z, 0, -along.x);
 		if (right.lengthSq() < 1e-6) right.set(1, 0, 0);
@@ -98,18 +91,11 @@ export class Wind implements FurWind {
 			wave.copy(along).multiplyScalar(this.#waves[4 * w] as number);
 			wave.addScaledVector(right, this.#waves[4 * w + 1] as number);
 			wave.addScaledVector(up, this.#waves[4 * w + 2] as number);
-			turn.toMesh(wave.multiplyScalar(turns / radius));
-			const start = (this.#waves[4 * w + 3] as number) - turns * (SPEED[w] as number) * this.#travel;
-			const phase = start - wave.dot(centre);
-			drive.waves[4 * w] = wave.x;
-			drive.waves[4 * w + 1] = wave.y;
-			drive.waves[4 * w + 2] = wave.z;
+			const phase = (this.#waves[4 * w + 3] as number) - turns * (SPEED[w] as number) * this.#travel;
+			wave.multiplyScalar(turns).toArray(drive.waves, 4 * w);
 			drive.waves[4 * w + 3] = phase - Math.floor(phase);
 		}
-		turn.toMesh(along);
-		drive.blow[0] = along.x;
-		drive.blow[1] = along.y;
-		drive.blow[2] = along.z;
+		along.toArray(drive.blow);
 		drive.gale = LAY * this.#force;
 		drive.gusts = steady ? 0 : share(this.gusts);
 	}

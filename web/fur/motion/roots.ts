@@ -1,11 +1,13 @@
 /** Follicles prepared for both solvers. */
 
 import type { FurFollicles } from '../body/FurFollicles.ts';
+import { type Joints, jointsOf } from '../body/joints/joints.ts';
 import { LIMIT } from './spring.ts';
 
-/** Follicles with comb and coupling weights. */
+/** Follicles with their joints, comb and coupling weights. */
 export interface Roots {
 	readonly follicles: FurFollicles;
+	readonly joints: Joints;
 	/** Comb projected to the tangent plane and clamped to the limit, so that the rest is within it. */
 	readonly comb: Float32Array;
 	/** Weight of each link: share of the neighbour's difference taken over in a sub-step. */
@@ -33,5 +35,5 @@ export function rootsOf(follicles: FurFollicles, coupling: number): Roots {
 		for (let link = first[i] as number; link < (first[i + 1] as number); link++)
 			weights[link] = (0.5 * coupling) / (1 + Math.max(degree(i), degree(links[link] as number)));
 	}
-	return { follicles, comb, weights };
+	return { follicles, joints: jointsOf(follicles), comb, weights };
 }

@@ -60,6 +60,15 @@ function solverOf(follicles: FurFollicles, coupling: number, frequency = 2.4, da
 const at = (values: Float32Array, i: number, stride = 3, from = 0) =>
 	[...values.subarray(stride * i + from, stride * i + from + 3)] as Vector;
 
+/** Rows of the velocity that the skin of a body adds. */
+const kick = ({ joints }: Drive) => joints.subarray(12, 24);
+
+/** Gravity of a body that is not turned. */
+function pull(drive: Drive, displacement: Vector): void {
+	drive.pull.set(displacement);
+	drive.sags = true;
+}
+
 describe('springOf', () => {
 	it.each([
 		[2.4, 0.22],
@@ -119,13 +128,13 @@ describe('CpuSprings', () => {
 		};
 		const kicks = Array.from({ length: count }, (_, i) => {
 			const p = at(follicles.position, i);
-			const row = (r: number) => dot(at(drive.kick, r, 4), p) + (drive.kick[4 * r + 3] as number);
+			const row = (r: number) => dot(at(kick(drive), r, 4), p) + (kick(drive)[4 * r + 3] as number);
 			return flat([row(0), row(1), row(2)], normal(i)).map((c) => c * (follicles.length[i] as number)) as Vector;
 		});
 		for (let step = 0; step < steps; step++) {
 			[x, v] = [give(x), give(v)];
 			for (let i = 0; i < count; i++) {
-				const pull = flat([...drive.sag] as Vector, normal(i)).map(
+				const pull = flat([...drive.pull] as Vector, normal(i)).map(
 					(c) => pace ** 2 * (follicles.length[i] as number) * c,
 				) as Vector;
 				let [y, u] = [x[i] as Vector, plus(v[i] as Vector, kicks[i] as Vector, 0.5)];
@@ -150,9 +159,9 @@ describe('CpuSprings', () => {
 		const follicles = patch(6, edges);
 		const { solver } = solverOf(follicles, coupling);
 		const drive = calm();
-		drive.sag.set([0.1, -0.05, 0.07]);
+		pull(drive, [0.1, -0.05, 0.07]);
 		const next = noise();
-		drive.kick.set(Float32Array.from({ length: 12 }, () => 0.05 * next()));
+		kick(drive).set(Float32Array.from({ length: 12 }, () => 0.05 * next()));
 		drive.kicks = true;
 		for (let step = 0; step < 40; step++) solver.step(drive);
 		const ideal = oracle(follicles, coupling, drive, 40, 2.4, 0.22);
@@ -228,8 +237,8 @@ describe('CpuSprings', () => {
 		drive.kicks = true;
 		const next = noise();
 		for (let step = 0; step < 200; step++) {
-			drive.sag.set([30 * next(), 30 * next(), 30 * next()]);
-			drive.kick.set(Float32Array.from({ length: 12 }, () => 200 * next()));
+			pull(drive, [30 * next(), 30 * next(), 30 * next()]);
+			kick(drive).set(Float32Array.from({ length: 12 }, () => 200 * next()));
 			solver.step(drive);
 			for (let i = 0; i < 6; i++) {
 				const x = at(solver.after, i, 6);
@@ -242,7 +251,7 @@ describe('CpuSprings', () => {
 	it('shows what lies between two sub-steps', () => {
 		const { solver } = solverOf(patch(6, edges), 0.3);
 		const drive = calm();
-		drive.sag.set([0.2, 0, 0]);
+		pull(drive, [0.2, 0, 0]);
 		for (let step = 0; step < 5; step++) solver.step(drive);
 		solver.show(0.25);
 		const texels = solver.swing.image.data as Float32Array;
