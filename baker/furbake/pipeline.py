@@ -127,7 +127,7 @@ def _fins(body: Body, options: BakeOptions, dry: Pelt) -> Fins | None:
 
 def _motion(body: Body) -> Motion | None:
     """What moves a body; None where nothing does."""
-    rig, skin, ground = getattr(body.skin, "rig", None), body.skin, body.ground
+    rig, skin, ground = body.skin.rig, body.skin, body.ground
     if rig is None:
         return None
     follows = follow(rig, skin.vertices, skin.normals)
