@@ -126,7 +126,7 @@ def _fins(body: Body, options: BakeOptions, dry: Pelt) -> Fins | None:
 
 
 def _motion(body: Body) -> Motion | None:
-    """What moves a body; None where nothing does."""
+    """The rig of a body and how its surfaces follow it; None where nothing moves it."""
     rig, skin, ground = body.skin.rig, body.skin, body.ground
     if rig is None:
         return None

@@ -79,7 +79,9 @@ def shapes(vertices: Any) -> tuple[Target, ...]:
     bump = np.maximum(vertices[:, 0] - 3.4, 0.0)[:, None] * np.array([0.0, 0.8, 0.3])
     angle = 0.5 * vertices[:, 0] / 4
     _, y, z = vertices.T
-    twist = np.stack([0 * y, (np.cos(angle) - 1) * y - np.sin(angle) * z, np.sin(angle) * y + (np.cos(angle) - 1) * z], 1)
+    twist = np.stack(
+        [0 * y, (np.cos(angle) - 1) * y - np.sin(angle) * z, np.sin(angle) * y + (np.cos(angle) - 1) * z], 1
+    )
     return Target("bump", bump), Target("twist", twist, 0.25)
 
 
