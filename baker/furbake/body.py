@@ -72,7 +72,7 @@ def load_surface(model: str, max_faces: int | None = None) -> Surface:
 def prepare(model: str, options: BakeOptions) -> Body:
     """Read `model` and lay its fur. Raises MeshError or OptionError, each with one sentence."""
     skin = load_surface(model, options.max_faces)
-    ground = simplify(skin, shell_faces(ROOM))
+    ground = simplify(skin, shell_faces(ROOM, joints=skin.rig is not None and len(skin.rig.joints) > 0))
     size = sized(ground, skin.extent, options)
     maps = brought(ground)
     if options.length_map is not None:

@@ -126,8 +126,8 @@ def _fins(body: Body, options: BakeOptions, dry: Pelt) -> Fins | None:
 
 
 def _motion(body: Body) -> Motion | None:
-    """What moves a body; None where nothing does."""
-    rig, skin, ground = getattr(body.skin, "rig", None), body.skin, body.ground
+    """The rig of a body and how its surfaces follow it; None where nothing moves it."""
+    rig, skin, ground = body.skin.rig, body.skin, body.ground
     if rig is None:
         return None
     follows = follow(rig, skin.vertices, skin.normals)

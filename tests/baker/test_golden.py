@@ -18,6 +18,7 @@ from furbake.pelt.texels.basis import PTM, Basis
 from furbake.pelt.texels.fit import relight
 from furbake.pelt.texels.quantise import dequantise
 from furbake.study.bend import law, relit
+from helpers.moving import Moving
 
 GOLDEN = Path(__file__).parents[1] / "golden"
 CURVED = GOLDEN / "ptm-6-curves"
@@ -43,7 +44,7 @@ def test_stored_bytes_give_the_expected_light(name: str) -> None:
     assert expected.max() > 1
 
 
-@pytest.mark.parametrize("name", [*NAMES, "ptm-6-curves", "states"])
+@pytest.mark.parametrize("name", [*NAMES, "ptm-6-curves", "states", "character"])
 def test_golden_assets_are_valid_but_for_the_record_of_a_bake(name: str) -> None:
     problems = validate(GOLDEN / name)
     assert [problem for problem in problems if not problem.startswith("bake.json")] == []
@@ -118,3 +119,21 @@ def test_curves_give_the_expected_moments_of_an_environment(curved: Pelt) -> Non
     given = json.loads((CURVED / "environment.json").read_text("utf-8"))
     for beta, expected in zip(given["bodies"], given["shells"], strict=True):
         np.testing.assert_allclose(curved.curves.environment(PTM, beta), expected, atol=2e-4)
+
+
+def test_the_golden_character_is_posed_as_expected() -> None:
+    """The file's own numbers give the stored poses: skin, shells and fins of a vertex stay together in all of them."""
+    folder = GOLDEN / "character"
+    found = Moving(folder / "model.gltf")
+    poses = json.loads((folder / "poses.json").read_text("utf-8"))
+    expected = np.fromfile(folder / "posed.f32", "<f4").reshape(len(poses), -1)
+    rest = [found.posed(node, pose={0: {"weights": (0, 0)}}, skin=0)["POSITION"] for node in range(3)]
+    for pose, row in zip(poses, expected, strict=True):
+        moved = found.clip(pose["clip"], pose["seconds"])
+        parts = [found.posed(node, pose=moved, skin=0) for node in range(3)]
+        right = np.concatenate([values.ravel() for part in parts for values in part.values()])
+        np.testing.assert_allclose(row, right, atol=1e-5)
+        for still, part in zip(rest[1:], parts[1:], strict=True):
+            nearest = np.linalg.norm(still[:, None] - rest[0][None], axis=2).argmin(axis=1)
+            np.testing.assert_allclose(part["POSITION"], parts[0]["POSITION"][nearest], atol=1e-6)
+    assert np.abs(expected[2] - expected[0]).max() > 0.3

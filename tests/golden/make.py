@@ -21,12 +21,17 @@ where hairs are bent by each of `BENDS` (tips along T and B, shares of the lengt
 of which one is below the horizon: `bent.f32` is [body, light, bend, row, column] of its top layer. `environment.json`
 has, for each body, the integrals over the sphere of harmonics × φ × curve: `shells` [body][curve][coefficient][9] and
 `fins`, by plain sums over 640 × 256 directions.
+
+`character` is of version 2.1: a coarse torus of two joints and two morph targets, with fins. `poses.json` has a clip with
+seconds in it for each pose; `posed.f32` what plain sums make of the file then, scene space: [pose][number], for skin,
+shells and fins one after the other the places of all vertices, then their normals, then their tangents (not of the skin).
 """
 
 from __future__ import annotations
 
 import json
 import shutil
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -49,6 +54,7 @@ from expected import (
 )
 
 from furbake.asset.gltf import FurModel, write_gltf
+from furbake.asset.rig.motion import Motion
 from furbake.pelt.curves import Curves
 from furbake.pelt.hairs.ramp import Ramp
 from furbake.pelt.hairs.states import PeltState
@@ -57,9 +63,15 @@ from furbake.pelt.texels.basis import Basis
 from furbake.surface.charts import laid
 from furbake.surface.place.fins import build_fins
 from furbake.surface.place.vertex_fur import VertexFur
+from furbake.surface.rig.follow import follow
 from furbake.surface.shapes import builtin
 
 HERE = Path(__file__).parent
+sys.path.append(str(HERE.parent / "baker"))
+from helpers.characters import ring  # noqa: E402
+from helpers.moving import Moving  # noqa: E402
+
+POSES = ((0, 0.0), (0, 0.2), (0, 0.5), (0, 0.8))
 
 
 VARIANTS = {"ptm-6": ("ptm", 6), "eigen-6": ("eigen", 6), "eigen-3": ("eigen", 3)}
@@ -155,6 +167,29 @@ def golden_lights() -> np.ndarray:
     return np.stack([across * np.cos(azimuth), across * np.sin(azimuth), z], -1)
 
 
+def golden_character() -> None:
+    """Write the character with its poses."""
+    folder = HERE / "character"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    surface, rig = ring()
+    charts = surface.natural.charts(0.5)
+    pelt = golden_curves(replace(golden_pelt("ptm", 6), fin=golden_fin()))
+    fins = build_fins(surface, laid(charts, surface.normals), 0.5, 0.2)
+    follows = follow(rig, surface.vertices, surface.normals)
+    comb = 0.4 * laid(charts, surface.normals)
+    fur = replace(VertexFur.even(len(surface.vertices)), comb=comb)
+    motion = Motion(rig, follows, follows)
+    write_gltf(folder, FurModel(surface, charts, fur, (pelt,), 0.2, fins, motion=motion))
+    found = Moving(folder / "model.gltf")
+    poses = [found.clip(clip, seconds) for clip, seconds in POSES]
+    parts = [[found.posed(node, pose=pose, skin=0) for node in range(3)] for pose in poses]
+    numbers = [[values.ravel() for part in pose for values in part.values()] for pose in parts]
+    np.stack([np.concatenate(row) for row in numbers]).astype("<f4").tofile(folder / "posed.f32")
+    told = [{"clip": clip, "seconds": seconds} for clip, seconds in POSES]
+    (folder / "poses.json").write_text(json.dumps(told) + "\n", "utf-8")
+
+
 def main() -> None:
     """Write all variants anew."""
     lights = golden_lights()
@@ -204,6 +239,7 @@ def main() -> None:
     (folder / "weather.json").write_text(json.dumps({"lights": few.tolist(), "weathers": weathers}) + "\n", "utf-8")
     radiance = [expected_weather(pelts, wetness, dirt, few) for wetness, dirt in WEATHERS]
     np.stack(radiance).astype("<f4").tofile(folder / "weather.f32")
+    golden_character()
 
 
 if __name__ == "__main__":

@@ -52,7 +52,7 @@ class Buffer:
 
     def displacements(self, values: NDArray[Any], bounds: bool = False) -> int:
         """Index of a new accessor (count, width) of a morph target; sparse where most of it is 0."""
-        count, width = values.shape
+        count = len(values)
         rows = np.flatnonzero((values != 0).any(axis=1))
         rows = rows if len(rows) else np.zeros(1, dtype=np.int64)  # a sparse accessor has one at least
         if 2 * len(rows) > count:
@@ -86,9 +86,7 @@ class Buffer:
         short = vertices <= 65535
         view = self._view(faces.astype("<u2" if short else "<u4").tobytes(), target=ELEMENT_ARRAY_BUFFER)
         component = UNSIGNED_SHORT if short else UNSIGNED_INT
-        return self._append(
-            {"bufferView": view, "componentType": component, "count": faces.size, "type": "SCALAR"}
-        )
+        return self._append({"bufferView": view, "componentType": component, "count": faces.size, "type": "SCALAR"})
 
     def _view(self, data: bytes, **properties: int) -> int:
         self.data.extend(bytes(-len(self.data) % 4))

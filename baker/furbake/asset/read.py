@@ -74,9 +74,7 @@ class Asset:
         values[rows] = self._elements(index, sparse["values"], kind, width, some)
         return values[:, 0] if width == 1 else values
 
-    def _elements(
-        self, index: int, place: dict[str, Any], kind: np.dtype[Any], width: int, count: int
-    ) -> NDArray[Any]:
+    def _elements(self, index: int, place: dict[str, Any], kind: np.dtype[Any], width: int, count: int) -> NDArray[Any]:
         """(count, width) elements at the `bufferView` and `byteOffset` of a place in accessor `index`."""
         view = self.document["bufferViews"][_index(place["bufferView"])]
         inner, stride = _index(place.get("byteOffset", 0)), _index(view.get("byteStride", 0))

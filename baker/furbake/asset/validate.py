@@ -54,7 +54,22 @@ def validate(folder: Path) -> list[str]:
     problems = [f"{EXTENSION}: {_where(error)}{error.message}" for error in schema().iter_errors(fur)]
     if problems:  # the other checks need a document that fits the schema
         return problems
-    checks = (_document, tree, _nodes, _skin, _shells, _fins, joints, targets, clips, pelts, curves, multiple, states, _record)
+    checks = (
+        _document,
+        tree,
+        _nodes,
+        _skin,
+        _shells,
+        _fins,
+        joints,
+        targets,
+        clips,
+        pelts,
+        curves,
+        multiple,
+        states,
+        _record,
+    )
     for check in checks:
         try:
             problems.extend(check(asset))

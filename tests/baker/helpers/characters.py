@@ -8,8 +8,7 @@ import numpy as np
 
 from furbake.surface.mesh import Surface, clean
 from furbake.surface.rig.rig import BODY, Channel, Clip, Rig, RigNode, Target
-
-HALF = np.sqrt(0.5)
+from furbake.surface.shapes import builtin
 
 
 def turned(axis: tuple[float, float, float], degrees: float) -> np.ndarray[Any, Any]:
@@ -79,7 +78,9 @@ def shapes(vertices: Any) -> tuple[Target, ...]:
     bump = np.maximum(vertices[:, 0] - 3.4, 0.0)[:, None] * np.array([0.0, 0.8, 0.3])
     angle = 0.5 * vertices[:, 0] / 4
     _, y, z = vertices.T
-    twist = np.stack([0 * y, (np.cos(angle) - 1) * y - np.sin(angle) * z, np.sin(angle) * y + (np.cos(angle) - 1) * z], 1)
+    twist = np.stack(
+        [0 * y, (np.cos(angle) - 1) * y - np.sin(angle) * z, np.sin(angle) * y + (np.cos(angle) - 1) * z], 1
+    )
     return Target("bump", bump), Target("twist", twist, 0.25)
 
 
@@ -99,3 +100,43 @@ def clips(joints: int, targets: bool) -> tuple[Clip, ...]:
     if targets:
         found.append(Clip("shapes", (Channel(BODY, "weights", keys, np.array([[0.0, 0], [1, 0.5], [0.2, 1]])),)))
     return tuple(found)
+
+
+def ring() -> tuple[Surface, Rig]:
+    """A coarse torus of two joints below a node: a root, and one that has its half with x > 0.
+
+    Two targets: a bulge on the other half, and a twist of all. One clip, `walk`: LINEAR, STEP and CUBICSPLINE.
+    """
+    surface = builtin("torus:12x8")
+    vertices = surface.vertices
+    share = np.clip(vertices[:, 0] / np.ptp(vertices[:, 0]) * 2 + 0.5, 0, 1)
+    zero = np.zeros(len(vertices), dtype=np.int64)
+    inverse = np.stack([np.eye(4), np.eye(4)])
+    inverse[1, :3, 3] = (-0.2, 0, 0)
+    bulge = np.maximum(-vertices[:, 0], 0.0)[:, None] * np.array([0.0, 0.5, 0.2])
+    x, y, z = vertices.T
+    twist = np.stack([0 * x, -0.4 * x * z, 0.4 * x * y], axis=1)
+    keys = np.array([0.0, 0.5, 1.0])
+    spline = np.zeros((9, 3))
+    spline[1::3, 0], spline[2::3, 1], spline[0::3, 2] = (0.2, 0.3, 0.1), 0.4, -0.3
+    walk = Clip("walk", (
+        Channel(1, "rotation", keys, np.array([turned((0, 0.6, 0.8), angle) for angle in (0, 20, -10)])),
+        Channel(2, "rotation", keys, np.array([turned((0, 0, 1), angle) for angle in (0, 60, -30)])),
+        Channel(2, "translation", keys, spline, "CUBICSPLINE"),
+        Channel(2, "scale", keys, np.array([[1.0, 1, 1], [1.25, 1.25, 1.25], [0.8, 0.8, 0.8]]), "STEP"),
+        Channel(BODY, "weights", keys, np.array([[0.0, 0], [1, 0.5], [0.25, 1]])),
+    ))  # fmt: skip
+    nodes = (node("stand", -1, (0, 1, 0), turned((0, 0, 1), 90), 0.5),
+             node("root", 0, (-2, 0, 0), turned((0, 0, 1), -90), 2.0), node("half", 1, (0.2, 0, 0)))  # fmt: skip
+    return surface, Rig(
+        nodes=nodes,
+        joints=(1, 2),
+        inverse_bind=inverse,
+        vertices=vertices,
+        posed=vertices,
+        faces=surface.faces,
+        which=np.stack([zero, zero + 1, zero, zero], axis=1),
+        shares=np.stack([1 - share, share, 0 * share, 0 * share], axis=1),
+        targets=(Target("bulge", bulge), Target("twist", twist)),
+        clips=(walk,),
+    )

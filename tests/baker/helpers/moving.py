@@ -52,7 +52,9 @@ class Moving:
         if "sparse" in record:
             sparse = record["sparse"]
             where, what = sparse["indices"], sparse["values"]
-            rows = self._raw(where["bufferView"], where.get("byteOffset", 0), where["componentType"], 1, sparse["count"])
+            rows = self._raw(
+                where["bufferView"], where.get("byteOffset", 0), where["componentType"], 1, sparse["count"]
+            )
             values[rows[:, 0]] = self._raw(what["bufferView"], what.get("byteOffset", 0), kind, width, sparse["count"])
         return values
 

@@ -1,1 +1,1 @@
-"""What moves a body, as glTF stores it: skin, joints, morph targets, animations."""
+"""Motion of a body as glTF stores it: skin, joints, morph targets, animations."""

@@ -1,4 +1,4 @@
-"""What moves a body, as the writer takes it."""
+"""Motion of a body as the writer takes it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from furbake.surface.rig.rig import Rig
 
 @dataclass(frozen=True)
 class Motion:
-    """What moves a body, and how the vertices follow: of the skin, and of the surface below shells and fins.
+    """A rig, and how vertices follow it: of the skin, and of the surface below shells and fins.
 
     Where the rig has a pose both surfaces are given in it, and stored in the bind pose.
     """

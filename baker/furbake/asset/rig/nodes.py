@@ -10,8 +10,8 @@ from scipy.spatial.transform import Rotation
 from furbake.asset.buffer import Buffer, numbers
 from furbake.asset.rig.clips import animations
 from furbake.asset.rig.motion import Motion
-from furbake.surface.place.features import Feature, nearest
 from furbake.surface.mesh import Surface
+from furbake.surface.place.features import Feature, nearest
 from furbake.surface.rig.rig import Floats, Rig, RigNode
 
 Record = dict[str, Any]
@@ -22,7 +22,12 @@ THIN = 1e-9
 
 
 def rigged(
-    nodes: list[Record], features: tuple[Feature, ...], motion: Motion | None, surface: Surface, grid: Grid, buffer: Buffer
+    nodes: list[Record],
+    features: tuple[Feature, ...],
+    motion: Motion | None,
+    surface: Surface,
+    grid: Grid,
+    buffer: Buffer,
 ) -> tuple[list[int], Record]:
     """Everything of a rig that is no vertex: its nodes are appended, and skin and clips are stored.
 

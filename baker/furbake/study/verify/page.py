@@ -135,12 +135,16 @@ def coloured_copy(asset: Asset, folder: Path) -> None:
 
 
 def _plain(document: dict[str, Any], skin: float) -> None:
-    """Give a model one grey and no pictures."""
+    """Give a model one grey and no pictures; nothing moves it out of the bind pose."""
     plain = {"baseColorFactor": [skin, skin, skin, 1.0], "metallicFactor": 0.0, "roughnessFactor": 1.0}
     document["materials"] = [{"pbrMetallicRoughness": plain} for _ in document.get("materials", [])]
     for name in ("textures", "samplers"):
         document.pop(name, None)
+    document.pop("animations", None)
+    for node in document["nodes"]:
+        node.pop("skin", None)
     for mesh in document["meshes"]:
+        mesh.pop("weights", None)
         for primitive in mesh["primitives"]:
             primitive["attributes"].pop("COLOR_0", None)
 

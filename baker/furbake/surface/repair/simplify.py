@@ -14,8 +14,8 @@ from furbake.surface.soup import Soup
 TRIES = (3.0, 5.0, 8.0, 14.0)
 """Growing eagerness of the collapse (the library's own choice, 7, folds faces over): more only where less stalls."""
 
-VERTEX_BYTES = 32
-"""Bytes of a shell or fin vertex."""
+VERTEX_BYTES, JOINT_BYTES = 32, 8
+"""Bytes of a shell or fin vertex, and of its joints and weights where the model has some."""
 
 COPIES = 1.9
 """Faces of the shells per face below them: lapped patches overlap."""
@@ -42,8 +42,9 @@ def decimate(soup: Soup, faces: int) -> Soup:
     return carry(soup, shape * extent + low, now)
 
 
-def shell_faces(room: float, index_bytes: int = 4) -> int:
+def shell_faces(room: float, index_bytes: int = 4, joints: bool = False) -> int:
     """How many faces the copy of a surface may have so that its shells and fins fit in `room` bytes."""
-    shells = COPIES * (0.65 * VERTEX_BYTES + 3 * index_bytes)
-    fins = EDGES * (4 * VERTEX_BYTES + 6 * index_bytes)
+    vertex = VERTEX_BYTES + (JOINT_BYTES if joints else 0)
+    shells = COPIES * (0.65 * vertex + 3 * index_bytes)
+    fins = EDGES * (4 * vertex + 6 * index_bytes)
     return int(room / (shells + fins))

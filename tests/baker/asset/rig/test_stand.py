@@ -19,7 +19,7 @@ from helpers.moving import Moving
 
 SKIN, SHELLS, FINS = 0, 1, 2
 BYTE_WEIGHTS = 1.5 / 255
-"""What weights in bytes may move a vertex aside, model units per unit that its joints are apart."""
+"""Displacement that weights in bytes may cause, model units."""
 
 
 def worlds(rig: Rig, moved: dict[int, dict[str, Any]]) -> list[Any]:

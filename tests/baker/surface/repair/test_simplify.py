@@ -72,10 +72,11 @@ def test_result_repeats() -> None:
     np.testing.assert_array_equal(one.faces, two.faces)
 
 
-def test_shell_faces_fit() -> None:
-    faces = shell_faces(8e6)
+@pytest.mark.parametrize(("joints", "vertex"), [(False, 32), (True, 40)])
+def test_shell_faces_fit(joints: bool, vertex: int) -> None:
+    faces = shell_faces(8e6, joints=joints)
     # Shells: 1.9 faces of 3 indices and 0.65 vertices for one; fins: 1.5 quads.
-    weight = 1.9 * (0.65 * 32 + 12) + 1.5 * (4 * 32 + 24)
+    weight = 1.9 * (0.65 * vertex + 12) + 1.5 * (4 * vertex + 24)
     assert faces * weight <= 8e6 < (faces + 1) * weight
     assert 20_000 < faces < 40_000
 
