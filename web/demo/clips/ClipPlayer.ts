@@ -130,6 +130,17 @@ export class ClipPlayer {
 		return true;
 	}
 
+	/** Brings the body to several moments of its loop in turn, evenly spread from the present one, and back to that. */
+	eachPhase(count: number, call: (phase: number) => void): void {
+		const { action } = this.#track;
+		const { time } = action;
+		for (let phase = count - 1; phase >= 0; phase--) {
+			action.time = phase === 0 ? time : (time + (phase / count) * this.duration) % (this.duration || 1);
+			this.#apply();
+			call(phase);
+		}
+	}
+
 	/** Box around the body in its pose, from its place in the file. */
 	poseBox(target: Box3): Box3 {
 		this.#track.reach.boxAt(this.time, target);

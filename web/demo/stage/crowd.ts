@@ -4,6 +4,7 @@ import { Group, InstancedMesh, Matrix4, Vector3 } from 'three';
 import { type Fur, FurInstances } from '../../fur/index.ts';
 import { ContactShadow } from '../../page/ground.ts';
 import { random } from '../../page/random.ts';
+import type { ClipPlayer } from '../clips/ClipPlayer.ts';
 import { MAX_CROWD } from '../state/view.ts';
 import { footing } from './footing.ts';
 import type { Model } from './model.ts';
@@ -79,6 +80,7 @@ export class Crowd extends Group {
 			const place = foot.clone().applyMatrix4(matrix).negate().add(foot);
 			matrix.setPosition(place.add(new Vector3(x, 0, z).multiplyScalar(this.#room)));
 			this.#instances.setMatrixAt(i, matrix);
+			this.#instances.setPoseAt(i, i % FurInstances.maxPoses);
 			this.#shadows.setMatrixAt(i, matrix.multiply(this.#shadow.matrix));
 		}
 		this.add(this.#shadows, this.#instances);
@@ -87,6 +89,11 @@ export class Crowd extends Group {
 	/** Height of the picture in pixels, for the levels of detail in the first frame. */
 	set pictureHeight(pixels: number) {
 		this.#instances.height = pixels;
+	}
+
+	/** Brings the bodies to the clip, in step with the first or a part of the loop ahead. */
+	pose(clips: ClipPlayer): void {
+		clips.eachPhase(FurInstances.maxPoses, (phase) => this.#instances.capturePose(phase));
 	}
 
 	/** Number of bodies shown, around the model's own place. */

@@ -166,6 +166,7 @@ export class Stage {
 			this.reframed = true;
 		}
 		const ground = footing({ ...model, fur });
+		if (model.clips) this.#crowd?.pose(model.clips);
 		if (model.clips) model.clips.poseBox(this.#pose);
 		else this.#pose.copy(model.box);
 		this.#shadow.fit(this.#pose, fur?.shells.furLength ?? 0, ground);

@@ -44,6 +44,8 @@ const eye: Eye = [0, 0, 0, 1];
  * middle of its bodies. Nothing is uploaded while neither camera nor bodies move.
  */
 export class FurInstances extends Object3D {
+	/** Poses that bodies with joints can share. */
+	static readonly maxPoses = MAX_POSES;
 	/** Flag by which the renderer decides to call `update`. */
 	readonly isLOD = true;
 	/** Whether the renderer calls `update` before every picture. */
