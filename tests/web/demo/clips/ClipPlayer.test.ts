@@ -66,6 +66,19 @@ describe('a clip', () => {
 		expect(clips.time).toBeCloseTo(0.25);
 	});
 
+	it('shows moments of its loop for a crowd, evenly spread from the present one, and comes back', () => {
+		const { clips, bend } = player();
+		clips.hold(0.5);
+		clips.step(0);
+		const seen = new Map<number, number>();
+		clips.eachPhase(4, (phase) => seen.set(phase, bend()));
+		// Bent by a quarter turn in a second, and back in the next.
+		for (const [phase, angle] of [Math.PI / 4, Math.PI / 2, Math.PI / 4, 0].entries())
+			expect(seen.get(phase)).toBeCloseTo(angle, 6);
+		expect([clips.time, clips.playing]).toEqual([0.5, false]);
+		expect(bend()).toBeCloseTo(Math.PI / 4, 6);
+	});
+
 	it('fades into the next in 0.3 s while it plays, without a jump', () => {
 		const { clips, bend, root } = player();
 		clips.play();
