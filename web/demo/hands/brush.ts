@@ -14,6 +14,7 @@ import {
 	Vector3,
 } from 'three';
 import type { Fur } from '../../fur/index.ts';
+import { PosedSkin } from './PosedSkin.ts';
 
 const outwards = new Vector3(0, 0, 1);
 
@@ -43,6 +44,7 @@ export class Brush extends Mesh<PlaneGeometry, MeshBasicMaterial> {
 	readonly rest = new Vector3();
 	readonly normal = new Vector3();
 	readonly #caster = new Raycaster();
+	readonly #skin = new PosedSkin();
 	readonly #hits: Intersection[] = [];
 
 	constructor() {
@@ -64,13 +66,12 @@ export class Brush extends Mesh<PlaneGeometry, MeshBasicMaterial> {
 	aim(pointer: Vector2, camera: Camera, body: { skin: Object3D } & Pick<Fur, 'restPoint'>): boolean {
 		this.#hits.length = 0;
 		this.#caster.setFromCamera(pointer, camera);
-		this.#caster.intersectObject(body.skin, true, this.#hits);
+		this.#skin.intersect(this.#caster, body.skin, this.#hits);
 		const [hit] = this.#hits;
 		if (!hit) return false;
 		this.place.copy(hit.point);
 		body.restPoint(hit, this.rest);
-		const normal = hit.normal ?? hit.face?.normal ?? outwards;
-		this.normal.copy(normal).transformDirection(hit.object.matrixWorld);
+		this.normal.copy(hit.normal ?? outwards);
 		return true;
 	}
 
