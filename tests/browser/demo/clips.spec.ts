@@ -1,5 +1,6 @@
 /** Clips of a rigged model: played, held, scrubbed and chosen, in the panel and in the address; and nothing of them elsewhere. */
 
+import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
 import { CLIPS, type Clip, type Files, rigged } from '../../web/demo/clips/rigged.ts';
 import { expect, open, settled, state, test } from '../harness.ts';
@@ -195,4 +196,18 @@ test('a rigged model that is dropped moves: baked with its fur; unbaked, with wo
 	await expect(said(page)).toContainText('npm run bake -- cat.gltf -o public/models/cat');
 	await expect(said(page)).toContainText('Its clips come along: the fur moves with the body.');
 	await expect.poll(() => time(page)).toBeGreaterThan(0);
+});
+
+test('axe finds nothing serious in the controls of clips, in either language and scheme', async ({ page }) => {
+	await serve(page);
+	for (const language of ['en', 'zh']) {
+		await open(page, `${WALKER}&time=0.5&lang=${language}`);
+		await expect(page.locator('#panel').getByRole('combobox')).toHaveCount(6);
+		for (const colorScheme of ['light', 'dark'] as const) {
+			await page.emulateMedia({ colorScheme });
+			const { violations } = await new AxeBuilder({ page }).include('#panel').analyze();
+			const serious = violations.filter(({ impact }) => impact === 'serious' || impact === 'critical');
+			expect(serious.map(({ id, nodes }) => [id, nodes[0]?.html])).toEqual([]);
+		}
+	}
 });
