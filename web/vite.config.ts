@@ -47,6 +47,7 @@ export default defineConfig({
 			'three/addons/lines/LineMaterial.js',
 			'three/addons/loaders/GLTFLoader.js',
 			'three/addons/postprocessing/OutputPass.js',
+			'three/addons/utils/SkeletonUtils.js',
 		],
 		// Modules of one picture each, fetched on demand.
 		exclude: ['@pmndrs/assets'],

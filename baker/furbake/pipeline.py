@@ -12,12 +12,14 @@ from pathlib import Path
 from typing import Any
 
 from furbake.asset.gltf import FurModel, write_gltf
+from furbake.asset.rig.motion import Motion
 from furbake.asset.store import atomic_file, atomic_folder
 from furbake.body import Body, prepare
 from furbake.identity import bake_key, describe_input, library_versions
 from furbake.options import BakeOptions
 from furbake.pelt.pelt import Pelt
 from furbake.surface.place.fins import Fins, build_fins
+from furbake.surface.rig.follow import follow
 from furbake.surface.shapes import is_builtin
 from furbake.tile.lighting import write_samples
 from furbake.tile.tile import Fitted, Tile
@@ -105,6 +107,7 @@ def bake(
                 ground=None if body.ground is body.skin else body.ground,
                 features=body.features,
                 bare=None if is_builtin(model) else options.ramp.root,
+                motion=_motion(body),
             )
             record["asset"] = write_gltf(folder, furry)
             (folder / "bake.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
@@ -120,6 +123,15 @@ def _fins(body: Body, options: BakeOptions, dry: Pelt) -> Fins | None:
     lean = float(dry.drift[-1, 1])
     fins = build_fins(body.ground, body.direction, body.tile, lean, options.seed, body.length)
     return fins if len(fins.faces) else None
+
+
+def _motion(body: Body) -> Motion | None:
+    """What moves a body; None where nothing does."""
+    rig, skin, ground = getattr(body.skin, "rig", None), body.skin, body.ground
+    if rig is None:
+        return None
+    follows = follow(rig, skin.vertices, skin.normals)
+    return Motion(rig, follows, follows if ground is skin else follow(rig, ground.vertices, ground.normals))
 
 
 def _record(model: str, options: BakeOptions, body: Body, fitted: Fitted) -> dict[str, Any]:

@@ -67,7 +67,7 @@ export class Fur {
 		const [{ textures }, fins] = pelt.cuts;
 		const finTextures = fins?.textures;
 		const { skin, surface, placement, quads, quadPlacement, colour, finHeights } = ground;
-		// Of a pelt on a surface that is not the body's the joints move nothing.
+		// Joints of a pelt's own body move no other surface.
 		const pose = surface.hasAttribute('skinIndex') || Morphs.of(surface) ? skin.pose : undefined;
 		this.#pose = pose;
 		const { fin } = asset.pelts[0] as Pelt;

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -15,11 +15,14 @@ from numpy.typing import NDArray
 
 from furbake.asset.buffer import Buffer, numbers
 from furbake.asset.planes import pack, pack_fin, write_png
+from furbake.asset.rig.bind import Return
+from furbake.asset.rig.motion import Motion
+from furbake.asset.rig.nodes import morphs, rigged
+from furbake.asset.rig.stand import Stand
 from furbake.asset.skin import Looks, bare_colour, feature_nodes, fur_colour, skin_primitives
 from furbake.asset.vertices import (
     fin_vertices,
     grid,
-    quantise_positions,
     shell_vertices,
     shifted_by_tiles,
     tiles_across,
@@ -38,8 +41,8 @@ Record = dict[str, Any]
 Floats = NDArray[np.float64]
 
 EXTENSION = "FUR_ptm_shells"
-VERSION, VERSION_STATES, VERSION_CURVES = "1.0", "1.1", "2.0"
-"""Format versions: one pelt, several states of it, mean curves."""
+VERSION, VERSION_STATES, VERSION_CURVES, VERSION_MOTION = "1.0", "1.1", "2.0", "2.1"
+"""Format versions: one pelt, several states of it, mean curves, bodies that move."""
 
 QUANTIZATION = "KHR_mesh_quantization"
 
@@ -62,6 +65,7 @@ class FurModel:
     ground : surface that charts, fur and fins stand on where it is not the skin itself but a simpler copy
     features : further opaque meshes of the scene; where they stand on the skin they are put there
     bare : linear colour of a skin that brings no colour at all; None: white
+    motion : what moves skin and ground; None: nothing. Where its rig has a pose all of the above is in it
     """
 
     skin: Surface
@@ -73,65 +77,106 @@ class FurModel:
     ground: Surface | None = None
     features: tuple[Feature, ...] = ()
     bare: RGB | None = None
+    motion: Motion | None = None
 
 
 def write_gltf(folder: Path, model: FurModel) -> Record:
     """Write model.gltf, model.bin and all images into `folder`; counts and file sizes for the record."""
-    surface, charts, fins, fur, pelts = model.skin, model.charts, model.fins, model.fur, model.pelts
+    features = placed(model.skin, model.features)
+    laid, model = model.skin, _bound(model)
+    surface, charts, fins, fur, pelts, motion = (
+        model.skin, model.charts, model.fins, model.fur, model.pelts, model.motion
+    )  # fmt: skip
     pelt = pelts[0]
     looks = Looks(folder, [name for each in pelts for name in _write_planes(folder, each, _prefix(each, pelt))])
     planes = list(looks.images)
     buffer = Buffer()
     ground = model.ground or surface
-    offset, scale = grid(surface.vertices, ground.vertices)
-    positions = quantise_positions(ground.vertices, offset, scale)
-    colours = fur.colour if model.ground is None else None
+    place = grid(surface.vertices, ground.vertices)
+    body = Stand(surface, *place, motion, None if motion is None else motion.skin)
+    below = Stand(ground, *place, motion, None if motion is None else motion.ground)
     own = bare_colour(surface, fur, model.bare)
-    skin = skin_primitives(surface, own, quantise_positions(surface.vertices, offset, scale), colours, buffer, looks)
+    skin = skin_primitives(body, own, fur.colour if model.ground is None else None, buffer, looks)
     fur = fur_colour(surface, own, fur)
 
     uv = shifted_by_tiles(charts)
     tiles = tiles_across(uv, *([] if fins is None else [fins.uv]))
-    shells = buffer.primitive(shell_vertices(ground, charts, fur, positions, uv, tiles), charts.faces)
-    meshes: list[Record] = [{"name": "skin", "primitives": skin}, {"name": "shells", "primitives": [shells]}]
+    stood = shell_vertices(ground, charts, fur, below.positions, uv, tiles) | below.joints(charts.source)
+    shells = buffer.primitive(stood, charts.faces)
+    meshes: list[Record] = [
+        {"name": "skin", "primitives": skin},
+        {"name": "shells", "primitives": [shells | below.shell_targets(buffer, charts)]},
+    ]
     if fins is not None:
-        edges = buffer.primitive(fin_vertices(ground, fins, fur, positions, tiles), fins.faces)
-        meshes.append({"name": "fins", "primitives": [edges]})
+        stood = fin_vertices(ground, fins, fur, below.positions, tiles) | below.joints(fins.source)
+        edges = buffer.primitive(stood, fins.faces)
+        meshes.append({"name": "fins", "primitives": [edges | below.fin_targets(buffer, fins)]})
     names = [mesh["name"] for mesh in meshes]
-    place = {"translation": numbers(offset), "scale": numbers(np.full(3, scale))}
-    nodes = [{"name": name, "mesh": i, **place} for i, name in enumerate(names)]
-    nodes += feature_nodes(placed(surface, model.features), buffer, looks, meshes)
+    meshes = [mesh | morphs(motion) for mesh in meshes]
+    undone = {"translation": numbers(place[0]), "scale": numbers(np.full(3, place[1]))}
+    nodes = [{"name": name, "mesh": i, **undone} for i, name in enumerate(names)]
+    nodes += feature_nodes(features, buffer, looks, meshes)
+    roots, moving = rigged(nodes, features, motion, laid, place, buffer)
     document = {
         "asset": {"version": "2.0", "generator": f"furbake {version('furbake')}"},
         "extensionsUsed": [EXTENSION, QUANTIZATION],
         "extensionsRequired": [QUANTIZATION],
         "scene": 0,
-        "scenes": [{"nodes": [0, *range(len(names), len(nodes))]}],
+        "scenes": [{"nodes": [0, *roots]}],
         "nodes": nodes,
         "meshes": meshes,
+        **moving,
         **looks.records,
         "accessors": buffer.accessors,
         "bufferViews": buffer.views,
         "buffers": [{"uri": "model.bin", "byteLength": len(buffer.data)}],
-        "extensions": {EXTENSION: extension(pelts, model.length, tiles, planes, names)},
+        "extensions": {EXTENSION: extension(pelts, model.length, tiles, planes, names, motion is not None)},
     }
     (folder / "model.bin").write_bytes(bytes(buffer.data))
     (folder / "model.gltf").write_text(dump(document), "utf-8", newline="\n")
-    counts = {
-        "skin": {"vertices": len(surface.vertices), "faces": len(surface.faces)},
-        "shells": {"vertices": len(charts.source), "faces": len(charts.faces)},
-    }
-    if fins is not None:
-        counts["fins"] = {"vertices": len(fins.source), "faces": len(fins.faces)}
     files = ("model.gltf", "model.bin", *looks.images)
-    return counts | {"bytes": {name: (folder / name).stat().st_size for name in files}}
+    return _counts(model) | {"bytes": {name: (folder / name).stat().st_size for name in files}}
 
 
-def extension(pelts: Sequence[Pelt], length: float, tiles: float, images: list[str], nodes: list[str]) -> Record:
+def _bound(model: FurModel) -> FurModel:
+    """The model in the bind pose, in which it is stored."""
+    motion = model.motion
+    if motion is None or motion.rig.pose is None:
+        return model
+    skin = Return(motion.rig, motion.skin, model.skin)
+    ground = skin if model.ground is None else Return(motion.rig, motion.ground, model.ground)
+    return replace(
+        model,
+        skin=skin.bind,
+        ground=None if model.ground is None else ground.bind,
+        charts=ground.charts(model.charts),
+        fur=ground.fur(model.fur),
+        fins=None if model.fins is None else ground.fins(model.fins),
+    )
+
+
+def _counts(model: FurModel) -> Record:
+    """Vertices and faces of what was written, and what moves it."""
+    counts = {
+        "skin": {"vertices": len(model.skin.vertices), "faces": len(model.skin.faces)},
+        "shells": {"vertices": len(model.charts.source), "faces": len(model.charts.faces)},
+    }
+    if model.fins is not None:
+        counts["fins"] = {"vertices": len(model.fins.source), "faces": len(model.fins.faces)}
+    if model.motion is not None:
+        rig = model.motion.rig
+        counts["rig"] = {"joints": len(rig.joints), "clips": len(rig.clips), "targets": len(rig.targets)}
+    return counts
+
+
+def extension(
+    pelts: Sequence[Pelt], length: float, tiles: float, images: list[str], nodes: list[str], moves: bool = False
+) -> Record:
     """The JSON object of the extension, for nodes (skin, shells and perhaps fins) and images in the order of writing.
 
     pelts : the dry fur and further states of it, all with its basis, λ and Ω
     length : longest fur, model units; tiles : how many of them a texture coordinate of 1 stands for
+    moves : whether the body has joints, clips or morph targets
     """
     pelt = pelts[0]
     basis: Record = {"kind": pelt.basis.kind}
@@ -143,7 +188,7 @@ def extension(pelts: Sequence[Pelt], length: float, tiles: float, images: list[s
     version = VERSION if len(pelts) == 1 else VERSION_STATES
     lit: Record = {"environment": [numbers(row) for row in environment(pelt.basis)]}
     if pelt.curves is not None:
-        version = VERSION_CURVES
+        version = VERSION_MOTION if moves else VERSION_CURVES
         lit = {"curves": {"even": _tables(pelt.curves.even), "along": _tables(pelt.curves.along)}}
     return {
         "version": version,

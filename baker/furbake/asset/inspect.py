@@ -50,6 +50,7 @@ def _summary(asset: Asset) -> dict[str, Any]:
         "skin": _mesh(asset, "skin"),
         "shells": _mesh(asset, "shells"),
         **({"fins": _mesh(asset, "fins")} if "fins" in fur else {}),
+        **_motion(asset),
         "fit": record.get("fit", {}),
         **({"states": fits} if fits else {}),
         "files": files,
@@ -64,6 +65,25 @@ def _mesh(asset: Asset, name: str) -> dict[str, Any]:
         "faces": sum(accessors[primitive["indices"]]["count"] // 3 for primitive in primitives),
         "attributes": list(dict.fromkeys(name for primitive in primitives for name in primitive["attributes"])),
     }
+
+
+def _motion(asset: Asset) -> dict[str, Any]:
+    """Joints, clips and morph targets; nothing of a body that has none of them."""
+    node = asset.document["nodes"][asset.fur["skin"]]
+    mesh = asset.document["meshes"][node["mesh"]]
+    count = len(mesh["primitives"][0].get("targets", []))
+    found = {
+        "joints": len(asset.document["skins"][node["skin"]]["joints"]) if "skin" in node else 0,
+        "clips": [_clip(asset, animation) for animation in asset.document.get("animations", [])],
+        "targets": mesh.get("extras", {}).get("targetNames", [""] * count),
+    }
+    return {"motion": found} if any(found.values()) else {}
+
+
+def _clip(asset: Asset, animation: dict[str, Any]) -> dict[str, Any]:
+    """Name, length and number of channels of an animation."""
+    ends = [asset.document["accessors"][sampler["input"]]["max"][0] for sampler in animation["samplers"]]
+    return {"name": animation.get("name", ""), "seconds": max(ends), "channels": len(animation["channels"])}
 
 
 def _exists(asset: Asset, name: Any) -> bool:

@@ -56,21 +56,37 @@ class Asset:
     def accessor(self, index: int) -> NDArray[Any]:
         """(count, width) components as stored, or (count,) for scalars. Raises AssetError where it leaves the data."""
         accessor = self.document["accessors"][_index(index)]
-        view = self.document["bufferViews"][_index(accessor["bufferView"])]
         kind, width, count = (
             np.dtype(TYPES[accessor["componentType"]]),
             WIDTHS[accessor["type"]],
             _index(accessor["count"]),
         )
-        inner, stride = _index(accessor.get("byteOffset", 0)), _index(view.get("byteStride", 0))
+        if "sparse" not in accessor:
+            values = self._elements(index, accessor, kind, width, count)
+            return values[:, 0] if width == 1 else values
+        sparse, values = accessor["sparse"], np.zeros((count, width), dtype=kind)
+        if "bufferView" in accessor:
+            values = self._elements(index, accessor, kind, width, count).copy()
+        some, where = _index(sparse["count"]), sparse["indices"]
+        rows = self._elements(index, where, np.dtype(TYPES[where["componentType"]]), 1, some)[:, 0]
+        if rows.max() >= count:
+            raise AssetError(f"model.gltf: accessor {index} replaces element {rows.max()}, expected 0 to {count - 1}")
+        values[rows] = self._elements(index, sparse["values"], kind, width, some)
+        return values[:, 0] if width == 1 else values
+
+    def _elements(
+        self, index: int, place: dict[str, Any], kind: np.dtype[Any], width: int, count: int
+    ) -> NDArray[Any]:
+        """(count, width) elements at the `bufferView` and `byteOffset` of a place in accessor `index`."""
+        view = self.document["bufferViews"][_index(place["bufferView"])]
+        inner, stride = _index(place.get("byteOffset", 0)), _index(view.get("byteStride", 0))
         start, length = _index(view.get("byteOffset", 0)), _index(view["byteLength"])
         if count < 1 or start + length > len(self.data):
             raise AssetError(f"model.gltf: accessor {index} leaves its buffer, expected 1 or more elements in it")
         try:
-            values = elements(memoryview(self.data)[start : start + length], inner, count, width, kind, stride)
+            return elements(memoryview(self.data)[start : start + length], inner, count, width, kind, stride)
         except ValueError as error:
             raise AssetError(f"model.gltf: accessor {index} leaves its buffer ({error}), expected it inside") from error
-        return values[:, 0] if width == 1 else values
 
     def image(self, index: int) -> Bytes:
         """(height, width, channels) bytes of an image. Raises AssetError or PlaneError."""

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.asset.buffer import Buffer, numbers
+from furbake.asset.rig.stand import Stand
 from furbake.asset.vertices import Attributes, deep_shares, shares, signed
 from furbake.surface.colours import translucent
 from furbake.surface.material import Material, Picture, Skin
@@ -91,28 +92,26 @@ def bare_colour(surface: Surface, fur: VertexFur, bare: RGB | None) -> RGB:
 
 
 def skin_primitives(
-    surface: Surface,
-    own: RGB,
-    positions: NDArray[np.uint16],
-    colours: NDArray[np.float64] | None,
-    buffer: Buffer,
-    looks: Looks,
+    stand: Stand, own: RGB, colours: NDArray[np.float64] | None, buffer: Buffer, looks: Looks
 ) -> list[Record]:
     """The skin's primitives, one per material of the model; one in the surface's colour where it brings none.
 
     own : colour of a skin that brings no materials
-    positions : (V, 3) of the surface, as `quantise_positions` makes them
     colours : (V, 3) linear, a factor of the colour of a skin that brings no materials
     """
-    normals = signed(surface.normals)
+    surface, normals = stand.surface, signed(stand.surface.normals)
     if not surface.skin:
-        body: Attributes = {"POSITION": positions, "NORMAL": normals}
+        all_of_it = np.arange(len(normals))
+        body: Attributes = {"POSITION": stand.positions, "NORMAL": normals}
         if colours is not None:
             body["COLOR_0"] = shares(colours)
+        body |= stand.joints(all_of_it)
         plain = Material("skin", factor=(*own, 1.0))
-        return [buffer.primitive(body, surface.faces) | {"material": looks.material(plain, textured=False)}]
+        primitive = buffer.primitive(body, surface.faces) | stand.skin_targets(buffer, all_of_it)
+        return [primitive | {"material": looks.material(plain, textured=False)}]
     return [
-        buffer.primitive(_attributes(piece, positions, normals), piece.faces)
+        buffer.primitive(_attributes(piece, stand.positions, normals) | stand.joints(piece.source), piece.faces)
+        | stand.skin_targets(buffer, piece.source)
         | {"material": looks.material(_material(piece, surface), piece.uv is not None)}
         for piece in surface.skin
     ]

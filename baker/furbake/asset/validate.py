@@ -16,6 +16,7 @@ from jsonschema import Draft202012Validator
 from furbake.asset.gltf import EXTENSION, QUANTIZATION
 from furbake.asset.planes import PlaneError
 from furbake.asset.read import Asset, AssetError, inside, read_asset
+from furbake.asset.rig.check import clips, drawn, joints, targets, tree
 from furbake.asset.validate_pelts import curves, multiple, pelts, states
 
 REQUIRED = ("POSITION", "NORMAL", "TANGENT", "TEXCOORD_0")
@@ -25,8 +26,14 @@ ATTRIBUTES = {
 }
 """Attributes of the fur's vertices, required and optional."""
 
+JOINTS = ("JOINTS_0", "WEIGHTS_0")
+"""Further attributes where the node has a skin."""
+
 MAX_VERTEX_BYTES = 32
-"""Bytes of a shell or fin vertex."""
+"""Bytes of a shell or fin vertex, its joints and weights aside."""
+
+MAX_JOINT_BYTES = 12
+"""Bytes of the joints and weights of a vertex: 8, and 12 where there are more joints than a byte numbers."""
 
 UNIT = 0.02
 """Tolerance of a normal's length: bytes hold it to 1/127 per component."""
@@ -47,7 +54,8 @@ def validate(folder: Path) -> list[str]:
     problems = [f"{EXTENSION}: {_where(error)}{error.message}" for error in schema().iter_errors(fur)]
     if problems:  # the other checks need a document that fits the schema
         return problems
-    for check in (_document, _nodes, _skin, _shells, _fins, pelts, curves, multiple, states, _record):
+    checks = (_document, tree, _nodes, _skin, _shells, _fins, joints, targets, clips, pelts, curves, multiple, states, _record)
+    for check in checks:
         try:
             problems.extend(check(asset))
         except (AssetError, PlaneError) as error:
@@ -94,27 +102,15 @@ def _document(asset: Asset) -> Iterator[str]:
 
 def _nodes(asset: Asset) -> Iterator[str]:
     fur, nodes = asset.fur, asset.document["nodes"]
-    drawn = {root for scene in asset.document["scenes"] for root in scene.get("nodes", [])}
-    for root in list(drawn):
-        drawn |= _below(nodes, root)
+    seen = drawn(asset)
     for name in ("skin", "shells", "fins"):
         if name not in fur:
             continue
         node = fur[name]
         if node >= len(nodes) or "mesh" not in nodes[node]:
             yield f"{EXTENSION}: {name} is node {node}, expected one of {len(nodes)} nodes that has a mesh"
-        elif (name == "skin") != (node in drawn):
+        elif (name == "skin") != (node in seen):
             yield f"{EXTENSION}: {name} is node {node}, expected {'in the' if name == 'skin' else 'in no'} scene"
-
-
-def _below(nodes: list[dict[str, Any]], root: int) -> set[int]:
-    found, todo = set[int](), [root]
-    while todo:
-        node = todo.pop()
-        if node not in found:
-            found.add(node)
-            todo.extend(nodes[node].get("children", []))
-    return found
 
 
 def _skin(asset: Asset) -> Iterator[str]:
@@ -165,16 +161,23 @@ def _furry(asset: Asset, name: str) -> Iterator[str]:
     primitive = asset.primitive(asset.fur[name])
     yield from _primitive(asset, name, primitive, required)
     attributes = primitive["attributes"]
+    known = known | (set(JOINTS) if "skin" in asset.document["nodes"][asset.fur[name]] else set())
     strange = sorted(set(attributes) - known)
     if strange:
         yield f"{name}: {', '.join(strange)}, expected only {', '.join(sorted(known))}"
-    views = [asset.document["bufferViews"][asset.document["accessors"][i]["bufferView"]] for i in attributes.values()]
-    weight = sum(view["byteStride"] for view in {json.dumps(v, sort_keys=True): v for v in views}.values())
-    if weight > MAX_VERTEX_BYTES:
-        yield f"{name}: {weight} bytes per vertex, expected at most {MAX_VERTEX_BYTES}"
+    for names, most in ((set(attributes) - set(JOINTS), MAX_VERTEX_BYTES), (set(JOINTS), MAX_JOINT_BYTES)):
+        weight = _weight(asset, [index for key, index in attributes.items() if key in names])
+        if weight > most:
+            yield f"{name}: {weight} bytes per vertex, expected at most {most}"
     signs = np.unique(asset.accessor(attributes["TANGENT"])[:, 3])
     if not set(signs.tolist()) <= {-127, 127, -1.0, 1.0}:
         yield f"{name}: TANGENT w of {signs[0]}, expected 1 or -1"
+
+
+def _weight(asset: Asset, accessors: list[int]) -> int:
+    """Bytes of a vertex in these accessors."""
+    views = [asset.document["bufferViews"][asset.document["accessors"][i]["bufferView"]] for i in accessors]
+    return sum(view["byteStride"] for view in {json.dumps(view, sort_keys=True): view for view in views}.values())
 
 
 def _primitive(asset: Asset, name: str, primitive: dict[str, Any], required: tuple[str, ...]) -> Iterator[str]:

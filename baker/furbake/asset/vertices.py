@@ -1,5 +1,7 @@
 """Vertices as glTF stores them: at most 32 bytes each, in normalised integers, of equal bits where they coincide.
 
+Where the body has joints a vertex takes 40 bytes at most, and 4 more where there are more than 256 joints.
+
 | bytes | shells | fins |
 |---|---|---|
 | 8 | POSITION | POSITION |
@@ -9,6 +11,8 @@
 | 4 | COLOR_0, where the model has colours | COLOR_0 |
 | 4 | _FUR: weight, length, occlusion, tip | _FUR |
 | 4 | _COMB: along T and B | _EDGE: angles of the two faces, comb along and across |
+| 4 | JOINTS_0, where the body has joints; 8 of more than 256 | JOINTS_0 |
+| 4 | WEIGHTS_0, where the body has joints | WEIGHTS_0 |
 """
 
 from __future__ import annotations

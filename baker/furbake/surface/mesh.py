@@ -18,10 +18,13 @@ from furbake.surface.read.reading import read
 from furbake.surface.repair.repair import LARGEST, SMALLEST, check, count, straighten, tidy
 from furbake.surface.repair.simplify import decimate
 from furbake.surface.repair.topology import angle_normals
+from furbake.surface.rig.at import in_pose
+from furbake.surface.rig.kept import kept
 from furbake.surface.soup import MeshError, Soup, plain
 
 if TYPE_CHECKING:
     from furbake.surface.charts import Natural
+    from furbake.surface.rig.rig import Rig
 
 __all__ = ["LARGEST", "MAX_FACES", "SMALLEST", "MeshError", "Surface", "clean", "load_mesh", "simplify"]
 
@@ -63,6 +66,7 @@ class Surface:
         NaN on faces that have none
     attributes : (V, n) further numbers that the file gives its vertices, by lower-case name without underscore
     skin : the visible skin under the fur, one piece per material; () where the file has none
+    rig : all that moves it, with the triangles of the file; None: nothing does, or it is a simplified copy
     notices : what was repaired and what is not kept, one sentence each, beginning with the model's name
     """
 
@@ -75,6 +79,7 @@ class Surface:
     uv: Floats | None = None
     attributes: dict[str, Floats] = field(default_factory=dict)
     skin: tuple[Skin, ...] = ()
+    rig: Rig | None = None
     notices: tuple[str, ...] = ()
 
     @property
@@ -83,15 +88,21 @@ class Surface:
         return float(np.ptp(self.vertices, axis=0).max())
 
 
-def load_mesh(path: Path, max_faces: int = MAX_FACES) -> Surface:
+def load_mesh(path: Path, max_faces: int = MAX_FACES, pose: str | None = None) -> Surface:
     """Surface of a file; the parts of a scene are joined where their transforms put them.
+
+    pose : CLIP@SECONDS in place of the pose that skins are bound in
 
     Raises MeshError for every file that does not give one.
     """
     reading = read(path)
-    surface = _finish(str(path), reading.soup, reading.materials, max_faces, reading.missing)
-    told = tuple(f"{path}: {notice}" for notice in reading.notices)
-    return replace(surface, notices=(*surface.notices, *told))
+    soup, rig = reading.soup, reading.rig
+    if pose is not None:
+        rig = in_pose(str(path), rig, pose)
+        soup = replace(soup, vertices=rig.posed)
+    surface = _finish(str(path), soup, reading.materials, max_faces, reading.missing)
+    told = reading.notices if rig is None else (*reading.notices, kept(rig))
+    return replace(surface, rig=rig, notices=(*surface.notices, *(f"{path}: {notice}" for notice in told)))
 
 
 def clean(name: str, vertices: Floats, faces: Ints, colour: RGB = WHITE, max_faces: int = MAX_FACES) -> Surface:

@@ -16,7 +16,7 @@ import {
 import { Morphs, MorphWeights } from './Morphs.ts';
 import { type BoundedSurface, PosedBounds } from './PosedBounds.ts';
 
-/** What three reads of an object that it draws by joints. */
+/** Properties that three reads of an object drawn by joints. */
 export interface Jointed extends Object3D {
 	isSkinnedMesh?: true;
 	skeleton?: Skeleton;

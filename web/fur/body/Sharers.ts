@@ -16,10 +16,7 @@ const geometriesOf = ({ shells, fins }: SharedFur): BufferGeometry[] => [
 	...(fins ? [fins.geometry] : []),
 ];
 
-/**
- * What furs have to themselves, not borrowed: the whole body with its pelt, or only the vertices that shells and fins stand on,
- * or nothing.
- */
+/** Part of a fur that is its own, not borrowed: the whole body with its pelt, the vertices below shells and fins alone, or nothing. */
 export type Owned = 'body' | 'vertices' | 'nothing';
 
 /** A fur and those of its body's copies, which share vertices and textures: freed with the last of them. */

@@ -53,8 +53,8 @@ function refuse(where: string, got: string, expected: string): never {
  */
 export function checkRig(json: object, parts: Parts): void {
 	const gltf = json as Gltf;
-	gltf.skins?.forEach((skin, i) => checkSkin(gltf, skin, `skins/${i}`));
-	gltf.meshes?.forEach((mesh, i) => checkTargets(gltf, mesh, `meshes/${i}`));
+	for (const [i, skin] of (gltf.skins ?? []).entries()) checkSkin(gltf, skin, `skins/${i}`);
+	for (const [i, mesh] of (gltf.meshes ?? []).entries()) checkTargets(gltf, mesh, `meshes/${i}`);
 	gltf.nodes?.forEach(({ mesh, skin }, i) => {
 		if (skin === undefined || mesh === undefined) return;
 		for (const [p, { attributes }] of gltf.meshes?.[mesh]?.primitives.entries() ?? [])
@@ -125,7 +125,7 @@ function checkKeys(
 	where: string,
 ): void {
 	const type = PATHS[path];
-	// What three does not know it leaves out.
+	// Three leaves out unknown paths.
 	if (!type || node === undefined) return;
 	const [times, values] = [accessors[input], accessors[output]];
 	if (times?.type !== 'SCALAR') refuse(`${where}/times`, `${times?.type}`, 'SCALAR');

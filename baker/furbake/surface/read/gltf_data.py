@@ -24,6 +24,9 @@ from furbake.surface.soup import Floats, Ints
 Record = dict[str, Any]
 
 DRACO = "KHR_draco_mesh_compression"
+BROKEN = (ValueError, LookupError, TypeError, AttributeError, OverflowError, OSError)
+"""Errors of a broken file. A MeshError is one of them: it must be let through."""
+
 COMPRESSED = ("EXT_meshopt_compression", "KHR_meshopt_compression", "MESHOPT_compression")
 
 

@@ -16,8 +16,9 @@ from furbake.surface.files import Source, source
 from furbake.surface.material import Material
 from furbake.surface.read.archive import sources
 from furbake.surface.read.gltf_data import UndecodableError
-from furbake.surface.read.gltf_scene import read_gltf
+from furbake.surface.read.gltf_scene import Scene, read_gltf
 from furbake.surface.read.others import read_other
+from furbake.surface.rig.rig import Rig
 from furbake.surface.soup import MeshError, Soup, join
 
 MESHES = ("glb", "gltf", "obj", "off", "ply", "stl", "stl_ascii")
@@ -26,17 +27,21 @@ MESHES = ("glb", "gltf", "obj", "off", "ply", "stl", "stl_ascii")
 ARCHIVES = ("zip", "tar.gz", "tar.bz2", "bz2")
 """Ends of the names of archives in which such files are found."""
 
-Contents = tuple[Soup | None, tuple[Material, ...], int, tuple[str, ...]]
+STATUE = "joints, clips and morph targets are left out, as the archive holds several models: the fur stands still"
 
 
 @dataclass(frozen=True)
 class Reading:
-    """Contents of a file: triangles, the materials that `soup.part` counts, number of missing pictures, notices."""
+    """Contents of a file: triangles, the materials that `soup.part` counts, number of missing pictures, notices.
+
+    rig : all that moves the triangles, whose vertices are its own; None: nothing does
+    """
 
     soup: Soup
     materials: tuple[Material, ...]
     missing: int = 0
     notices: tuple[str, ...] = ()
+    rig: Rig | None = None
 
 
 def read(path: Path) -> Reading:
@@ -58,8 +63,7 @@ def read(path: Path) -> Reading:
         raise MeshError(f"{name}: {reason(error)}, expected a readable mesh file") from error
     with _quiet():
         try:
-            contents = _read_archive(model, kind) if kind in ARCHIVES else _read_one(model, kind)
-            soup, materials, missing, notices = contents
+            scene = _read_archive(model, kind) if kind in ARCHIVES else _read_one(model, kind)
         except MeshError:
             raise
         except UndecodableError as error:
@@ -69,9 +73,9 @@ def read(path: Path) -> Reading:
             ) from error
         except Exception as error:  # readers raise anything on a broken file: struct.error, KeyError, MemoryError, ...
             raise MeshError(f"{name}: cannot be read as {kind} ({reason(error)}), expected a valid file") from error
-    if soup is None:
+    if scene.soup is None:
         raise MeshError(f"{name}: no faces, expected a surface of triangles")
-    return Reading(soup, materials, missing, notices)
+    return Reading(scene.soup, scene.materials, scene.missing, scene.notices, scene.rig)
 
 
 def kind_of(name: str) -> str:
@@ -80,11 +84,11 @@ def kind_of(name: str) -> str:
     return next((end for end in ARCHIVES if name.endswith(f".{end}")), name.rpartition(".")[2])
 
 
-def _read_one(model: Source, kind: str) -> Contents:
-    return read_gltf(model) if kind in ("glb", "gltf") else (*read_other(model, kind), ())
+def _read_one(model: Source, kind: str) -> Scene:
+    return read_gltf(model) if kind in ("glb", "gltf") else Scene(*read_other(model, kind), ())
 
 
-def _read_archive(archive: Source, kind: str) -> Contents:
+def _read_archive(archive: Source, kind: str) -> Scene:
     """All meshes of an archive, those left out that cannot be read, unless that is all of them."""
     models, names = sources(archive, kind, MESHES)
     if not models:
@@ -95,10 +99,11 @@ def _read_archive(archive: Source, kind: str) -> Contents:
     found: list[Soup] = []
     materials: dict[Material, int] = {}
     notices: list[str] = []
+    rigs: list[Rig | None] = []
     missing, broken = 0, None
     for model in models:
         try:
-            soup, own, lost, told = _read_one(model, kind_of(model.name))
+            soup, own, lost, told, rig = _read_one(model, kind_of(model.name))
         except (MeshError, UndecodableError):
             raise
         except Exception as error:  # noqa: BLE001 — as above
@@ -109,9 +114,13 @@ def _read_archive(archive: Source, kind: str) -> Contents:
         if soup is not None:
             places = np.array([materials.setdefault(material, len(materials)) for material in own])
             found.append(replace(soup, part=places[soup.part]))
+            rigs.append(rig)
     if not found and broken is not None:
         raise broken
-    return (join(found) if found else None), tuple(materials), missing, tuple(notices)
+    if len(found) > 1 and any(rig is not None for rig in rigs):
+        notices.append(STATUE)
+    rig = rigs[0] if len(rigs) == 1 else None
+    return Scene(join(found) if found else None, tuple(materials), missing, tuple(notices), rig)
 
 
 @contextmanager

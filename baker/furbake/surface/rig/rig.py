@@ -1,4 +1,4 @@
-"""What moves a model: nodes, joints, morph targets and clips (glTF 2.0, sections 3.7.2.2, 3.7.3 and 3.11)."""
+"""Everything that moves a model: nodes, joints, morph targets and clips (glTF 2.0, 3.7.2.2, 3.7.3, 3.11)."""
 
 from __future__ import annotations
 
@@ -71,6 +71,18 @@ class Target:
 
 
 @dataclass(frozen=True)
+class Pose:
+    """A pose of a rig.
+
+    matrices : (J, 4, 4) of each joint, from the bind pose to this one, scene space
+    weights : (T,) of the targets
+    """
+
+    matrices: Floats
+    weights: Floats
+
+
+@dataclass(frozen=True)
 class Rig:
     """Everything that moves a model, with the original triangles that it moves.
 
@@ -80,6 +92,7 @@ class Rig:
     vertices : (N, 3) bind pose, scene space; posed : (N, 3) the same in the pose in which the fur is baked
     faces : (M, 3) int
     which, shares : (N, 4) int and float, joints of each vertex with their weights, which sum to 1
+    pose : in which the fur is baked; None: the bind pose with all targets at 0, `posed` is `vertices`
     """
 
     nodes: tuple[RigNode, ...]
@@ -92,3 +105,4 @@ class Rig:
     shares: Floats
     targets: tuple[Target, ...] = ()
     clips: tuple[Clip, ...] = ()
+    pose: Pose | None = None

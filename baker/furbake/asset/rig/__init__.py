@@ -1,0 +1,1 @@
+"""What moves a body, as glTF stores it: skin, joints, morph targets, animations."""

@@ -1,0 +1,91 @@
+"""A surface as it is stored: on the grid of its positions, with the joints and morph targets that move it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from furbake.asset.buffer import Buffer
+from furbake.asset.rig.motion import Motion
+from furbake.asset.rig.targets import charts_tangents, displaced_normals, fins_tangents, targets
+from furbake.asset.vertices import Attributes, quantise_positions, signed
+from furbake.surface.charts import Charts
+from furbake.surface.mesh import Surface
+from furbake.surface.place.fins import Fins
+from furbake.surface.rig.follow import Follow
+from furbake.surface.rig.rig import Floats, Ints
+
+Record = dict[str, Any]
+
+FEW_JOINTS = 256
+"""Joints that a byte numbers; JOINTS_0 takes 16 bits beyond."""
+
+
+@dataclass(frozen=True)
+class Stand:
+    """A surface in the bind pose, and what moves it.
+
+    offset, scale : of the grid of its positions
+    motion, follow : None where nothing moves it
+    """
+
+    surface: Surface
+    offset: Floats
+    scale: float
+    motion: Motion | None = None
+    follow: Follow | None = None
+
+    @cached_property
+    def positions(self) -> NDArray[np.uint16]:
+        """(V, 3) as `quantise_positions` makes them."""
+        return quantise_positions(self.surface.vertices, self.offset, self.scale)
+
+    @cached_property
+    def _same(self) -> Ints:
+        """(V,) the first vertex that is stored with the same place and normal: all of these follow as that one does."""
+        rows = np.column_stack([self.positions.astype(np.int64), signed(self.surface.normals)])
+        _, first, index = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+        return np.asarray(first[index.reshape(-1)], dtype=np.int64)
+
+    @cached_property
+    def _deltas(self) -> Floats:
+        """(T, V, 3) displacements by the morph targets; (0, V, 3) where there are none."""
+        if self.follow is None:
+            return np.zeros((0, len(self.surface.vertices), 3))
+        return self.follow.deltas[:, self._same]
+
+    @cached_property
+    def _turns(self) -> Floats:
+        """(T, V, 3) displacements of the normals."""
+        return displaced_normals(self.surface, self._deltas)[:, self._same]
+
+    def joints(self, source: Ints) -> Attributes:
+        """JOINTS_0 and WEIGHTS_0 of copies of the vertices in `source`; none where nothing has joints."""
+        if self.motion is None or self.follow is None or not self.motion.rig.joints:
+            return {}
+        kind = np.uint8 if len(self.motion.rig.joints) <= FEW_JOINTS else np.uint16
+        which = self._same[source]
+        return {"JOINTS_0": self.follow.joints[which].astype(kind), "WEIGHTS_0": self.follow.weights[which]}
+
+    def skin_targets(self, buffer: Buffer, source: Ints) -> Record:
+        """`targets` of a primitive of the skin whose vertices copy those in `source`; none where there are none."""
+        return self._targets(buffer, source, None)
+
+    def shell_targets(self, buffer: Buffer, charts: Charts) -> Record:
+        """The same of the shells."""
+        turned = charts_tangents(self.surface, charts, self._deltas)
+        return self._targets(buffer, charts.source, turned)
+
+    def fin_targets(self, buffer: Buffer, fins: Fins) -> Record:
+        """The same of the fins."""
+        return self._targets(buffer, fins.source, fins_tangents(self.surface, fins, self._deltas))
+
+    def _targets(self, buffer: Buffer, source: Ints, tangents: Floats | None) -> Record:
+        if not len(self._deltas):
+            return {}
+        places = self._deltas[:, source] / self.scale
+        return {"targets": targets(buffer, places, self._turns[:, source], tangents)}

@@ -1,0 +1,1 @@
+"""Joints, morph targets and clips of a glTF file, which move its parts."""

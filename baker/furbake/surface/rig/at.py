@@ -1,0 +1,68 @@
+"""The pose of a clip at a time, as an option names it: CLIP@SECONDS."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from furbake.surface.rig.clip import sample
+from furbake.surface.rig.kept import MAX_NAMES
+from furbake.surface.rig.pose import local, matrices, posed, rest
+from furbake.surface.rig.rig import BODY, Clip, Pose, Rig
+from furbake.surface.soup import MeshError
+
+DIGITS = 10
+"""Digits of a clip's number, fewer than this."""
+
+
+def parse(text: str) -> tuple[str, float]:
+    """Clip and seconds of an option. Raises ValueError."""
+    clip, at, seconds = text.rpartition("@")
+    number = float(seconds)
+    if not at or not clip or not 0.0 <= number < np.inf:
+        raise ValueError(text)
+    return clip, number
+
+
+def in_pose(model: str, rig: Rig | None, text: str) -> Rig:
+    """The rig in a pose, CLIP@SECONDS. Raises MeshError, beginning with the model's name, where there is none."""
+    try:
+        name, seconds = parse(text)
+    except ValueError:
+        raise MeshError(f"{model}: pose: got {text!r}, expected CLIP@SECONDS, such as Walk@0.4") from None
+    if rig is None or not rig.clips:
+        raise MeshError(f"{model}: has no clips, expected some for the pose {text}")
+    pose = pose_at(rig, _clip(model, rig, name), seconds)
+    rig = replace(rig, pose=pose)
+    return replace(rig, posed=posed(rig, pose))
+
+
+def pose_at(rig: Rig, clip: Clip, seconds: float) -> Pose:
+    """The pose of a clip at a time; what it does not move stands as it rests."""
+    own = rest(rig)
+    weights = np.array([target.weight for target in rig.targets], dtype=np.float64)
+    moved: dict[int, dict[str, np.ndarray[tuple[int, ...], np.dtype[np.float64]]]] = {}
+    for channel in clip.channels:
+        value = sample(channel, np.array([seconds]))[0]
+        if channel.node == BODY:
+            weights = value
+        else:
+            moved.setdefault(channel.node, {})[channel.path] = value
+    for index, values in moved.items():
+        node = rig.nodes[index]
+        whole = {"translation": node.translation, "rotation": node.rotation, "scale": node.scale, **values}
+        own[index] = local(whole["translation"], whole["rotation"], whole["scale"])
+    return Pose(matrices(rig, own), weights)
+
+
+def _clip(model: str, rig: Rig, name: str) -> Clip:
+    """A clip by its name, else by its number from 0."""
+    named = [clip for clip in rig.clips if clip.name == name]
+    if named:
+        return named[0]
+    if name.isascii() and name.isdigit() and len(name) < DIGITS and int(name) < len(rig.clips):
+        return rig.clips[int(name)]
+    names = [clip.name or str(i) for i, clip in enumerate(rig.clips[:MAX_NAMES])]
+    more = ", ..." if len(rig.clips) > MAX_NAMES else ""
+    raise MeshError(f"{model}: has no clip {name!r}, expected one of {', '.join(names)}{more}")

@@ -1,0 +1,247 @@
+/** Runs inside the page: characters in poses, their vertices and pictures. Its answers go to `pose.spec.ts`. */
+
+import {
+	AnimationMixer,
+	DirectionalLight,
+	FloatType,
+	HemisphereLight,
+	type InstancedBufferGeometry,
+	type Mesh,
+	NoBlending,
+	type Object3D,
+	OrthographicCamera,
+	PerspectiveCamera,
+	Points,
+	Quaternion,
+	Scene,
+	ShaderMaterial,
+	Sphere,
+	UniformsLib,
+	UniformsUtils,
+	Vector3,
+	WebGLRenderer,
+	WebGLRenderTarget,
+} from 'three';
+import { type GLTF, GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { clone } from 'three/addons/utils/SkeletonUtils.js';
+import { Fur, FurLoaderPlugin } from '../../../web/fur/index.ts';
+import { renderFloats } from '../../../web/measure/studio.ts';
+import { toBase64 } from './flat.ts';
+
+const SIZE = 160;
+const renderer = new WebGLRenderer({ antialias: false });
+renderer.shadowMap.enabled = true;
+const gl = renderer.getContext() as WebGL2RenderingContext;
+
+/** A character in a scene of its own. */
+class Stand {
+	readonly scene = new Scene();
+	readonly mixer: AnimationMixer;
+	readonly fur: Fur;
+	readonly lamp = new DirectionalLight(0xffffff, 6);
+	readonly camera = new PerspectiveCamera(20, 1, 0.1, 100);
+	readonly #target = new WebGLRenderTarget(SIZE, SIZE, { type: FloatType });
+
+	constructor(readonly gltf: GLTF) {
+		this.fur = gltf.userData.fur;
+		this.mixer = new AnimationMixer(gltf.scene);
+		this.lamp.position.set(-1, 0.6, 0.6);
+		this.scene.add(this.lamp, this.lamp.target, new HemisphereLight(0xffffff, 0x808080, 2), gltf.scene);
+		this.look(this.fur.bounds(new Sphere()));
+		this.fur.shells.shellCount = 8;
+	}
+
+	static async load(url: string): Promise<Stand> {
+		const loader = new GLTFLoader().register((parser) => new FurLoaderPlugin(parser));
+		return new Stand(await loader.loadAsync(url));
+	}
+
+	look({ center, radius }: Sphere): void {
+		this.camera.position
+			.set(0.4, 0.5, 1)
+			.multiplyScalar(6 * radius)
+			.add(center);
+		this.camera.lookAt(center);
+	}
+
+	/** A moment of a clip; undefined: at rest. */
+	pose(clip: string | undefined, seconds: number): void {
+		this.mixer.stopAllAction();
+		const found = this.gltf.animations.find(({ name }) => name === clip);
+		if (!found) return;
+		this.mixer.clipAction(found).play();
+		this.mixer.setTime(seconds);
+	}
+
+	draw(): Float32Array {
+		return renderFloats(renderer, this.scene, this.camera, this.#target);
+	}
+
+	dispose(): void {
+		this.fur.dispose();
+		this.lamp.dispose();
+		this.#target.dispose();
+	}
+}
+
+/** World places to which the shader of shells or fins itself moves their vertices, by hairs without a length. */
+function placesOf(part: Mesh<InstancedBufferGeometry, ShaderMaterial>, reach: number): string {
+	const { geometry, material } = part;
+	const { count } = geometry.getAttribute('position');
+	const [width, height] = [256, Math.ceil(count / 256)];
+	// World units that the picture's depth and width hold: what is divided and multiplied by two loses nothing.
+	const span = 2 ** Math.ceil(Math.log2(reach));
+	const probe = new ShaderMaterial({
+		glslVersion: material.glslVersion,
+		lights: material.lights,
+		uniforms: { ...material.uniforms, ...UniformsUtils.clone(UniformsLib.lights), furLength: { value: 0 } },
+		defines: { ...material.defines },
+		vertexShader: `${material.vertexShader.replace('void main()', 'void ownMain()')}
+			flat out vec3 vPlace;
+			void main() {
+				ownMain();
+				vPlace = gl_Position.xyz;
+				vec2 texel = vec2(gl_VertexID % ${width}, gl_VertexID / ${width}) + 0.5;
+				gl_Position = vec4(texel / vec2(${width}, ${height}) * 2.0 - 1.0, 0.0, 1.0);
+				gl_PointSize = 1.0;
+			}`,
+		fragmentShader: 'flat in vec3 vPlace; out vec4 place; void main() { place = vec4(vPlace, 1.0); }',
+		blending: NoBlending,
+		depthTest: false,
+		depthWrite: false,
+	});
+	Object.assign(probe.defaultAttributeValues, material.defaultAttributeValues);
+	delete probe.defines.BODY_LIGHT;
+	const points = new Points(geometry, probe);
+	const { isSkinnedMesh, skeleton, bindMatrix, bindMatrixInverse } = part as Mesh & Record<string, unknown>;
+	Object.assign(points, { isSkinnedMesh, skeleton, bindMatrix, bindMatrixInverse, frustumCulled: false });
+	points.matrixAutoUpdate = points.matrixWorldAutoUpdate = false;
+	points.matrixWorld.copy(part.matrixWorld);
+	const { instanceCount } = geometry;
+	geometry.instanceCount = 1;
+	const scene = new Scene().add(points);
+	const camera = new OrthographicCamera(-span, span, span, -span, -span, span);
+	const target = new WebGLRenderTarget(width, height, { type: FloatType });
+	const pixels = renderFloats(renderer, scene, camera, target);
+	if (instanceCount !== undefined) geometry.instanceCount = instanceCount;
+	target.dispose();
+	probe.dispose();
+	// Depth runs away from the viewer.
+	const places = Float32Array.from(
+		{ length: 3 * count },
+		(_, i) => span * (i % 3 === 2 ? -1 : 1) * (pixels[4 * Math.floor(i / 3) + (i % 3)] ?? Number.NaN),
+	);
+	return toBase64(new Uint8Array(places.buffer));
+}
+
+/** Where the GPU has the vertices of shells and fins at moments of clips, and the bounds of body and fur there. */
+export async function vertices(url: string, moments: [clip: string | undefined, seconds: number][]) {
+	const stand = await Stand.load(url);
+	const { fur } = stand;
+	const answers = moments.map(([clip, seconds]) => {
+		stand.pose(clip, seconds);
+		stand.draw();
+		const { center, radius } = fur.bounds(new Sphere());
+		const reach = 2 * (center.length() + radius);
+		const fins = fur.fins && placesOf(fur.fins as never, reach);
+		// Fins are cut into strips from root to tip: a root per strip.
+		const rows = fur.fins ? fur.fins.geometry.getAttribute('position').count / 2 : 0;
+		return {
+			...{ shells: placesOf(fur.shells as never, reach), fins, rows },
+			...{ center: center.toArray(), radius, length: fur.asset.length },
+		};
+	});
+	stand.dispose();
+	return { answers, error: gl.getError() };
+}
+
+/** Peak signal to noise, decibels, of premultiplied pixels in 0..1. */
+function psnr(a: Float32Array, b: Float32Array): number {
+	const sum = a.reduce((total, value, i) => total + (value - (b[i] ?? Number.NaN)) ** 2, 0);
+	return -10 * Math.log10(sum / a.length);
+}
+
+/** Turns an object about the world's origin. */
+function turn(object: Object3D, angle: number): void {
+	const by = new Quaternion().setFromAxisAngle(new Vector3(0.5, 1, 0.3).normalize(), angle);
+	object.position.applyQuaternion(by);
+	object.quaternion.premultiply(by);
+}
+
+/** A still body, turned, and the same as a character, turned by its first joint; in decibels. */
+export async function turned(still: string, moving: string, shadows: boolean) {
+	const [node, joint] = [await Stand.load(still), await Stand.load(moving)];
+	const pictures: Float32Array[] = [];
+	for (const stand of [node, joint]) {
+		stand.lamp.castShadow = shadows;
+		Object.assign(stand.lamp.shadow.camera, { left: -2, right: 2, bottom: -2, top: 2, near: 0.1, far: 8 });
+		stand.lamp.position.multiplyScalar(3);
+		stand.camera.position.set(1, 2, 8);
+		stand.camera.lookAt(0, 0.5, 0);
+	}
+	for (const angle of [0, 1, 2.5]) {
+		for (const stand of [node, joint]) {
+			const [first] = stand.fur.shells.skeleton?.bones ?? [];
+			const object = first ?? stand.gltf.scene;
+			turn(object, angle);
+			pictures.push(stand.draw());
+			turn(object, -angle);
+		}
+	}
+	const alike = [0, 2, 4].map((i) => psnr(pictures[i] as Float32Array, pictures[i + 1] as Float32Array));
+	const apart = psnr(pictures[0] as Float32Array, pictures[2] as Float32Array);
+	for (const stand of [node, joint]) stand.dispose();
+	return { alike, apart, error: gl.getError() };
+}
+
+/** A character and its copy: what moves with whom, and what is left of both. */
+export async function twins(url: string) {
+	const { geometries, textures } = renderer.info.memory;
+	const stand = await Stand.load(url);
+	const alone = stand.draw();
+	const twin = clone(stand.gltf.scene);
+	const fur = Fur.of(twin);
+	if (!fur) throw new Error('no fur');
+	stand.scene.remove(stand.gltf.scene);
+	stand.scene.add(twin);
+	const copied = stand.draw();
+	// The copy moves, the original stays.
+	const mixer = new AnimationMixer(twin);
+	const [clip] = stand.gltf.animations;
+	if (clip) mixer.clipAction(clip).play();
+	mixer.setTime(0.4);
+	const moved = stand.draw();
+	stand.scene.add(stand.gltf.scene);
+	stand.scene.remove(twin);
+	const original = stand.draw();
+	stand.pose(clip?.name, 0.4);
+	const both = stand.draw();
+	stand.pose(undefined, 0);
+	const own = {
+		skin: fur.skin !== stand.fur.skin && fur.skin.parent === twin,
+		skeleton: fur.shells.skeleton === (fur.skin as Mesh & { skeleton?: unknown }).skeleton,
+		material: fur.material !== stand.fur.material,
+		textures: fur.textures === stand.fur.textures,
+	};
+	// The first to go is the original; the copy is drawn as before.
+	stand.fur.dispose();
+	stand.scene.remove(stand.gltf.scene);
+	stand.scene.add(twin);
+	const left = stand.draw();
+	fur.dispose();
+	stand.dispose();
+	const kept = {
+		geometries: renderer.info.memory.geometries - geometries,
+		textures: renderer.info.memory.textures - textures,
+	};
+	return {
+		own,
+		copied: psnr(copied, alone),
+		moved: psnr(moved, alone),
+		original: psnr(original, alone),
+		both: psnr(both, moved),
+		left: psnr(left, moved),
+		kept,
+		error: gl.getError(),
+	};
+}
