@@ -75,7 +75,7 @@ function carry(fur: Fur): void {
 	);
 	const parent = fur.shells.parent as Object3D;
 	for (const bone of each) parent.add(bone);
-	Object.assign(fur.shells, { skeleton, bindMode: 'attached', bindMatrix: new Matrix4() });
+	Object.assign(fur.shells, { skeleton, bindMatrix: new Matrix4() });
 	bones.set(fur, each);
 	const way = Float32Array.from(
 		{ length: 3 * position.count },
