@@ -52,7 +52,7 @@ function slow(growth = 0.9): () => number {
 /** Bones by the fur they carry. */
 const bones = new WeakMap<Fur, readonly Bone[]>();
 
-/** Lets three bones carry a body: one more on the left, one on the right, one above. Call it before the first use of follicles. */
+/** Lets three bones carry a body, and a morph target stretch it: one more on the left, one on the right, one above. Call it before the first use of follicles. */
 function carry(fur: Fur): void {
 	const { geometry } = fur.shells;
 	const position = geometry.getAttribute('position');
@@ -75,8 +75,14 @@ function carry(fur: Fur): void {
 	);
 	const parent = fur.shells.parent as Object3D;
 	for (const bone of each) parent.add(bone);
-	Object.assign(fur.shells, { skeleton, bindMode: 'attached', bindMatrix: new Matrix4() });
+	Object.assign(fur.shells, { skeleton, bindMatrix: new Matrix4() });
 	bones.set(fur, each);
+	const way = Float32Array.from(
+		{ length: 3 * position.count },
+		(_, i) => 0.3 * (max.x - min.x) * (weights[4 * Math.floor(i / 3) + 1] as number),
+	);
+	geometry.morphAttributes.position = [new BufferAttribute(way, 3)];
+	Object.assign(fur.ground.skin, { pose: { influences: [0], release() {} } });
 }
 
 /** Gusts, a stroke and a body that is carried about. @param frame of 60 a second */
@@ -93,6 +99,8 @@ function act(fur: Fur, motion: FurMotion, frame: number): void {
 		bone.rotation.set(0.6 * Math.sin(5 * t + i), 0, 0.8 * i * Math.sin(4 * t));
 		bone.position.y = 0.1 * Math.sin(6 * t + 2 * i);
 	}
+	const { influences } = fur.ground.skin.pose ?? {};
+	if (influences) (influences as number[])[0] = 0.5 + 0.5 * Math.sin(7 * t);
 	const { center, radius } = shells.geometry.boundingSphere ?? { center: new Vector3(), radius: 1 };
 	const at = (x: number) =>
 		new Vector3(center.x + x * radius, center.y + 0.5 * radius, center.z).applyMatrix4(shells.matrixWorld);

@@ -23,6 +23,8 @@ export class FurFollicles {
 	readonly columns = FOLLICLES_PER_ROW;
 	/** Texels along it. */
 	readonly rows: number;
+	/** A vertex of the surface for each. */
+	readonly vertex: Uint32Array;
 	/** Three numbers each. */
 	readonly position: Float32Array;
 	/** Unit vectors. */
@@ -61,12 +63,14 @@ export class FurFollicles {
 		const { count, point } = weld(surface);
 		this.count = count;
 		this.rows = Math.ceil(count / FOLLICLES_PER_ROW);
+		this.vertex = new Uint32Array(count);
 		this.position = new Float32Array(3 * count);
 		this.normal = new Float32Array(3 * count);
 		this.comb = new Float32Array(3 * count);
 		this.length = new Float32Array(count).fill(1);
 		const vector = new Vector3();
 		for (const [i, at] of point.entries()) {
+			this.vertex[at] = i;
 			vector.fromBufferAttribute(position, i).toArray(this.position, 3 * at);
 			vector
 				.fromBufferAttribute(normal, i)

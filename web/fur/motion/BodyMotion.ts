@@ -1,8 +1,10 @@
-import { type Object3D, Sphere, Vector3 } from 'three';
+import { type Mesh, Sphere, Vector3 } from 'three';
 import type { FurFollicles } from '../body/FurFollicles.ts';
 import type { Joints } from '../body/joints/joints.ts';
 import { Placements } from '../body/joints/Placements.ts';
+import { Morphs } from '../body/Morphs.ts';
 import { type Drive, JOINT } from './drive.ts';
+import { MorphMotion } from './MorphMotion.ts';
 
 /** Displacement of the longest tips by gravity on a wall, share of the length. */
 const SAG = 0.3;
@@ -28,6 +30,7 @@ const down = new Vector3(0, -1, 0);
 export class BodyMotion {
 	readonly #joints: Joints;
 	readonly #placements: Placements;
+	readonly #morphs: MorphMotion | undefined;
 	/** Bounding sphere of the body, its mesh's units. */
 	readonly #sphere: Sphere;
 	readonly #furLength: number;
@@ -53,8 +56,17 @@ export class BodyMotion {
 	 * @param joints of its follicles
 	 * @param furLength longest fur as baked, the mesh's own units
 	 * @param pace ω of the fur
+	 * @param influences weights of the body's morph targets
 	 */
-	constructor(mesh: Object3D, { count, position }: FurFollicles, joints: Joints, furLength: number, pace: number) {
+	constructor(
+		mesh: Mesh,
+		follicles: FurFollicles,
+		joints: Joints,
+		furLength: number,
+		pace: number,
+		influences: () => readonly number[],
+	) {
+		const { count, position } = follicles;
 		this.#joints = joints;
 		this.#placements = new Placements(mesh, joints);
 		this.#bakedDown.copy(down).applyQuaternion(mesh.quaternion.clone().conjugate());
@@ -62,6 +74,8 @@ export class BodyMotion {
 		this.#sphere = new Sphere().setFromPoints(points);
 		this.#furLength = furLength;
 		this.#fastest = MAX_SPEED * pace;
+		const morphs = Morphs.of(mesh.geometry);
+		if (morphs) this.#morphs = new MorphMotion(morphs, follicles, influences, furLength, this.#fastest);
 		const matrices = () => new Float64Array(16 * joints.bones.length);
 		[this.#from, this.#to, this.#last, this.#middle] = [matrices(), matrices(), matrices(), matrices()];
 		[this.#skin, this.#felt, this.#feltBefore, this.#rest] = [matrices(), matrices(), matrices(), matrices()];
@@ -79,8 +93,9 @@ export class BodyMotion {
 		this.#from.set(this.#to);
 		this.#placements.read(this.#to);
 		const moved = this.#placed && this.#to.some((value, i) => value !== this.#from[i]);
+		const changed = this.#morphs?.look(seconds) && this.#placed;
 		if (!this.#placed || (moved && !this.#measure(seconds))) this.#settle();
-		return moved;
+		return moved || changed === true;
 	}
 
 	/** Forget all motion. */
@@ -92,6 +107,7 @@ export class BodyMotion {
 	#settle(): void {
 		for (const placement of [this.#from, this.#last, this.#middle]) placement.set(this.#to);
 		for (const velocity of [this.#skin, this.#felt, this.#feltBefore]) velocity.fill(0);
+		this.#morphs?.place();
 		this.#placed = true;
 	}
 
@@ -125,6 +141,7 @@ export class BodyMotion {
 			const skin = this.#skin[i] as number;
 			this.#felt[i] = skin + kept * ((this.#felt[i] as number) - skin);
 		}
+		this.#morphs?.advance(kept);
 	}
 
 	/** Whether hairs have caught up; a negligible rest is dropped. */
@@ -132,7 +149,9 @@ export class BodyMotion {
 		for (let i = 0; i < this.#rest.length; i++) this.#rest[i] = (this.#skin[i] as number) - (this.#felt[i] as number);
 		for (const [joint, sphere] of this.#joints.spheres.entries())
 			if (speedOf(this.#rest, joint, sphere) > MIN_SPEED) return false;
+		if (this.#morphs && this.#morphs.rest > MIN_SPEED) return false;
 		this.#felt.set(this.#skin);
+		this.#morphs?.catchUp();
 		return true;
 	}
 
@@ -159,6 +178,7 @@ export class BodyMotion {
 		}
 		drive.sags = this.sags(gravity);
 		this.#writeJoints(drive);
+		this.#morphs?.write(drive);
 		this.#feltBefore.set(this.#felt);
 	}
 

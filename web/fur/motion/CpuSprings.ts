@@ -53,7 +53,7 @@ export class CpuSprings implements Solver, SpringStates {
 
 	// Long: one pass over the follicles reads each one's numbers once, which saves a quarter of the time.
 	step(drive: Drive): void {
-		const { gale, gusts, waves, kicks, fade } = drive;
+		const { gale, gusts, waves, kicks, ways, morphs, fade } = drive;
 		const { sag, blow, kick, place } = this.#blend;
 		const old = this.#after;
 		const states = this.#before;
@@ -175,6 +175,11 @@ export class CpuSprings implements Solver, SpringStates {
 				kickX = half * row(kick, 0, px, py, pz);
 				kickY = half * row(kick, 4, px, py, pz);
 				kickZ = half * row(kick, 8, px, py, pz);
+				if (morphs) {
+					kickX += half * (ways[4 * i] as number);
+					kickY += half * (ways[4 * i + 1] as number);
+					kickZ += half * (ways[4 * i + 2] as number);
+				}
 				const off = kickX * nx + kickY * ny + kickZ * nz;
 				kickX -= off * nx;
 				kickY -= off * ny;

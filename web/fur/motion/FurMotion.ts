@@ -1,6 +1,7 @@
 import { Matrix4, type Mesh, type Object3D, type Texture, type Vector3, type WebGLRenderer } from 'three';
 import { FurAttachment } from '../body/FurAttachment.ts';
 import type { FurFollicles } from '../body/FurFollicles.ts';
+import { Morphs } from '../body/Morphs.ts';
 import type { FurAsset } from '../format.ts';
 import { BodyMotion } from './BodyMotion.ts';
 import { CpuSprings } from './CpuSprings.ts';
@@ -32,6 +33,8 @@ export interface FurMotionBody {
 	readonly shells: Mesh;
 	/** Longest fur as baked, model units. */
 	readonly asset: Pick<FurAsset, 'length'>;
+	/** The skin, whose morph targets move the body. */
+	readonly ground?: { readonly skin: { readonly pose: { readonly influences: readonly number[] } | undefined } };
 	/** Attached motion, if any. */
 	motion: FurMotion | undefined;
 }
@@ -89,9 +92,10 @@ export class FurMotion extends FurAttachment {
 		this.#strokes = new Strokes(follicles, relaxation);
 		const furLength = asset.length / shells.scale.x;
 		const { joints } = this.#roots;
-		this.#bodyMotion = new BodyMotion(shells, follicles, joints, furLength, this.#spring.pace);
+		const influences = () => body.ground?.skin.pose?.influences ?? [];
+		this.#bodyMotion = new BodyMotion(shells, follicles, joints, furLength, this.#spring.pace, influences);
 		this.#shells = shells;
-		this.#drive = calm(joints.bones.length);
+		this.#drive = calm(joints.bones.length, Morphs.of(shells.geometry) ? follicles.count : 0);
 		this.#stopwatch = new Stopwatch(BUDGET, clock);
 		this.#solver = new CpuSprings(this.#roots, this.#spring, this.#strokes);
 		body.motion = this;
@@ -268,7 +272,7 @@ export class FurMotion extends FurAttachment {
 		if (time === 0) return;
 		this.#compared = true;
 		if (!GpuSprings.suits(renderer, this.#roots)) return;
-		const other = new GpuSprings(renderer, this.#roots, this.#spring, this.#strokes, solver);
+		const other = new GpuSprings(renderer, this.#roots, this.#spring, this.#strokes, solver, this.#drive.ways);
 		// Compile first, untimed.
 		other.rehearse(this.#drive, 1);
 		this.#stopwatch.start();

@@ -55,6 +55,8 @@ export class GpuSprings implements Solver {
 	readonly #offsets: DataTexture;
 	/** Joints of the last drive. */
 	readonly #motions: DataTexture;
+	/** Ways of morph targets of the last drive that has any. */
+	readonly #ways: DataTexture;
 	readonly #tables: DataTexture[];
 	/** Version of the uploaded stroke offsets. */
 	#version = -1;
@@ -74,22 +76,24 @@ export class GpuSprings implements Solver {
 		return extensions.has('EXT_color_buffer_float') && rows <= capabilities.maxTextureSize;
 	}
 
-	/** @param states initial states */
-	constructor(renderer: WebGLRenderer, roots: Roots, spring: Spring, strokes: Strokes, states: SpringStates) {
-		const { follicles, joints, comb, weights } = roots;
-		const { count, position, normal, length, first, links } = follicles;
+	/** @param states initial states; @param ways `Drive.ways` */
+	constructor(
+		renderer: WebGLRenderer,
+		roots: Roots,
+		spring: Spring,
+		strokes: Strokes,
+		states: SpringStates,
+		ways: Float32Array,
+	) {
+		const { count } = roots.follicles;
 		const rows = Math.ceil(count / FOLLICLES_PER_ROW);
 		this.#renderer = renderer;
 		this.#strokes = strokes;
 		this.#offsets = texture(strokes.offsets, RGBAFormat);
-		const places = table(count, 4, (i, c) => (c < 3 ? position[3 * i + c] : length[i]) as number);
-		const normals = table(count, 4, (i, c) => (c < 3 ? normal[3 * i + c] : first[i]) as number);
-		const neighbours = (i: number) => (first[i + 1] as number) - (first[i] as number);
-		const combs = table(count, 4, (i, c) => (c < 3 ? (comb[3 * i + c] as number) : neighbours(i)));
-		const pairs = table(links.length, 2, (i, c) => (c === 0 ? links[i] : weights[i]) as number);
-		const carriers = table(4 * count, 2, carrierOf(joints));
-		this.#tables = [places, normals, combs, pairs, carriers];
-		this.#motions = texture(calm(joints.bones.length).joints, RGBAFormat);
+		const tables = tablesOf(roots);
+		this.#tables = Object.values(tables);
+		this.#motions = texture(calm(roots.joints.bones.length).joints, RGBAFormat);
+		this.#ways = ways.length > 0 ? texture(ways.slice(), RGBAFormat) : table(1, 4, () => 0);
 		const given = (from: Float32Array, part: number) =>
 			table(count, 4, (i, c) => (c < 3 ? (from[STATE * i + part + c] as number) : 0));
 		this.#given = [given(states.before, 0), given(states.after, 0), given(states.after, 3)];
@@ -100,12 +104,10 @@ export class GpuSprings implements Solver {
 			stepFragment,
 			{
 				count: { value: count },
-				places: { value: places },
-				normals: { value: normals },
-				combs: { value: combs },
-				links: { value: pairs },
-				carriers: { value: carriers },
+				...Object.fromEntries(Object.entries(tables).map(([name, value]) => [name, { value }])),
 				joints: { value: this.#motions },
+				ways: { value: this.#ways },
+				morphs: { value: false },
 				offsets: { value: this.#offsets },
 				displacements: { value: after },
 				velocities: { value: velocities },
@@ -150,6 +152,10 @@ export class GpuSprings implements Solver {
 		}
 		(this.#motions.image.data as Float32Array).set(drive.joints);
 		this.#motions.needsUpdate = true;
+		if (drive.morphs) {
+			(this.#ways.image.data as Float32Array).set(drive.ways);
+			this.#ways.needsUpdate = true;
+		}
 		const target = this.#targets[this.#next];
 		for (const name of NAMES) (uniforms[name] as IUniform).value = drive[name];
 		this.#step.draw(this.#renderer, target);
@@ -201,12 +207,25 @@ export class GpuSprings implements Solver {
 	#free(): void {
 		for (const pass of [this.#step, this.#show]) pass.dispose();
 		for (const target of [...this.#targets, this.#shown]) target.dispose();
-		for (const table of [...this.#tables, ...this.#given, this.#offsets, this.#motions]) table.dispose();
+		for (const table of [...this.#tables, ...this.#given, this.#offsets, this.#motions, this.#ways]) table.dispose();
 	}
 }
 
 /** Uniforms copied from the drive. */
-const NAMES = ['pull', 'laid', 'blow', 'gale', 'gusts', 'waves', 'fade'] as const satisfies (keyof Drive)[];
+const NAMES = ['pull', 'laid', 'blow', 'gale', 'gusts', 'waves', 'morphs', 'fade'] as const satisfies (keyof Drive)[];
+
+/** Tables that do not change, by their names in the shader. */
+function tablesOf({ follicles, joints, comb, weights }: Roots): Record<string, DataTexture> {
+	const { count, position, normal, length, first, links } = follicles;
+	const neighbours = (i: number) => (first[i + 1] as number) - (first[i] as number);
+	return {
+		places: table(count, 4, (i, c) => (c < 3 ? position[3 * i + c] : length[i]) as number),
+		normals: table(count, 4, (i, c) => (c < 3 ? normal[3 * i + c] : first[i]) as number),
+		combs: table(count, 4, (i, c) => (c < 3 ? (comb[3 * i + c] as number) : neighbours(i))),
+		links: table(links.length, 2, (i, c) => (c === 0 ? links[i] : weights[i]) as number),
+		carriers: table(4 * count, 2, carrierOf(joints)),
+	};
+}
 
 /** Joint of each of a follicle's four carriers, and its weight. */
 function carrierOf({ first, joints, weights }: Joints): (carrier: number, channel: number) => number {

@@ -32,12 +32,16 @@ export interface Drive {
 	readonly joints: Float32Array;
 	/** Whether any velocity is added. */
 	kicks: boolean;
+	/** Velocity added to the tips by morph targets, 1/s, the mesh's axes; an RGBA texel for each follicle. */
+	readonly ways: Float32Array;
+	/** Whether that is not zero. */
+	morphs: boolean;
 	/** Factor of the offsets left by strokes. */
 	fade: number;
 }
 
-/** Drive without forces, of joints without a placement. */
-export function calm(joints = 1): Drive {
+/** Drive without forces. @param follicles how many morph targets move, if any do */
+export function calm(joints = 1, follicles = 0): Drive {
 	const row = 4 * FOLLICLES_PER_ROW;
 	const drive = {
 		pull: new Float32Array(3),
@@ -49,6 +53,8 @@ export function calm(joints = 1): Drive {
 		waves: new Float32Array(4 * WAVES),
 		joints: new Float32Array(row * Math.ceil((JOINT * joints) / row)),
 		kicks: false,
+		ways: new Float32Array(row * Math.ceil((4 * follicles) / row)),
+		morphs: false,
 		fade: 1,
 	};
 	for (let joint = 0; joint < joints; joint++)

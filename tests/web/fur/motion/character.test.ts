@@ -5,6 +5,7 @@ import {
 	AnimationMixer,
 	type DataTexture,
 	Euler,
+	Float32BufferAttribute,
 	Quaternion,
 	QuaternionKeyframeTrack,
 	Vector3,
@@ -206,6 +207,32 @@ describe('hairs of a character', () => {
 		settled.settle();
 		expect(largest(swingOf(still))).toBeGreaterThan(0.1);
 		expect(apart(swingOf(body), swingOf(still))).toBeLessThan(2e-3);
+	});
+
+	it('lag behind a morph target as behind a body that its node moves as far', () => {
+		const [node, target] = [limb(), limb()];
+		const { geometry } = target.mesh;
+		const way = new Float32Array(3 * geometry.getAttribute('position').count);
+		way.forEach((_, i) => {
+			if (i % 3 === 0) way[i] = 0.5 / target.mesh.scale.x;
+		});
+		geometry.morphAttributes.position = [new Float32BufferAttribute(way, 3)];
+		const influences = [0];
+		Object.assign(target.fur, { ground: { skin: { pose: { influences } } } });
+		const motions = [new FurMotion(node.fur), new FurMotion(target.fur)];
+		let swung = 0;
+		for (let frame = 0; frame < 120; frame++) {
+			node.place.position.x = 0.5 * step(frame / 60, 0.6);
+			influences[0] = step(frame / 60, 0.6);
+			for (const motion of motions) motion.update(FRAME);
+			swung = Math.max(swung, largest(swingOf(target)));
+			expect(apart(swingOf(node), swingOf(target))).toBeLessThan(1e-3);
+		}
+		expect(swung).toBeGreaterThan(0.05);
+		for (const motion of motions) {
+			let frames = 0;
+			while (motion.update(FRAME)) expect(frames++).toBeLessThan(240);
+		}
 	});
 
 	it('lie in a lane where a finger goes over the arm at rest', () => {

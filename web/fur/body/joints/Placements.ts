@@ -32,16 +32,14 @@ export class Placements {
 		}
 	}
 
-	/** Find the placement by a bone, as three's shaders do. */
-	#bone({ skeleton, bindMode, bindMatrix, bindMatrixInverse }: SkinnedMesh, at: number, matrix: Matrix4): void {
+	/** Find the placement by a bone. */
+	#bone({ skeleton, bindMatrix }: SkinnedMesh, at: number, matrix: Matrix4): void {
 		const bone = skeleton.bones[at];
 		const inverse = skeleton.boneInverses[at];
 		if (!bone || !inverse) return;
 		this.#refresh(bone);
-		// An attached mesh moves by its bones alone.
-		if (bindMode === 'detached') matrix.multiply(bindMatrixInverse);
-		else matrix.identity();
-		matrix.multiply(bone.matrixWorld).multiply(inverse).multiply(bindMatrix);
+		// The mesh itself moves nothing: it is attached.
+		matrix.multiplyMatrices(bone.matrixWorld, inverse).multiply(bindMatrix);
 	}
 
 	/** Bring a node's matrix up to date, those above it first. */

@@ -11,6 +11,8 @@ uniform sampler2D combs; // XYZ = displacement of the tip as combed, share of th
 uniform sampler2D links; // X = neighbour, Y = weight
 uniform sampler2D carriers; // four of each follicle: X = joint, Y = weight
 uniform sampler2D joints; // JOINT texels each, as `Drive.joints`
+uniform sampler2D ways; // XYZ = velocity added to the tips by morph targets, 1/s
+uniform bool morphs; // whether there is any
 uniform sampler2D offsets; // XYZ = displacement by strokes, before the factor `fade`
 uniform sampler2D displacements; // XYZ = displacement at the beginning, shares of the length
 uniform sampler2D velocities; // XYZ = velocity at the beginning, 1/s
@@ -115,7 +117,9 @@ void main() {
 	x = tangential(x + own * texelFetch(displacements, at, 0).xyz, outward.xyz);
 	v = tangential(v + own * texelFetch(velocities, at, 0).xyz, outward.xyz);
 
-	vec3 push = 0.5 * place.w * tangential(turn * moved(motion.kick, p), outward.xyz);
+	vec3 kick = turn * moved(motion.kick, p);
+	if (morphs) kick += texelFetch(ways, at, 0).xyz;
+	vec3 push = 0.5 * place.w * tangential(kick, outward.xyz);
 	v += push;
 	tip = comb.xyz + lead + spring.x * (x - lead) + spring.y * v;
 	v = spring.z * (x - lead) + spring.w * v + push;
