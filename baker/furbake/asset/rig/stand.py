@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -73,19 +74,18 @@ class Stand:
 
     def skin_targets(self, buffer: Buffer, source: Ints) -> Record:
         """`targets` of a primitive of the skin whose vertices copy those in `source`; none where there are none."""
-        return self._targets(buffer, source, None)
+        return self._targets(buffer, source, lambda: None)
 
     def shell_targets(self, buffer: Buffer, charts: Charts) -> Record:
         """The same of the shells."""
-        turned = charts_tangents(self.surface, charts, self._deltas)
-        return self._targets(buffer, charts.source, turned)
+        return self._targets(buffer, charts.source, lambda: charts_tangents(self.surface, charts, self._deltas))
 
     def fin_targets(self, buffer: Buffer, fins: Fins) -> Record:
         """The same of the fins."""
-        return self._targets(buffer, fins.source, fins_tangents(self.surface, fins, self._deltas))
+        return self._targets(buffer, fins.source, lambda: fins_tangents(self.surface, fins, self._deltas))
 
-    def _targets(self, buffer: Buffer, source: Ints, tangents: Floats | None) -> Record:
+    def _targets(self, buffer: Buffer, source: Ints, tangents: Callable[[], Floats | None]) -> Record:
         if not len(self._deltas):
             return {}
         places = self._deltas[:, source] / self.scale
-        return {"targets": targets(buffer, places, self._turns[:, source], tangents)}
+        return {"targets": targets(buffer, places, self._turns[:, source], tangents())}
