@@ -68,7 +68,7 @@ from furbake.surface.shapes import builtin
 
 HERE = Path(__file__).parent
 sys.path.append(str(HERE.parent / "baker"))
-from helpers.characters import ring  # noqa: E402
+from helpers.arms import ring  # noqa: E402
 from helpers.moving import Moving  # noqa: E402
 
 POSES = ((0, 0.0), (0, 0.2), (0, 0.5), (0, 0.8))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from furbake.surface.read.gltf_data import GltfData, Record
@@ -31,6 +33,11 @@ def places(data: GltfData) -> tuple[dict[int, Floats], dict[int, int]]:
         found[index], parents[index] = above @ matrix(node), parent
         todo += [(child, found[index], index) for child in node.get("children", [])]
     return dict(sorted(found.items())), parents
+
+
+def text(name: Any, otherwise: str = "") -> str:
+    """A name as it may be written again: what is none is the other one, halves of characters are question marks."""
+    return otherwise if name is None else str(name).encode("utf-8", "replace").decode()
 
 
 def matrix(node: Record) -> Floats:

@@ -11,7 +11,7 @@ import pytest
 
 from furbake import BakeOptions, bake
 from furbake.asset.validate import validate
-from helpers.characters import arm
+from helpers.arms import arm
 from helpers.khronos import errors
 from helpers.moving import Moving
 from helpers.written import write_glb

@@ -9,6 +9,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from furbake.surface.read.gltf_data import GltfData, Record
+from furbake.surface.read.gltf_nodes import text
 from furbake.surface.read.gltf_parts import Part
 from furbake.surface.read.moving.skins import Skin, bound, influences, read_skin, regular
 from furbake.surface.read.moving.told import Told
@@ -177,8 +178,7 @@ def rig_nodes(
 
 def name_of(data: GltfData, node: int) -> str:
     """Name of a node, empty where it has none."""
-    name = data.list_of("nodes")[node].get("name")
-    return "" if name is None else str(name)
+    return text(data.list_of("nodes")[node].get("name"))
 
 
 def _still(name: str) -> RigNode:
@@ -186,7 +186,7 @@ def _still(name: str) -> RigNode:
 
 
 def _rig_node(record: Record, parent: int, moved: bool, told: Told) -> RigNode:
-    node = replace(_still("" if record.get("name") is None else str(record["name"])), parent=parent)
+    node = replace(_still(text(record.get("name"))), parent=parent)
     if "matrix" in record:
         matrix = np.array(record["matrix"], dtype=np.float64).reshape(4, 4).T
         if not np.isfinite(matrix).all():

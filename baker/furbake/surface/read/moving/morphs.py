@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.surface.read.gltf_data import GltfData, Record
+from furbake.surface.read.gltf_nodes import text
 from furbake.surface.read.gltf_parts import Part
 from furbake.surface.read.moving.told import Told
 from furbake.surface.rig.clip import sample
@@ -66,7 +67,7 @@ def _names(mesh: Record, number: int) -> list[str]:
     extras = mesh.get("extras")
     listed = extras.get("targetNames") if isinstance(extras, dict) else None
     listed = listed if isinstance(listed, list) else []
-    return [str(listed[i]) if i < len(listed) else str(i) for i in range(number)]
+    return [text(listed[i], str(i)) if i < len(listed) else str(i) for i in range(number)]
 
 
 def _weights(listed: Any, number: int) -> list[float]:

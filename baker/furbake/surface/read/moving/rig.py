@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from furbake.surface.read.moving.clips import NOTHING, FileClip, read_clips
 from furbake.surface.read.gltf_data import GltfData
+from furbake.surface.read.gltf_parts import Part
+from furbake.surface.read.moving.clips import NOTHING, FileClip, read_clips
 from furbake.surface.read.moving.joints import read_joints, rig_nodes
 from furbake.surface.read.moving.morphs import Morphs, body_channel, read_morphs, targets
-from furbake.surface.read.gltf_parts import Part
 from furbake.surface.read.moving.told import Told
 from furbake.surface.rig.pose import matrices, posed, rest
 from furbake.surface.rig.rig import BODY, Channel, Clip, Pose, Rig

@@ -133,7 +133,7 @@ def influences(skin: Skin, which: Floats, weights: Floats, told: Told) -> tuple[
     shares = np.where(known & sane, weights, 0.0)
     lost = ~(shares > 0.0).any(axis=1)
     told.add(WEIGHTLESS, int(lost.sum()))
-    shares[lost, known[lost].argmax(axis=1)] = 1.0
+    shares[lost, 0] = 1.0
     kept, strong, number = strongest(joints, shares)
     told.add(MANY, int((number > strong.shape[1]).sum()))
     skin.weight += np.bincount(kept.reshape(-1), strong.reshape(-1), count)
