@@ -148,6 +148,25 @@ def bent_tube(positions: str = "float32", weights: str = "float32", joints: str 
     return made
 
 
+def plate(made: Character, *targets: Any, sparse: bool = False, **node: Any) -> int:
+    """A node with a grid of 5 by 5 vertices that morphs."""
+    x, z = (value.reshape(-1) / 4.0 for value in np.mgrid[0:5, 0:5])
+    r, c = (value.reshape(-1) for value in np.mgrid[0:4, 0:4])
+    a = 5 * r + c
+    faces = np.concatenate([np.stack([a, a + 1, a + 6], 1), np.stack([a, a + 6, a + 5], 1)])
+    mesh = made.mesh(np.stack([x, np.zeros(25), z], axis=1), faces)
+    add = made.add_sparse if sparse else made.add
+    made.primitive(mesh)["targets"] = [{"POSITION": add(deltas)} for deltas in targets]
+    return made.node(mesh=mesh, **node)
+
+
+def humps(seed: int, number: int) -> list[Any]:
+    chance = np.random.default_rng(seed)
+    found = chance.normal(size=(number, 25, 3))
+    found[:, ::3] = 0.0
+    return list(found)
+
+
 def matrix_of(record: dict[str, Any]) -> Array:
     if "matrix" in record:
         return np.array(record["matrix"], dtype=float).reshape(4, 4).T

@@ -11,7 +11,8 @@ from furbake.surface.soup import Floats
 
 
 def places(data: GltfData) -> tuple[dict[int, Floats], dict[int, int]]:
-    """(4, 4) matrix of every node of the scene, and the node above each, -1 above the roots; by rising number.
+    """(4, 4) matrix of every node of the scene, and the node above each, -1 above the roots. The first by
+    rising number, the second in the order of a walk through the scene.
 
     Raises ValueError where a node is below itself or below two others.
     """

@@ -13,7 +13,7 @@ from furbake.surface.mesh import load_mesh
 from furbake.surface.rig.at import pose_at
 from furbake.surface.rig.pose import posed
 from furbake.surface.rig.rig import BODY, Rig
-from helpers.characters import Character, bent_tube, standing, tube, tube_weights, turn
+from helpers.characters import Character, bent_tube, humps, plate, standing, tube, tube_weights, turn
 
 NOWS = (0.0, 0.3, 0.5, 0.77, 1.0, 1.4, 2.5)
 
@@ -120,25 +120,6 @@ def test_eight_joints_become_the_four_strongest(tmp_path: Path) -> None:
     np.testing.assert_array_equal(rig.which[0], [0, 1, 0, 0])
     number = len(vertices) - 1
     assert f"{number} vertices with more than 4 joints keep their 4 strongest" in told(made, tmp_path)
-
-
-def plate(made: Character, *targets: Any, sparse: bool = False, **node: Any) -> int:
-    """A node with a grid of 5 by 5 vertices that morphs."""
-    x, z = (value.reshape(-1) / 4.0 for value in np.mgrid[0:5, 0:5])
-    r, c = (value.reshape(-1) for value in np.mgrid[0:4, 0:4])
-    a = 5 * r + c
-    faces = np.concatenate([np.stack([a, a + 1, a + 6], 1), np.stack([a, a + 6, a + 5], 1)])
-    mesh = made.mesh(np.stack([x, np.zeros(25), z], axis=1), faces)
-    add = made.add_sparse if sparse else made.add
-    made.primitive(mesh)["targets"] = [{"POSITION": add(deltas)} for deltas in targets]
-    return made.node(mesh=mesh, **node)
-
-
-def humps(seed: int, number: int) -> list[Any]:
-    chance = np.random.default_rng(seed)
-    found = chance.normal(size=(number, 25, 3))
-    found[:, ::3] = 0.0
-    return list(found)
 
 
 @pytest.mark.parametrize("sparse", [False, True])

@@ -97,6 +97,7 @@ def _channel(
         wrong = kind not in ("LINEAR", "STEP", "CUBICSPLINE") or times.shape[1] != 1 or not rows
         if wrong or values.shape[1] != WIDTHS[path] or values.size != rows * width:
             raise ValueError("numbers of another shape")
+        keys.data.numbers.take(times.size + values.size)
     except MeshError:
         raise
     except BROKEN:

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 from furbake.surface.read.gltf_data import GltfData, Record
 from furbake.surface.read.gltf_nodes import text
 from furbake.surface.read.gltf_parts import Part
-from furbake.surface.read.moving.skins import Skin, bound, influences, read_skin, regular
+from furbake.surface.read.moving.skins import Skin, bound, influences, read_skin, regular, spans
 from furbake.surface.read.moving.told import Told
 from furbake.surface.rig.rig import RigNode
 from furbake.surface.soup import Floats, Ints
@@ -87,7 +87,7 @@ def read_joints(
         skin, found = read.get(part.skin), part.influences()
         held.append(None if skin is None or found is None else influences(skin, *found, told))
     joints = Joints()
-    tables, spaces = _of_skins(data, read, parents, parts, held, places, joints)
+    tables, spaces = _of_skins(data, read, spans(parents), parts, held, places, joints)
     movers = moved | set(joints.nodes)
     for node, parent in parents.items():
         if parent in movers:
@@ -123,7 +123,7 @@ def read_joints(
 def _of_skins(
     data: GltfData,
     skins: dict[object, Skin | None],
-    parents: dict[int, int],
+    where: dict[int, tuple[int, int]],
     parts: Sequence[Part],
     held: Sequence[tuple[Ints, Floats] | None],
     places: dict[int, Floats],
@@ -136,7 +136,7 @@ def _of_skins(
         skin = skins.get(part.skin)
         if own is None or skin is None or part.skin in tables:
             continue
-        space = bound(skin, parents)
+        space = bound(skin, where)
         if space is None:
             space = places[part.node] if regular(places[part.node][None])[0] else np.eye(4)
         whole = regular(skin.stand)
