@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from furbake.asset.planes import PlaneError, read_png
 from furbake.options import BakeOptions
-from furbake.options.bake_options import OF_VERTICES
+from furbake.options.bake_options import OF_VERTICES, clip_at
 from furbake.size import questions, sized
 from furbake.surface.charts import Charts, laid
 from furbake.surface.files import read_text
@@ -20,7 +20,7 @@ from furbake.surface.lay.field import Stroke, comb_field
 from furbake.surface.lay.lapped import lap
 from furbake.surface.lay.lapped_figures import lapped_figures
 from furbake.surface.lay.own import own_charts
-from furbake.surface.mesh import MeshError, Surface, load_mesh, simplify
+from furbake.surface.mesh import MAX_FACES, MeshError, Surface, load_mesh, simplify
 from furbake.surface.place.features import Feature, clearing, read_features
 from furbake.surface.place.occlusion import openness
 from furbake.surface.place.paint import brought, uncover, vertex_map, vertex_numbers
@@ -28,6 +28,7 @@ from furbake.surface.place.thickness import length_by_thickness
 from furbake.surface.place.variation import noise, underside
 from furbake.surface.place.vertex_fur import VertexFur
 from furbake.surface.repair.simplify import shell_faces
+from furbake.surface.rig.kept import shown
 from furbake.surface.shapes import builtin, is_builtin
 
 Floats = NDArray[np.float64]
@@ -62,16 +63,18 @@ class Body:
     notices: tuple[str, ...] = ()
 
 
-def load_surface(model: str, max_faces: int | None = None) -> Surface:
-    """A built-in shape by its name, else the mesh in a file."""
+def load_surface(model: str, max_faces: int | None = None, pose: tuple[str, float] | None = None) -> Surface:
+    """A built-in shape by its name, else the mesh in a file, in the pose of a clip at a time. Raises MeshError."""
     if is_builtin(model):
+        if pose is not None:
+            raise MeshError(f"{model}: has no clips, expected a file with the clip {shown(pose[0])} of the pose")
         return builtin(model)
-    return load_mesh(Path(model)) if max_faces is None else load_mesh(Path(model), max_faces)
+    return load_mesh(Path(model), MAX_FACES if max_faces is None else max_faces, pose)
 
 
 def prepare(model: str, options: BakeOptions) -> Body:
     """Read `model` and lay its fur. Raises MeshError or OptionError, each with one sentence."""
-    skin = load_surface(model, options.max_faces)
+    skin = load_surface(model, options.max_faces, None if options.pose is None else clip_at(options.pose))
     ground = simplify(skin, shell_faces(ROOM, joints=skin.rig is not None and len(skin.rig.joints) > 0))
     size = sized(ground, skin.extent, options)
     maps = brought(ground)

@@ -22,9 +22,9 @@ of which one is below the horizon: `bent.f32` is [body, light, bend, row, column
 has, for each body, the integrals over the sphere of harmonics × φ × curve: `shells` [body][curve][coefficient][9] and
 `fins`, by plain sums over 640 × 256 directions.
 
-`character` is of version 2.1: a coarse torus of two joints and two morph targets, with fins. `poses.json` has a clip with
-seconds in it for each pose; `posed.f32` what plain sums make of the file then, scene space: [pose][number], for skin,
-shells and fins one after the other the places of all vertices, then their normals, then their tangents (not of the skin).
+`character` is of version 2.1: a coarse torus of two joints and two morph targets, with fins. `poses.json` has a clip
+with seconds in it for each pose; `posed.f32` what plain sums make of the file then, scene space: [pose][number], for
+skin, shells and fins one after the other the places of all vertices, their normals, and, but for the skin, tangents.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ from furbake.surface.shapes import builtin
 
 HERE = Path(__file__).parent
 sys.path.append(str(HERE.parent / "baker"))
-from helpers.characters import ring  # noqa: E402
+from helpers.arms import ring  # noqa: E402
 from helpers.moving import Moving  # noqa: E402
 
 POSES = ((0, 0.0), (0, 0.2), (0, 0.5), (0, 0.8))

@@ -67,6 +67,7 @@ BAKE = [
         "--max-faces", metavar="F", type=WHOLE,
         help=f"simplify larger models, {MAX_FACES.range} (default: 60000)",
     ),
+    option("--pose", metavar="CLIP@SECONDS", help="lay the fur in a pose of the model, not in the one it is bound in"),
     option("--length-map", metavar="FILE.png|vertex:red", type=PLACE, help="black is no length"),
     option("--mask", metavar="FILE.png|vertex:red", type=PLACE, help="black is bare skin"),
     option("--features", metavar="FILE.json", type=PLACE, help="eyes, a nose and the like"),

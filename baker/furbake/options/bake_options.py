@@ -24,7 +24,7 @@ OF_VERTICES = "vertex:"
 """Prefix of a `length_map` or `mask` that names a channel of the vertex colours, or an attribute, not a file."""
 
 
-LATER = ("directions", "states", "dirt", "auto_length")
+LATER = ("directions", "states", "dirt", "auto_length", "pose")
 """Options that early records do not have."""
 
 
@@ -75,6 +75,8 @@ class BakeOptions:
     """How far they turn to it on the underside."""
     max_faces: int = 60_000
     """Faces above which a model is simplified."""
+    pose: str | None = None
+    """CLIP@SECONDS: the pose in which the fur is laid and lit, in place of the bind pose."""
     length_map: str | None = None
     """PNG over the model's texture coordinates, or `vertex:red` of its vertices: white is full length, black none."""
     mask: str | None = None
@@ -111,6 +113,8 @@ class BakeOptions:
                 f"coefficients: got {self.coefficients}, expected 6 for the basis ptm (eigen takes 3 to 6)"
             )
         knobs.within("max-faces", self.max_faces, MAX_FACES.low, MAX_FACES.high)
+        if self.pose is not None:
+            clip_at(self.pose)
         for name, length in (("length", self.length), ("tile", self.tile)):
             if length is not None and not LENGTH.low <= length <= LENGTH.high:
                 raise OptionError(
@@ -173,6 +177,18 @@ class BakeOptions:
                 f"options: got a record that is not understood ({error}), expected one of bake.json"
             ) from None
         return options
+
+
+def clip_at(pose: str) -> tuple[str, float]:
+    """Clip and seconds of `pose`. Raises OptionError."""
+    clip, at, seconds = pose.rpartition("@")
+    try:
+        number = float(seconds)
+    except ValueError:
+        number = -1.0
+    if not clip or not at or not 0.0 <= number < float("inf"):
+        raise OptionError(f"pose: got {pose!r}, expected CLIP@SECONDS with seconds from 0, such as Walk@0.4")
+    return clip, number
 
 
 def values_of(options: BakeOptions) -> dict[str, Any]:

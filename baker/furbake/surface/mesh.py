@@ -88,17 +88,17 @@ class Surface:
         return float(np.ptp(self.vertices, axis=0).max())
 
 
-def load_mesh(path: Path, max_faces: int = MAX_FACES, pose: str | None = None) -> Surface:
+def load_mesh(path: Path, max_faces: int = MAX_FACES, pose: tuple[str, float] | None = None) -> Surface:
     """Surface of a file; the parts of a scene are joined where their transforms put them.
 
-    pose : CLIP@SECONDS in place of the pose that skins are bound in
+    pose : a clip, by its name or number from 0, and seconds, in place of the pose that skins are bound in
 
     Raises MeshError for every file that does not give one.
     """
     reading = read(path)
     soup, rig = reading.soup, reading.rig
     if pose is not None:
-        rig = in_pose(str(path), rig, pose)
+        rig = in_pose(str(path), rig, *pose)
         soup = replace(soup, vertices=rig.posed)
     surface = _finish(str(path), soup, reading.materials, max_faces, reading.missing)
     told = reading.notices if rig is None else (*reading.notices, kept(rig))

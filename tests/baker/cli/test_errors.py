@@ -54,6 +54,12 @@ BAD_COMMANDS = {
     ("bake", "plane", "-o", "out", "--comb", "text.obj"): "text.obj: JSONDecodeError: ",
     ("bake", "plane", "-o", "out", "--uv", "round"): "uv: got 'round', expected lapped or own",
     ("bake", "plane", "-o", "out", "--max-faces", "2"): "max-faces: got 2, expected 4 to 2000000",
+    ("bake", "plane", "-o", "out", "--pose", "Walk"): "pose: got 'Walk', expected CLIP@SECONDS with seconds from 0",
+    ("bake", "plane", "-o", "out", "--pose", "Walk@-1"): "pose: got 'Walk@-1', expected CLIP@SECONDS",
+    ("bake", "plane", "-o", "out", "--pose", "Walk@soon"): "pose: got 'Walk@soon', expected CLIP@SECONDS",
+    ("bake", "plane", "-o", "out", "--pose", "@1"): "pose: got '@1', expected CLIP@SECONDS",
+    ("bake", "plane", "-o", "out", "--pose", "Walk@1"): "plane: has no clips, expected a file with the clip Walk of",
+    ("bake", "good.obj", "-o", "out", "--pose", "0@1"): "good.obj: has no clips, expected the clip 0 of the pose",
     ("bake", "plane", "-o", "out", "--mask", "none.png"): "none.png: ",
     (
         "bake",

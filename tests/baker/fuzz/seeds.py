@@ -64,7 +64,7 @@ class _Buffer:
 
 
 def scene(skinned: bool) -> tuple[dict[str, Any], bytes]:
-    """A glTF with texture, colours, a sparse accessor and, if asked for, joints."""
+    """A glTF with texture, colours, a sparse accessor and, if asked for, joints, targets and a clip."""
     body, mesh = _Buffer(), ball()
     count = len(mesh.vertices)
     chance = np.random.default_rng(2)
@@ -102,9 +102,43 @@ def scene(skinned: bool) -> tuple[dict[str, Any], bytes]:
         inverse = body.add(np.tile(np.eye(4).reshape(16), (2, 1)).astype("<f4"), "MAT4", 5126)
         document["skins"] = [{"joints": [0, 2], "inverseBindMatrices": inverse}]
         nodes[1]["skin"] = 0
+        moving(document, body, count)
     document |= {"accessors": body.accessors, "bufferViews": body.views}
     document["buffers"] = [{"byteLength": len(body.data), "uri": "body.bin"}]
     return document, body.data
+
+
+def moving(document: dict[str, Any], body: _Buffer, count: int) -> None:
+    """Two morph targets, one of them sparse, and clips of every interpolation for nodes and targets."""
+    chance = np.random.default_rng(3)
+    mesh = document["meshes"][0]
+    sparse = {
+        "count": 2,
+        "indices": {"bufferView": body.view(struct.pack("<2H", 1, 5)), "componentType": 5123},
+        "values": {"bufferView": body.view(struct.pack("<6f", 0, 1, 0, 1, 0, 0))},
+    }
+    body.accessors.append({"componentType": 5126, "count": count, "type": "VEC3", "sparse": sparse})
+    targets = [len(body.accessors) - 1, body.add(chance.random((count, 3)).astype("<f4"), "VEC3", 5126)]
+    mesh["primitives"][0]["targets"] = [{"POSITION": target} for target in targets]
+    mesh |= {"weights": [0.0, 0.5], "extras": {"targetNames": ["smile", "blink"]}}
+    times = body.add(np.array([0, 0.5, 1], "<f4"), "SCALAR", 5126)
+    turns = chance.integers(-127, 128, (3, 4)).astype("<i1")
+    outputs = [
+        ("translation", "LINEAR", body.add(chance.random((3, 3)).astype("<f4"), "VEC3", 5126)),
+        ("rotation", "STEP", body.add(turns, "VEC4", 5120, normalized=True)),
+        ("scale", "CUBICSPLINE", body.add(chance.random((9, 3)).astype("<f4"), "VEC3", 5126)),
+        ("weights", "LINEAR", body.add(chance.random(6).astype("<f4"), "SCALAR", 5126)),
+    ]
+    document["animations"] = [
+        {
+            "name": "walk",
+            "samplers": [{"input": times, "output": one, "interpolation": kind} for _, kind, one in outputs],
+            "channels": [
+                {"sampler": i, "target": {"node": 1 if path == "weights" else 2, "path": path}}
+                for i, (path, _, _) in enumerate(outputs)
+            ],
+        }
+    ]
 
 
 def glb(text: bytes, data: bytes) -> bytes:

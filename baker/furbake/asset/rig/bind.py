@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -45,9 +46,11 @@ class Return:
         back = self._turned(fins.tangents, fins.source)
         return replace(fins, tangents=self._without(fins_tangents(self.bind, fins, self._deltas), back))
 
-    def _without(self, shapes: Floats, vectors: Floats) -> Floats:
-        """(n, 3) unit vectors without what the pose's targets, (T, n, 3), have added to them."""
-        return unit(vectors - np.einsum("t,tni->ni", self._weights, shapes))
+    def _without(self, shapes: Iterable[Floats], vectors: Floats) -> Floats:
+        """(n, 3) unit vectors without what the pose's targets, each (n, 3), have added to them."""
+        for weight, shape in zip(self._weights.tolist(), shapes, strict=True):
+            vectors = vectors - weight * shape
+        return unit(vectors)
 
     def fur(self, fur: VertexFur) -> VertexFur:
         """Fur combed by as much as on the posed surface."""

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import repeat
 from typing import Any
 
 import numpy as np
@@ -73,19 +75,18 @@ class Stand:
 
     def skin_targets(self, buffer: Buffer, source: Ints) -> Record:
         """`targets` of a primitive of the skin whose vertices copy those in `source`; none where there are none."""
-        return self._targets(buffer, source, None)
+        return self._targets(buffer, source, repeat(None, len(self._deltas)))
 
     def shell_targets(self, buffer: Buffer, charts: Charts) -> Record:
         """The same of the shells."""
-        turned = charts_tangents(self.surface, charts, self._deltas)
-        return self._targets(buffer, charts.source, turned)
+        return self._targets(buffer, charts.source, charts_tangents(self.surface, charts, self._deltas))
 
     def fin_targets(self, buffer: Buffer, fins: Fins) -> Record:
         """The same of the fins."""
         return self._targets(buffer, fins.source, fins_tangents(self.surface, fins, self._deltas))
 
-    def _targets(self, buffer: Buffer, source: Ints, tangents: Floats | None) -> Record:
+    def _targets(self, buffer: Buffer, source: Ints, tangents: Iterable[Floats | None]) -> Record:
         if not len(self._deltas):
             return {}
-        places = self._deltas[:, source] / self.scale
-        return {"targets": targets(buffer, places, self._turns[:, source], tangents)}
+        places = (delta[source] / self.scale for delta in self._deltas)
+        return {"targets": targets(buffer, places, (turn[source] for turn in self._turns), tangents)}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,20 +19,21 @@ Record = dict[str, int]
 BYTE, SHORT = 127, 32767
 
 
-def targets(buffer: Buffer, places: Floats, normals: Floats, tangents: Floats | None) -> list[Record]:
-    """A primitive's targets.
+def targets(
+    buffer: Buffer, places: Iterable[Floats], normals: Iterable[Floats], tangents: Iterable[Floats | None]
+) -> list[Record]:
+    """A primitive's targets, from (M, 3) displacements by each of them at 1.
 
-    places, normals, tangents : (T, M, 3) displacements by each target at 1, of places in units of their grid;
-        no tangents where the primitive has none
+    places : in units of their grid; tangents : None where the primitive has none
     """
     found = []
-    for i, (place, normal) in enumerate(zip(places, normals, strict=True)):
+    for place, normal, tangent in zip(places, normals, tangents, strict=True):
         target = {
             "POSITION": buffer.displacements(quantised(place, SHORT), bounds=True),
             "NORMAL": buffer.displacements(quantised(normal, BYTE)),
         }
-        if tangents is not None:
-            target["TANGENT"] = buffer.displacements(quantised(tangents[i], BYTE))
+        if tangent is not None:
+            target["TANGENT"] = buffer.displacements(quantised(tangent, BYTE))
         found.append(target)
     return found
 
@@ -42,24 +45,23 @@ def displaced_normals(surface: Surface, deltas: Floats) -> Floats:
     return np.array(turned).reshape(deltas.shape)
 
 
-def charts_tangents(surface: Surface, charts: Charts, deltas: Floats) -> Floats:
-    """(T, M, 3) displacements of the tangents of charts: they turn as the gradient of u does."""
+def charts_tangents(surface: Surface, charts: Charts, deltas: Floats) -> Iterator[Floats]:
+    """T times (M, 3) displacements of the tangents of charts: they turn as the gradient of u does."""
     across, beside = _frame(surface.vertices, surface.faces, charts)
     x, y = (np.einsum("ij,ij->i", charts.tangents[:, :3], axis)[:, None] for axis in (across, beside))
     size = np.maximum(np.hypot(x, y), 1e-300)
     x, y = x / size, y / size
-    still, found = x * across + y * beside, np.zeros((len(deltas), len(charts.source), 3))
-    for i, delta in enumerate(deltas):
+    still = x * across + y * beside
+    for delta in deltas:
         across, beside = _frame(surface.vertices + delta, surface.faces, charts)
-        found[i] = x * across + y * beside - still
-    return found
+        yield x * across + y * beside - still
 
 
-def fins_tangents(surface: Surface, fins: Fins, deltas: Floats) -> Floats:
-    """(T, 4E, 3) displacements of the tangents of fins: of their edges."""
+def fins_tangents(surface: Surface, fins: Fins, deltas: Floats) -> Iterator[Floats]:
+    """T times (4E, 3) displacements of the tangents of fins: of their edges."""
     still = _edges(fins, surface.vertices)
-    turned = [_edges(fins, surface.vertices + delta) - still for delta in deltas]
-    return np.array(turned).reshape(len(deltas), len(fins.source), 3)
+    for delta in deltas:
+        yield _edges(fins, surface.vertices + delta) - still
 
 
 def quantised(values: Floats, most: int) -> NDArray[np.int8] | NDArray[np.int16] | NDArray[np.float32]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from furbake.surface.read.gltf_data import GltfData, Record
@@ -9,7 +11,8 @@ from furbake.surface.soup import Floats
 
 
 def places(data: GltfData) -> tuple[dict[int, Floats], dict[int, int]]:
-    """(4, 4) matrix of every node of the scene, and the node above each, -1 above the roots; by rising number.
+    """(4, 4) matrix of every node of the scene, and the node above each, -1 above the roots. The first by
+    rising number, the second in the order of a walk through the scene.
 
     Raises ValueError where a node is below itself or below two others.
     """
@@ -31,6 +34,11 @@ def places(data: GltfData) -> tuple[dict[int, Floats], dict[int, int]]:
         found[index], parents[index] = above @ matrix(node), parent
         todo += [(child, found[index], index) for child in node.get("children", [])]
     return dict(sorted(found.items())), parents
+
+
+def text(name: Any, otherwise: str = "") -> str:
+    """A name as it may be written again: what is none is the other one, halves of characters are question marks."""
+    return otherwise if name is None else str(name).encode("utf-8", "replace").decode()
 
 
 def matrix(node: Record) -> Floats:

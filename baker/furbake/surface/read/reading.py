@@ -27,7 +27,7 @@ MESHES = ("glb", "gltf", "obj", "off", "ply", "stl", "stl_ascii")
 ARCHIVES = ("zip", "tar.gz", "tar.bz2", "bz2")
 """Ends of the names of archives in which such files are found."""
 
-STATUE = "joints, clips and morph targets are left out, as the archive holds several models: the fur stands still"
+STATUE = "joints, clips and morph targets of {} models in an archive left out: the fur stands still"
 
 
 @dataclass(frozen=True)
@@ -118,7 +118,7 @@ def _read_archive(archive: Source, kind: str) -> Scene:
     if not found and broken is not None:
         raise broken
     if len(found) > 1 and any(rig is not None for rig in rigs):
-        notices.append(STATUE)
+        notices.append(STATUE.format(len(found)))
     rig = rigs[0] if len(rigs) == 1 else None
     return Scene(join(found) if found else None, tuple(materials), missing, tuple(notices), rig)
 

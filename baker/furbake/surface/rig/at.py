@@ -1,4 +1,4 @@
-"""The pose of a clip at a time, as an option names it: CLIP@SECONDS."""
+"""The pose of a clip at a time."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from furbake.surface.rig.clip import sample
-from furbake.surface.rig.kept import MAX_NAMES
+from furbake.surface.rig.kept import listed, shown
 from furbake.surface.rig.pose import local, matrices, posed, rest
 from furbake.surface.rig.rig import BODY, Clip, Pose, Rig
 from furbake.surface.soup import MeshError
@@ -16,24 +16,14 @@ DIGITS = 10
 """Digits of a clip's number, fewer than this."""
 
 
-def parse(text: str) -> tuple[str, float]:
-    """Clip and seconds of an option. Raises ValueError."""
-    clip, at, seconds = text.rpartition("@")
-    number = float(seconds)
-    if not at or not clip or not 0.0 <= number < np.inf:
-        raise ValueError(text)
-    return clip, number
+def in_pose(model: str, rig: Rig | None, clip: str, seconds: float) -> Rig:
+    """The rig in the pose of a clip, by its name or number from 0, at a time.
 
-
-def in_pose(model: str, rig: Rig | None, text: str) -> Rig:
-    """The rig in a pose, CLIP@SECONDS. Raises MeshError, beginning with the model's name, where there is none."""
-    try:
-        name, seconds = parse(text)
-    except ValueError:
-        raise MeshError(f"{model}: pose: got {text!r}, expected CLIP@SECONDS, such as Walk@0.4") from None
+    Raises MeshError, beginning with the model's name, where it has no such clip.
+    """
     if rig is None or not rig.clips:
-        raise MeshError(f"{model}: has no clips, expected some for the pose {text}")
-    pose = pose_at(rig, _clip(model, rig, name), seconds)
+        raise MeshError(f"{model}: has no clips, expected the clip {shown(clip)} of the pose")
+    pose = pose_at(rig, _clip(model, rig, clip), seconds)
     rig = replace(rig, pose=pose)
     return replace(rig, posed=posed(rig, pose))
 
@@ -63,6 +53,5 @@ def _clip(model: str, rig: Rig, name: str) -> Clip:
         return named[0]
     if name.isascii() and name.isdigit() and len(name) < DIGITS and int(name) < len(rig.clips):
         return rig.clips[int(name)]
-    names = [clip.name or str(i) for i, clip in enumerate(rig.clips[:MAX_NAMES])]
-    more = ", ..." if len(rig.clips) > MAX_NAMES else ""
-    raise MeshError(f"{model}: has no clip {name!r}, expected one of {', '.join(names)}{more}")
+    names = listed([clip.name or str(i) for i, clip in enumerate(rig.clips)])
+    raise MeshError(f"{model}: has no clip {shown(name)}, expected one of {names}")

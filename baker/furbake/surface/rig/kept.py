@@ -9,10 +9,20 @@ MAX_NAMES, LONGEST_NAME = 5, 40
 """Clips that a notice names, and characters of each name."""
 
 
+def shown(name: str) -> str:
+    """A name in one line, not longer than `LONGEST_NAME`."""
+    return "".join(letter if letter.isprintable() else " " for letter in name[:LONGEST_NAME])
+
+
+def listed(names: list[str]) -> str:
+    """The first few names."""
+    return ", ".join([shown(name) for name in names[:MAX_NAMES]] + ["..."] * (len(names) > MAX_NAMES))
+
+
 def kept(rig: Rig) -> str:
     """A notice of what moves the fur."""
-    names = [clip.name[:LONGEST_NAME] for clip in rig.clips if clip.name]
-    named = f" ({', '.join(names[:MAX_NAMES])}{', ...' if len(names) > MAX_NAMES else ''})" if names else ""
+    names = listed([clip.name for clip in rig.clips if clip.name])
+    named = f" ({names})" if names else ""
     numbers = (
         (len(rig.joints), count(len(rig.joints), "joint")),
         (len(rig.clips), count(len(rig.clips), "clip") + named),

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from furbake.surface.repair.topology import unit
 from furbake.surface.rig.follow import Follow
 from furbake.surface.rig.rig import Floats, Pose, Rig
+from furbake.surface.rig.weights import ROWS
 
 FLATTEST = 1e-9
 """Determinant of a blended matrix, in its largest number to the third power, below which nothing is brought back."""
@@ -79,8 +80,11 @@ def posed(rig: Rig, pose: Pose) -> Floats:
             places += weight * target.deltas
     if not rig.joints:
         return places
-    blended = mixed(pose.matrices, rig.which, rig.shares)
-    return np.asarray(np.einsum("vab,vb->va", blended[:, :3, :3], places) + blended[:, :3, 3])
+    for start in range(0, len(places), ROWS):
+        rows = slice(start, start + ROWS)
+        blended = mixed(pose.matrices, rig.which[rows], rig.shares[rows])
+        places[rows] = np.einsum("vab,vb->va", blended[:, :3, :3], places[rows]) + blended[:, :3, 3]
+    return places
 
 
 def unposed(rig: Rig, follows: Follow, vertices: Floats, normals: Floats) -> tuple[Floats, Floats]:

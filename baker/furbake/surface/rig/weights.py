@@ -14,12 +14,22 @@ WHOLE = 255
 """Sum of a vertex's shares as bytes."""
 
 
+ROWS = 1 << 16
+"""Vertices that are counted together."""
+
+
 def strongest(which: Ints, shares: Floats) -> tuple[Ints, Floats, Ints]:
     """(V, 4) joints and shares that sum to 1, the strongest first, and (V,) how many different joints there were.
 
     which, shares : (V, n), n >= 1, shares >= 0 and at least one above 0. A joint may be named twice; of equals the
     lower number counts. Joints without a share are 0.
     """
+    blocks = [_strongest(which[i : i + ROWS], shares[i : i + ROWS]) for i in range(0, max(len(which), 1), ROWS)]
+    joints, kept, number = zip(*blocks, strict=True)
+    return np.concatenate(joints), np.concatenate(kept), np.concatenate(number)
+
+
+def _strongest(which: Ints, shares: Floats) -> tuple[Ints, Floats, Ints]:
     missing = max(KEPT - which.shape[1], 0)
     which, shares = np.pad(which, ((0, 0), (0, missing))), np.pad(shares, ((0, 0), (0, missing)))
     rows = np.arange(len(which))[:, None]

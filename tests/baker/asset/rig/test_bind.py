@@ -11,7 +11,7 @@ import numpy as np
 from furbake.surface.place.vertex_fur import VertexFur, tangential
 from furbake.surface.repair.topology import angle_normals
 from furbake.surface.rig.rig import Pose, Rig
-from helpers.characters import arm, turned
+from helpers.arms import arm, turned
 from helpers.gltf import lapped
 from helpers.moving import Moving
 

@@ -15,7 +15,7 @@ from furbake.asset.inspect import summary
 from furbake.asset.read import read_asset
 from furbake.asset.validate import validate
 from furbake.surface.rig.rig import Rig
-from helpers.characters import arm
+from helpers.arms import arm
 from helpers.moving import Moving
 
 Edit = Callable[[dict[str, Any]], Any]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from furbake.surface.rig.rig import Clip
-from helpers.characters import arm
+from helpers.arms import arm
 from helpers.moving import Moving
 
 

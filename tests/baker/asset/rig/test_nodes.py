@@ -11,7 +11,7 @@ import numpy as np
 
 from furbake.surface.place.features import Feature
 from furbake.surface.rig.rig import Pose
-from helpers.characters import arm, node, turned
+from helpers.arms import arm, node, turned
 from helpers.khronos import errors
 from helpers.moving import Moving
 

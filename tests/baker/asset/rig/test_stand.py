@@ -12,7 +12,7 @@ import pytest
 
 from furbake.surface.mesh import simplify
 from furbake.surface.rig.rig import Rig, Target
-from helpers.characters import arm, shapes
+from helpers.arms import arm, shapes
 from helpers.gltf import lapped
 from helpers.khronos import errors
 from helpers.moving import Moving

@@ -11,7 +11,7 @@ import pytest
 
 from furbake import BakeOptions, bake
 from furbake.asset.validate import validate
-from helpers.characters import arm
+from helpers.arms import arm
 from helpers.khronos import errors
 from helpers.moving import Moving
 from helpers.written import write_glb
@@ -61,3 +61,15 @@ def test_the_record_counts_what_moves(baked: Baked) -> None:
     assert '"joints": 3' in text
     assert '"clips": 3' in text
     assert '"targets": 2' in text
+
+
+@pytest.mark.parametrize("pose", ["bend@0.5", "shapes@0.5"])
+def test_fur_laid_in_a_pose_is_stored_in_the_bind_pose(baked: Baked, pose: str) -> None:
+    source, asset, folder = baked(pose=pose)
+    clip = 0 if pose.startswith("bend") else 2
+    still = {0: {"weights": (0.0, 0.0)}}
+    one, two = (still | each.clip(clip, 0.5) for each in (source, asset))
+    for here, there, near in ((still, still, 1.5 / 255), (one, two, 1e-4 * 4.6)):
+        right, found = source.posed(0, pose=here)["POSITION"], asset.posed(0, pose=there)["POSITION"]
+        assert np.linalg.norm(right[:, None] - found[None], axis=2).min(axis=1).max() < near
+    assert validate(folder) == []

@@ -141,18 +141,21 @@ def test_skinned_model_stands_as_its_joints_do(document: Document, tmp_path: Pat
     np.testing.assert_allclose(load_mesh(document.write(tmp_path)).vertices[:, 1], 4.0)
 
 
-def test_what_does_not_move_any_more_is_said(document: Document, tmp_path: Path) -> None:
-    def told() -> list[str]:
-        return [line for line in load_mesh(document.write(tmp_path)).notices if "animation is not kept" in line]
+def test_what_moves_is_said(document: Document, tmp_path: Path) -> None:
+    def told() -> str:
+        return load_mesh(document.write(tmp_path)).notices[-1]
 
     part = document.primitive()
-    assert told() == []
-    document.json["animations"] = [{"name": f"clip {i}"} for i in range(7)]
-    (line,) = told()
-    assert "(7 clips (clip 0, clip 1, clip 2, clip 3, clip 4, ...)): the fur stands still" in line
-    document.json["animations"] = [{}]
-    part["targets"] = [{}, {}]
-    assert "(1 clip, 2 morph targets)" in told()[0]
+    assert load_mesh(document.write(tmp_path)).notices == ()
+    part["targets"] = [{"POSITION": document.accessor(SQUARE)}]
+    assert told().endswith(": 1 morph target is kept")
+    times, weights = (document.accessor(np.float32([0, 1])) for _ in range(2))
+    sampler = {"input": times, "output": weights}
+    channel = {"sampler": 0, "target": {"node": 0, "path": "weights"}}
+    document.json["animations"] = [
+        {"name": f"clip {i}", "channels": [channel], "samplers": [sampler]} for i in range(7)
+    ]
+    assert told().endswith(": 7 clips (clip 0, clip 1, clip 2, clip 3, clip 4, ...) and 1 morph target are kept")
 
 
 def test_colour_is_factor_times_picture_times_vertex_colour(document: Document, tmp_path: Path) -> None:

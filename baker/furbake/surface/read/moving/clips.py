@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from furbake.surface.read.gltf_data import BROKEN, GltfData, Record
+from furbake.surface.read.gltf_nodes import text
 from furbake.surface.read.moving.told import Told
 from furbake.surface.rig.rig import Channel
 from furbake.surface.soup import Floats, Ints, MeshError
@@ -73,7 +74,7 @@ def read_clips(data: GltfData, targets: dict[int, int], nodes: set[int], told: T
                 told.add(TWICE)
             channels.setdefault((channel.node, channel.path), channel)
         name = record.get("name") if known else None
-        found.append(FileClip("" if name is None else str(name), tuple(channels.values())))
+        found.append(FileClip(text(name), tuple(channels.values())))
     return found
 
 
@@ -96,6 +97,7 @@ def _channel(
         wrong = kind not in ("LINEAR", "STEP", "CUBICSPLINE") or times.shape[1] != 1 or not rows
         if wrong or values.shape[1] != WIDTHS[path] or values.size != rows * width:
             raise ValueError("numbers of another shape")
+        keys.data.numbers.take(times.size + values.size)
     except MeshError:
         raise
     except BROKEN:

@@ -9,8 +9,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from furbake.surface.read.gltf_data import GltfData, Record
+from furbake.surface.read.gltf_nodes import text
 from furbake.surface.read.gltf_parts import Part
-from furbake.surface.read.moving.skins import Skin, bound, influences, read_skin, regular
+from furbake.surface.read.moving.skins import Skin, bound, influences, read_skin, regular, spans
 from furbake.surface.read.moving.told import Told
 from furbake.surface.rig.rig import RigNode
 from furbake.surface.soup import Floats, Ints
@@ -86,7 +87,7 @@ def read_joints(
         skin, found = read.get(part.skin), part.influences()
         held.append(None if skin is None or found is None else influences(skin, *found, told))
     joints = Joints()
-    tables, spaces = _of_skins(data, read, parents, parts, held, places, joints)
+    tables, spaces = _of_skins(data, read, spans(parents), parts, held, places, joints)
     movers = moved | set(joints.nodes)
     for node, parent in parents.items():
         if parent in movers:
@@ -122,7 +123,7 @@ def read_joints(
 def _of_skins(
     data: GltfData,
     skins: dict[object, Skin | None],
-    parents: dict[int, int],
+    where: dict[int, tuple[int, int]],
     parts: Sequence[Part],
     held: Sequence[tuple[Ints, Floats] | None],
     places: dict[int, Floats],
@@ -135,7 +136,7 @@ def _of_skins(
         skin = skins.get(part.skin)
         if own is None or skin is None or part.skin in tables:
             continue
-        space = bound(skin, parents)
+        space = bound(skin, where)
         if space is None:
             space = places[part.node] if regular(places[part.node][None])[0] else np.eye(4)
         whole = regular(skin.stand)
@@ -177,8 +178,7 @@ def rig_nodes(
 
 def name_of(data: GltfData, node: int) -> str:
     """Name of a node, empty where it has none."""
-    name = data.list_of("nodes")[node].get("name")
-    return "" if name is None else str(name)
+    return text(data.list_of("nodes")[node].get("name"))
 
 
 def _still(name: str) -> RigNode:
@@ -186,7 +186,7 @@ def _still(name: str) -> RigNode:
 
 
 def _rig_node(record: Record, parent: int, moved: bool, told: Told) -> RigNode:
-    node = replace(_still("" if record.get("name") is None else str(record["name"])), parent=parent)
+    node = replace(_still(text(record.get("name"))), parent=parent)
     if "matrix" in record:
         matrix = np.array(record["matrix"], dtype=np.float64).reshape(4, 4).T
         if not np.isfinite(matrix).all():

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.surface.read.gltf_data import GltfData, Record
+from furbake.surface.read.gltf_nodes import text
 from furbake.surface.read.gltf_parts import Part
 from furbake.surface.read.moving.told import Told
 from furbake.surface.rig.clip import sample
@@ -42,8 +43,10 @@ class Morphs:
 def read_morphs(data: GltfData, parts: Sequence[Part], told: Told) -> Morphs:
     """Names and weights of all targets, and which of them are sound."""
     width: dict[int, int] = {}
+    of_node: dict[int, list[Part]] = {}
     for part in parts:
         width[part.node] = max(width.get(part.node, 0), len(part.morphs))
+        of_node.setdefault(part.node, []).append(part)
     width = {node: number for node, number in width.items() if number}
     names: list[str] = []
     weights: list[float] = []
@@ -53,9 +56,8 @@ def read_morphs(data: GltfData, parts: Sequence[Part], told: Told) -> Morphs:
         mesh = data.item("meshes", record["mesh"])
         names += _names(mesh, number)
         weights += _weights(record.get("weights", mesh.get("weights")), number)
-        own = [part for part in parts if part.node == node]
         for i in range(number):
-            shapes = [part.morphs[i] for part in own if i < len(part.morphs)]
+            shapes = [part.morphs[i] for part in of_node[node] if i < len(part.morphs)]
             broken = any(shape.broken for shape in shapes)
             told.add(BROKEN_TARGET, int(broken))
             kept.append(not broken or any(shape.deltas is not None for shape in shapes))
@@ -66,7 +68,7 @@ def _names(mesh: Record, number: int) -> list[str]:
     extras = mesh.get("extras")
     listed = extras.get("targetNames") if isinstance(extras, dict) else None
     listed = listed if isinstance(listed, list) else []
-    return [str(listed[i]) if i < len(listed) else str(i) for i in range(number)]
+    return [text(listed[i], str(i)) if i < len(listed) else str(i) for i in range(number)]
 
 
 def _weights(listed: Any, number: int) -> list[float]:
@@ -96,7 +98,7 @@ def targets(data: GltfData, morphs: Morphs, parts: Sequence[Part], matrices: Seq
     return tuple(Target(name, delta, weight) for name, delta, weight, kept in named if kept)
 
 
-def body_channel(morphs: Morphs, channels: Sequence[Channel]) -> Channel | None:
+def body_channel(data: GltfData, morphs: Morphs, channels: Sequence[Channel]) -> Channel | None:
     """One channel of all kept targets for the weights channels of a clip; None where there is none."""
     if not channels or not morphs.kept.any():
         return None
@@ -107,6 +109,7 @@ def body_channel(morphs: Morphs, channels: Sequence[Channel]) -> Channel | None:
         kind = "STEP" if kinds == {"STEP"} else "LINEAR"
         times = np.unique(np.concatenate([_times(channel, kind) for channel in channels]))
     cubic = kind == "CUBICSPLINE"
+    data.numbers.take(len(times) * (3 if cubic else 1) * len(morphs.weights))
     values = np.zeros((len(times), 3 if cubic else 1, len(morphs.weights)))
     values[:, 1 if cubic else 0] = morphs.weights
     first = dict(zip(morphs.width, np.cumsum([0, *morphs.width.values()]).tolist(), strict=False))

@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from furbake.surface.read.moving.clips import NOTHING, FileClip, read_clips
 from furbake.surface.read.gltf_data import GltfData
+from furbake.surface.read.gltf_parts import Part
+from furbake.surface.read.moving.clips import NOTHING, FileClip, read_clips
 from furbake.surface.read.moving.joints import read_joints, rig_nodes
 from furbake.surface.read.moving.morphs import Morphs, body_channel, read_morphs, targets
-from furbake.surface.read.gltf_parts import Part
 from furbake.surface.read.moving.told import Told
 from furbake.surface.rig.pose import matrices, posed, rest
 from furbake.surface.rig.rig import BODY, Channel, Clip, Pose, Rig
@@ -57,7 +57,7 @@ def rigged(data: GltfData, places: dict[int, Floats], parents: dict[int, int], p
     moved = {channel.node for clip in clips for channel in clip.channels if channel.path != "weights"}
     joints = read_joints(data, places, parents, parts, moved, told)
     if not joints.nodes and not morphs.kept.any():
-        _clips(clips, {}, morphs, told)
+        _clips(data, clips, {}, morphs, told)
         return Moving(joints.binds, None, told.lines())
     data.numbers.take(PER_VERTEX * sum(len(part.soup.vertices) for part in parts))
     nodes, index = rig_nodes(data, parents, joints, moved, told)
@@ -72,16 +72,18 @@ def rigged(data: GltfData, places: dict[int, Floats], parents: dict[int, int], p
         which=np.concatenate(joints.which),
         shares=np.concatenate(joints.shares),
         targets=targets(data, morphs, parts, joints.binds),
-        clips=_clips(clips, index, morphs, told),
+        clips=_clips(data, clips, index, morphs, told),
     )
     return Moving(joints.binds, rig, told.lines())
 
 
-def _clips(clips: Sequence[FileClip], index: dict[int, int], morphs: Morphs, told: Told) -> tuple[Clip, ...]:
+def _clips(
+    data: GltfData, clips: Sequence[FileClip], index: dict[int, int], morphs: Morphs, told: Told
+) -> tuple[Clip, ...]:
     """The clips that move something of the rig."""
     found = []
     for clip in clips:
-        weights = body_channel(morphs, [channel for channel in clip.channels if channel.path == "weights"])
+        weights = body_channel(data, morphs, [channel for channel in clip.channels if channel.path == "weights"])
         channels: list[Channel] = []
         for channel in clip.channels:
             if channel.path == "weights":

@@ -101,24 +101,35 @@ def regular(matrices: Floats) -> NDArray[np.bool_]:
     return np.asarray(finite & (size > 0.0) & (volume > FLATTEST))
 
 
-def bound(skin: Skin, parents: dict[int, int]) -> Floats | None:
+def spans(parents: dict[int, int]) -> dict[int, tuple[int, int]]:
+    """For each node its place in a walk through the scene, and the first place that is no longer below it.
+
+    parents : node above each, in the order of such a walk
+    """
+    size = dict.fromkeys(parents, 1)
+    for node, parent in reversed(parents.items()):
+        if parent >= 0:
+            size[parent] += size[node]
+    return {node: (place, place + size[node]) for place, node in enumerate(parents)}
+
+
+def bound(skin: Skin, spans: dict[int, tuple[int, int]]) -> Floats | None:
     """(4, 4) matrix that brings the skin's vertices to the scene in its bind pose; None where no joint has one.
 
     That of the heaviest joint without another above it that carries weight; if that has none, of the heaviest.
 
-    parents : node above each of the scene, those above first
+    spans : of the scene's nodes
     """
     moved = skin.stand @ np.where(skin.usable[:, None, None], skin.bind, 0.0)
     usable = skin.usable & regular(moved)
     if not usable.any():
         return None
-    heavy = {joint for joint, weight in zip(skin.joints.tolist(), skin.weight.tolist(), strict=True) if weight > 0.0}
-    below: set[int] = set()
-    for node, parent in parents.items():
-        if parent in below or parent in heavy:
-            below.add(node)
-    top = np.array([joint in heavy and joint not in below for joint in skin.joints.tolist()]) & usable
-    choice = top if top.any() else usable
+    top, end = np.zeros(len(skin.joints), dtype=bool), -1
+    heavy = [(spans[int(skin.joints[j])], j) for j in np.flatnonzero((skin.weight > 0.0) & (skin.joints >= 0)).tolist()]
+    for (first, last), j in sorted(heavy):
+        top[j] = first >= end
+        end = max(end, last)
+    choice = top & usable if (top & usable).any() else usable
     return np.asarray(moved[int(np.argmax(np.where(choice, skin.weight, -1.0)))])
 
 
@@ -133,7 +144,7 @@ def influences(skin: Skin, which: Floats, weights: Floats, told: Told) -> tuple[
     shares = np.where(known & sane, weights, 0.0)
     lost = ~(shares > 0.0).any(axis=1)
     told.add(WEIGHTLESS, int(lost.sum()))
-    shares[lost, known[lost].argmax(axis=1)] = 1.0
+    shares[lost, 0] = 1.0
     kept, strong, number = strongest(joints, shares)
     told.add(MANY, int((number > strong.shape[1]).sum()))
     skin.weight += np.bincount(kept.reshape(-1), strong.reshape(-1), count)
