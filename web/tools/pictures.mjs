@@ -13,8 +13,12 @@ import { serve } from './site/vite.mjs';
 /** @import { Browser, Page } from '@playwright/test' */
 
 const BUNNY = 'model=bunny&planes=128&camera=-20,10,0.9';
-/** The fox from its side, from the front, and at sunset. */
-const FOX = ['camera=90,6,0.82', 'camera=28,12,0.72&light=-0.4,0.7,0.5', 'camera=48,4,0.75&env=sunset'];
+/** The fox running, looking about, and walking at sunset. */
+const FOX = [
+	'clip=Run&time=0.35&camera=78,6,0.6',
+	'clip=Survey&time=1.2&camera=28,12,0.55&light=-0.4,0.7,0.5',
+	'clip=Walk&time=0.3&camera=48,4,0.55&env=sunset',
+];
 /** Light from the left, from above, from behind. */
 const LIGHTS = ['-0.9,0.45,0.2', '0.05,0.98,0.2', '0.75,0.45,-0.5'];
 const WORDS = ['furbake', 'Fur that you relight by dragging,', 'baked from any mesh'];
