@@ -25,7 +25,7 @@ const MAX_FILES = 15;
 /** Lines of a function; a longer one has a comment in front of it, `Long: ` and the reason. */
 const MAX_LINES = 60;
 /** Rooms of the demo from the ground up; those of one floor do not import each other. Files of a room may, in no circle. */
-const rooms = [['words'], ['state'], ['say'], ['open', 'stage'], ['model'], ['hands'], ['panel']];
+const rooms = [['words'], ['state', 'clips'], ['say'], ['open', 'stage'], ['model'], ['hands'], ['panel']];
 const pages = ['demo', 'learn', 'bench'];
 /** What pages share, and what knows none of them. */
 const shared = ['page', 'measure'];

@@ -34,6 +34,7 @@ const steps: Record<string, () => Promise<{ mount: Mount }>> = {
 	short: () => import('./steps/short.ts'),
 	spring: () => import('./steps/spring.ts'),
 	wind: () => import('./steps/wind.ts'),
+	pose: () => import('./pose/step.ts'),
 	wet: () => import('./steps/wet.ts'),
 };
 

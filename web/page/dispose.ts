@@ -1,6 +1,16 @@
 /** Freeing of a scene's GPU objects. */
 
-import { InstancedMesh, type IUniform, Material, Mesh, type Object3D, Scene, Sprite, Texture } from 'three';
+import {
+	InstancedMesh,
+	type IUniform,
+	Material,
+	Mesh,
+	type Object3D,
+	Scene,
+	SkinnedMesh,
+	Sprite,
+	Texture,
+} from 'three';
 
 /** Frees geometries, materials and textures; drawing again uploads them again. */
 export function disposeAll(object: Object3D): void {
@@ -8,6 +18,7 @@ export function disposeAll(object: Object3D): void {
 		if (child instanceof Scene && child.background instanceof Texture) child.background.dispose();
 		if (!(child instanceof Mesh || child instanceof Sprite)) return;
 		if (child instanceof InstancedMesh) child.dispose();
+		if (child instanceof SkinnedMesh) child.skeleton.dispose();
 		child.geometry.dispose();
 		for (const material of [child.material, child.customDepthMaterial, child.customDistanceMaterial].flat()) {
 			if (!(material instanceof Material)) continue;

@@ -46,6 +46,8 @@ export class Ground extends Mesh<RingGeometry, MeshLambertMaterial> {
 	}
 }
 
+const middle = new Vector3();
+
 /** Opacity of the shadow right under a body. */
 const darkness = 0.8;
 
@@ -81,7 +83,7 @@ export class ContactShadow extends Mesh<PlaneGeometry, MeshBasicMaterial> {
 	 * @param fur length of the fur, which reaches beyond the box; @param height of the ground
 	 */
 	fit(box: Box3, fur: number, height: number): void {
-		const size = box.getSize(new Vector3()).addScalar(2 * fur);
+		const size = box.getSize(middle).addScalar(2 * fur);
 		box.getCenter(this.#place).setY(height);
 		this.position.copy(this.#place);
 		this.scale.set(size.x * 1.5, size.z * 1.6, 1);
@@ -93,9 +95,14 @@ export class ContactShadow extends Mesh<PlaneGeometry, MeshBasicMaterial> {
 	 * @param offset of the body from its place at `fit`
 	 * @param yaw turn about the upright axis, radians
 	 * @param height of the body
+	 * @param body it turns about the middle of this box; without it about the shadow's own
 	 */
-	follow(offset: Vector3, yaw: number, height: number): void {
+	follow(offset: Vector3, yaw: number, height: number, body?: Box3): void {
 		this.position.copy(this.#place);
+		if (body) {
+			body.getCenter(middle).setY(this.#place.y);
+			this.position.sub(middle).applyAxisAngle(this.up, yaw).add(middle);
+		}
 		this.position.x += offset.x;
 		this.position.z += offset.z;
 		this.rotation.z = yaw;

@@ -79,3 +79,42 @@ test('the wetter fur is, the darker, and muddy fur has another colour', async ({
 	await expect(figure(page, 'wet')).toContainText('100 % soaked');
 	await changes(page, 'wet', 'muddy', set('Dirt', '1'), 0.5);
 });
+
+test('a limb whose joint turns has other moments under the lamp, which stays', async ({ page }) => {
+	await page.setViewportSize({ width: 900, height: 800 });
+	await open(page, 'learn.html?still=1&lang=en#pose');
+	await show(page, 'pose');
+	const canvas = figure(page, 'pose').locator('canvas');
+	const joint = figure(page, 'pose').getByRole('slider', { name: 'Joint' });
+	const moments = async () => ((await canvas.getAttribute('data-moments')) ?? '').split(',').map(Number);
+	/** By the joint's angle and the lesson's first light. */
+	const expected = (degrees: number) => {
+		const [angle, size] = [(degrees * Math.PI) / 180, Math.hypot(0.62, 0.62, 0.48)];
+		const u = (-0.62 * Math.cos(angle) + 0.62 * Math.sin(angle)) / size;
+		const v = -0.48 / size;
+		return [u * u, v * v, u * v, u, v, 1].map((value) => expect.closeTo(value, 6));
+	};
+	for (const degrees of [55, 0, 45, 110]) {
+		await joint.fill(String(degrees));
+		expect(await moments()).toEqual(expected(degrees));
+	}
+	await canvas.focus();
+	await page.keyboard.press('ArrowRight');
+	expect(await moments()).toEqual(expected(105));
+	await changes(
+		page,
+		'pose',
+		'a drag',
+		async () => {
+			const { x = 0, y = 0, width = 0, height = 0 } = (await canvas.boundingBox()) ?? {};
+			await page.mouse.move(x + 0.5 * width, y + 0.1 * height);
+			await page.mouse.down();
+			await page.mouse.move(x + 0.95 * width, y + 0.6 * height);
+			await page.mouse.up();
+		},
+		0.5,
+	);
+	expect(Number(await joint.inputValue())).toBeLessThan(20);
+	expect(await moments()).toEqual(expected(Number(await joint.inputValue())));
+	await expect(figure(page, 'pose')).toContainText(/L = \d\.\d\d before, \d\.\d\d now/);
+});

@@ -35,7 +35,7 @@ const TERMS: Record<Language, [term: RegExp, section: string][]> = {
 	],
 };
 
-/** Words, or Chinese characters, of each step before the lesson was built up for teachers; what is new since is left out. */
+/** Words, or Chinese characters, of each step before the lesson was built up for teachers, or when it was new. */
 const BEFORE: Record<Language, Record<string, number>> = {
 	en: {
 		intro: 45,
@@ -50,6 +50,7 @@ const BEFORE: Record<Language, Record<string, number>> = {
 		rivals: 99,
 		paper: 96,
 		swing: 184,
+		pose: 120,
 		wet: 140,
 	},
 	zh: {
@@ -65,6 +66,7 @@ const BEFORE: Record<Language, Record<string, number>> = {
 		rivals: 149,
 		paper: 132,
 		swing: 273,
+		pose: 190,
 		wet: 216,
 	},
 };

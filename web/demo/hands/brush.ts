@@ -13,6 +13,8 @@ import {
 	type Vector2,
 	Vector3,
 } from 'three';
+import type { Fur } from '../../fur/index.ts';
+import { PosedSkin } from './PosedSkin.ts';
 
 const outwards = new Vector3(0, 0, 1);
 
@@ -37,10 +39,12 @@ function ring(size = 128): DataTexture {
 }
 
 export class Brush extends Mesh<PlaneGeometry, MeshBasicMaterial> {
-	/** Place on the skin, and the skin's normal there; world. */
+	/** Place on the skin in its pose, the same on the skin at rest, and the posed skin's normal there; world. */
 	readonly place = new Vector3();
+	readonly rest = new Vector3();
 	readonly normal = new Vector3();
 	readonly #caster = new Raycaster();
+	readonly #skin = new PosedSkin();
 	readonly #hits: Intersection[] = [];
 
 	constructor() {
@@ -56,18 +60,18 @@ export class Brush extends Mesh<PlaneGeometry, MeshBasicMaterial> {
 	 * Finds where a ray of the picture meets the skin.
 	 *
 	 * @param pointer in normalised device coordinates
-	 * @param skin the body: a mesh, or a group of some
-	 * @returns true for a hit, which sets `place` and `normal`
+	 * @param body with its skin: a mesh, or a group of some
+	 * @returns true for a hit, which sets `place`, `rest` and `normal`
 	 */
-	aim(pointer: Vector2, camera: Camera, skin: Object3D): boolean {
+	aim(pointer: Vector2, camera: Camera, body: { skin: Object3D } & Pick<Fur, 'restPoint'>): boolean {
 		this.#hits.length = 0;
 		this.#caster.setFromCamera(pointer, camera);
-		this.#caster.intersectObject(skin, true, this.#hits);
+		this.#skin.intersect(this.#caster, body.skin, this.#hits);
 		const [hit] = this.#hits;
 		if (!hit) return false;
 		this.place.copy(hit.point);
-		const normal = hit.normal ?? hit.face?.normal ?? outwards;
-		this.normal.copy(normal).transformDirection(hit.object.matrixWorld);
+		body.restPoint(hit, this.rest);
+		this.normal.copy(hit.normal ?? outwards);
 		return true;
 	}
 

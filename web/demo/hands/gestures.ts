@@ -40,7 +40,7 @@ export class Gestures {
 	#byKeys = false;
 	/** Key presses for the next frame. */
 	#strokes = 0;
-	/** Place of the brush in the frame before, world; used only if it was pressed on the fur there. */
+	/** Place of the brush in the frame before, on the body at rest; used only if it was pressed on the fur there. */
 	readonly #before = new Vector3();
 	#wasOnFur = false;
 	/** Direction of the last arrow key: a stroke by key goes along it. */
@@ -49,6 +49,8 @@ export class Gestures {
 	readonly #plane = new Plane();
 	readonly #grip = new Vector3();
 	readonly #scratch = new Vector3();
+	readonly #end = new Vector3();
+	readonly #aside = new Vector2();
 
 	constructor(picture: Picture, looks: Looks, dynamics: Dynamics) {
 		this.#picture = picture;
@@ -153,7 +155,7 @@ export class Gestures {
 		if (this.#pressed) this.#work(act, radius, seconds);
 		if (this.#pressed && act === 'rain' && !this.#picture.calm)
 			this.#drops.pour(brush.place, brush.normal, radius, this.#picture.stage.bodyRadius, seconds);
-		this.#before.copy(brush.place);
+		this.#before.copy(brush.rest);
 		this.#wasOnFur = this.#pressed;
 		// Rain falls on while a finger stays.
 		return this.#pressed && act !== 'stroke';
@@ -161,7 +163,7 @@ export class Gestures {
 
 	#aim(pointer: Vector2): boolean {
 		const { body } = this.#looks;
-		return body !== undefined && this.brush.aim(pointer, this.#picture.camera, body.skin);
+		return body !== undefined && this.brush.aim(pointer, this.#picture.camera, body);
 	}
 
 	#radius(act: Paint): number {
@@ -171,16 +173,16 @@ export class Gestures {
 
 	/** Uses the brush from its last place to this one. */
 	#work(act: Paint, radius: number, seconds: number): void {
-		const { place } = this.brush;
-		const before = this.#wasOnFur ? this.#before : place;
+		const { rest } = this.brush;
+		const before = this.#wasOnFur ? this.#before : rest;
 		if (act === 'stroke') {
-			if (!before.equals(place)) this.#dynamics.stroke(before, place, radius);
+			if (!before.equals(rest)) this.#dynamics.stroke(before, rest, radius);
 			return;
 		}
 		// A quick hand leaves no gaps.
-		const dabs = Math.min(1 + Math.floor((2 * before.distanceTo(place)) / radius), 8);
+		const dabs = Math.min(1 + Math.floor((2 * before.distanceTo(rest)) / radius), 8);
 		for (let i = 1; i <= dabs; i++)
-			this.#dynamics[act](this.#scratch.lerpVectors(before, place, i / dabs), radius, BRUSH_RATE[act] * seconds);
+			this.#dynamics[act](this.#scratch.lerpVectors(before, rest, i / dabs), radius, BRUSH_RATE[act] * seconds);
 	}
 
 	/** Uses the brush for a tap that is over before a frame; a stroke needs a way. */
@@ -192,15 +194,27 @@ export class Gestures {
 
 	/** Uses the brush for one key press or tap. */
 	#dab(act: Paint, radius: number): void {
-		const { place } = this.brush;
+		const { place, rest } = this.brush;
 		if (act !== 'stroke') {
-			this.#dynamics[act](place, radius, BRUSH_RATE[act] * KEY_PRESS);
+			this.#dynamics[act](rest, radius, BRUSH_RATE[act] * KEY_PRESS);
 			return;
 		}
 		// Along the last arrow, through the ring.
 		this.#scratch.set(this.#lastArrow.x, this.#lastArrow.y, 0).multiplyScalar(1.5 * radius);
 		this.#scratch.applyQuaternion(this.#picture.camera.quaternion).projectOnPlane(this.brush.normal);
-		this.#dynamics.stroke(this.#before.copy(place).sub(this.#scratch), this.#scratch.add(place), radius);
+		if (!place.equals(rest)) this.#wayAtRest(this.#scratch);
+		this.#dynamics.stroke(this.#before.copy(rest).sub(this.#scratch), this.#scratch.add(rest), radius);
+	}
+
+	/** Turns a way from the ring over the posed body to that over the body at rest; unless it leads off the body. */
+	#wayAtRest(way: Vector3): void {
+		const { place, rest } = this.brush;
+		const length = way.length();
+		this.#before.copy(rest);
+		this.#end.copy(place).add(way).project(this.#picture.camera);
+		if (this.#aim(this.#aside.set(this.#end.x, this.#end.y)) && !rest.equals(this.#before))
+			way.subVectors(rest, this.#before).setLength(length);
+		this.#aim(this.#pointer);
 	}
 
 	/** Pulls the body by the gripped point, in the plane through it that faces the camera. */

@@ -1,4 +1,4 @@
-/** Dynamics of the body on show: motion of its hairs, water and dirt on them, and its own sway. */
+/** Dynamics of the body on show: its clips, motion of its hairs, water and dirt on them, and its own sway. */
 
 import { DataTexture, FloatType, MathUtils, RGBAFormat, type Vector3 } from 'three';
 import { FurMotion, FurWeather } from '../../fur/index.ts';
@@ -34,6 +34,8 @@ export class Dynamics {
 		this.#calm = calm;
 	}
 
+	/** Called with the seconds into the clip when that has another pose. */
+	posed: (time: number) => void = () => {};
 	/** True while a brush that wets or soils is chosen. */
 	brushStains = false;
 	/** True once something was painted, which no link has. */
@@ -62,13 +64,37 @@ export class Dynamics {
 		}
 	}
 
-	/** Styles wind, wetness, dirt and turntable by the view; motion and weather are made on first use. */
-	style({ wind: [strength, direction] = [0, 0], wet = 0, dirt = 0, turn, crowd = 1 }: View): void {
+	/** Styles clip, wind, wetness, dirt and turntable by the view; motion and weather are made on first use. */
+	style(view: View): void {
+		const { wind: [strength, direction] = [0, 0], wet = 0, dirt = 0, turn, crowd = 1 } = view;
+		this.pose(view);
 		const alone = crowd <= 1;
 		if (!alone) this.#resetBody();
 		this.sway.turning = Boolean(turn) && alone && !this.#calm;
 		if (strength > 0 || this.#motion) this.#styleWind(strength, MathUtils.degToRad(direction));
 		if (wet > 0 || dirt > 0 || this.#weather) this.#styleWeather(wet, dirt);
+	}
+
+	/** Plays the view's clip, or holds it. */
+	pose({ clip, time, speed = 1 }: View): void {
+		const clips = this.#stage.model?.clips;
+		if (!clips) return;
+		clips.speed = speed;
+		clips.choose(clip ?? (clips.names[0] as string));
+		if (time === undefined) clips.play();
+		else clips.hold(time);
+	}
+
+	/** Brings the body to its clip's pose. @returns true for a new pose */
+	#stepClip(seconds: number): boolean {
+		const clips = this.#stage.model?.clips;
+		if (!clips?.step(seconds)) return false;
+		this.#stage.followPose();
+		this.posed(clips.time);
+		// Hairs lag behind a body that moves.
+		if (this.#calm) this.#motion?.settle();
+		else if (clips.playing) this.#needMotion();
+		return true;
 	}
 
 	#styleWind(strength: number, direction: number): void {
@@ -151,6 +177,7 @@ export class Dynamics {
 	 */
 	step(seconds: number): number {
 		const { sway } = this;
+		const playing = this.#stepClip(seconds) && this.#stage.model?.clips?.playing;
 		const swung = sway.step(seconds);
 		if (swung) {
 			this.#stage.moveBody(sway.offset, sway.yaw);
@@ -160,7 +187,7 @@ export class Dynamics {
 		this.#lastWarmUpSwing = this.#warmUpSwing;
 		this.#warmUpSwing = undefined;
 		this.#looks.update(seconds, this.#motion, this.#weather, this.#lastWarmUpSwing);
-		if (swung || this.#motion?.asleep === false || this.#lastWarmUpSwing) return 0;
+		if (playing || swung || this.#motion?.asleep === false || this.#lastWarmUpSwing) return 0;
 		return this.#weather?.drying ? DRYING_INTERVAL : Number.POSITIVE_INFINITY;
 	}
 

@@ -7,7 +7,7 @@ import type { Progress } from '../say/progress.ts';
 import type { Model } from '../stage/model.ts';
 import type { Picture } from '../stage/picture.ts';
 import type { Store } from '../state/store.ts';
-import type { EnvironmentName, Triple } from '../state/view.ts';
+import type { EnvironmentName, Triple, View } from '../state/view.ts';
 import { en } from '../words/drop.en.ts';
 import { zh } from '../words/drop.zh.ts';
 import { language, words } from '../words/index.ts';
@@ -128,6 +128,12 @@ export class Exhibit {
 		picture.fit();
 	}
 
+	/** Values of clips before a visitor chooses: the first one plays, or is held where nothing moves by itself. */
+	get firstClip(): Partial<View> {
+		const held = this.#picture.calm && this.#picture.stage.model?.clips;
+		return { clip: undefined, time: held ? 0 : undefined };
+	}
+
 	/** Runs a change that may take long; the page is loading meanwhile. */
 	change(what: () => Promise<void>): Promise<void> {
 		return this.#pending.run(what);
@@ -208,11 +214,13 @@ export class Exhibit {
 	}
 
 	/** Says why a model has no fur, where that is so. */
-	#describe({ fur, newer }: Model, own: OwnModel | undefined, name: string): void {
+	#describe({ fur, newer, clips }: Model, own: OwnModel | undefined, name: string): void {
 		const title = this.title ?? name;
 		if (newer) notice(dropWords.newer(title, newer, FUR_VERSION), 'note', 'model');
-		else if (own?.command) notice(dropWords.bakeIt(title, own.command), 'advice', 'model');
-		else if (!fur) notice(words.noFur(title), 'note', 'model');
+		else if (own?.command) {
+			const advice = [dropWords.bakeIt(title, own.command), ...(clips ? [dropWords.willMove] : [])];
+			notice(advice.join('\n'), 'advice', 'model');
+		} else if (!fur) notice(words.noFur(title), 'note', 'model');
 	}
 
 	/** Puts a model on show, as it is. */
@@ -224,6 +232,7 @@ export class Exhibit {
 		this.dynamics.clear();
 		this.looks.clear();
 		stage.setModel(model);
+		this.#chooseClip(first);
 		stage.setCrowd(1, undefined);
 		this.shown = name;
 		lamp.visible = view.ui;
@@ -231,6 +240,21 @@ export class Exhibit {
 		if (first || light.drifting) light.put(view.light ?? this.#firstLight(), !view.light);
 		picture.updateLight();
 		picture.fit();
+	}
+
+	/** Poses the model by the view; says so where that asks for a clip that is not there. @param first model of all: the view may be a link's */
+	#chooseClip(first: boolean): void {
+		const store = this.#store;
+		const { clip } = store.get();
+		const { names } = this.#picture.stage.model?.clips ?? {};
+		if (!first) store.change(this.firstClip);
+		else if (clip !== undefined && !names?.includes(clip)) {
+			const [shown] = names ?? [];
+			notice(shown ? words.wrongClip(clip, names?.join(', ') ?? '', shown) : words.noClips(clip));
+			store.change({ clip: undefined });
+		}
+		if (store.get().time === undefined) store.change({ time: this.firstClip.time });
+		this.dynamics.pose(store.get());
 	}
 
 	/** Takes the model away. */

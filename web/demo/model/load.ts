@@ -1,7 +1,7 @@
 /** Files of a model → the model in memory. */
 
-import { Box3, type LoadingManager, Mesh, type Object3D, Vector3 } from 'three';
-import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { type AnimationClip, Box3, type LoadingManager, Mesh, type Object3D, SkinnedMesh, Vector3 } from 'three';
+import { type GLTF, GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { type Fur, type FurLimits, FurLoaderPlugin } from '../../fur/index.ts';
 import { disposeAll } from '../../page/dispose.ts';
 import type { Source } from '../open/files.ts';
@@ -29,14 +29,24 @@ export async function loadModel(
 	limits: FurLimits,
 	{ skin }: ModelOptions = {},
 ): Promise<Model> {
-	let model: Model | undefined;
+	let model: Promise<Model> | undefined;
 	let newer: string | undefined;
 	const loader = new GLTFLoader(manager);
+	let clips: readonly AnimationClip[] = [];
+	loader.register((parser) => {
+		if (parser.json.animations?.length) void importPlayer();
+		return {
+			name: 'clips',
+			async afterRoot({ animations }: GLTF) {
+				clips = animations;
+			},
+		};
+	});
+	// Second: it shows the skin in the pose of a clip.
 	loader.register((parser) => {
 		const early = (scene: Object3D) => {
-			if (!skin) return;
-			model = modelOf(scene);
-			skin(model);
+			model = modelOf(scene, clips);
+			model.then(skin).catch(() => {}); // awaited below
 		};
 		return new FurLoaderPlugin(parser, {
 			limits,
@@ -52,10 +62,10 @@ export async function loadModel(
 		.catch((error: unknown) => {
 			throw new Error(reason(error));
 		});
-	model ??= modelOf(gltf.scene);
-	model.fur = gltf.userData.fur;
-	if (newer) model.newer = newer;
-	return model;
+	const whole = await (model ?? modelOf(gltf.scene, clips));
+	whole.fur = gltf.userData.fur;
+	if (newer) whole.newer = newer;
+	return whole;
 }
 
 /** Loads a pelt for `dressFur`; the caller disposes of it. @throws Error as `loadModel` */
@@ -65,20 +75,35 @@ export async function loadPelt(source: Source, limits: FurLimits): Promise<Fur> 
 	return fur;
 }
 
-/** Makes a model without its fur. */
-function modelOf(object: Object3D): Model {
-	const box = new Box3().setFromObject(object);
-	if (box.isEmpty()) throw new Error('model.gltf: got a scene without a mesh, expected one');
-	return {
-		object,
-		fur: undefined,
-		box,
-		radius: radiusAround(object, box.getCenter(new Vector3())),
+const importPlayer = () => import('../clips/ClipPlayer.ts');
+
+/** Makes a model without its fur, which is not in the scene yet. */
+async function modelOf(object: Object3D, animations: readonly AnimationClip[]): Promise<Model> {
+	const meshes: Mesh[] = [];
+	object.traverse((child) => {
+		if (child instanceof Mesh && child.geometry.getAttribute('position')?.count > 0) meshes.push(child);
+	});
+	if (meshes.length === 0) throw new Error('model.gltf: got a scene without a mesh, expected one');
+	object.updateMatrixWorld(true);
+	// Bones carry a mesh out of the sphere that three culls it by.
+	for (const mesh of meshes) if (mesh instanceof SkinnedMesh) mesh.frustumCulled = false;
+	const moving = animations.filter(({ tracks }) => tracks.length > 0);
+	const clips = moving.length > 0 ? new (await importPlayer()).ClipPlayer(object, meshes, moving) : undefined;
+	const box = clips?.box ?? new Box3().setFromObject(object);
+	const radius = clips ? 0 : radiusAround(meshes, box.getCenter(new Vector3()));
+	const model: Model = {
+		...{ object, box, fur: undefined },
+		...(clips && { clips }),
+		get radius() {
+			return clips?.radius ?? radius;
+		},
 		dispose() {
+			this.clips?.dispose();
 			this.fur?.dispose();
 			disposeAll(object);
 		},
 	};
+	return model;
 }
 
 /** True for a model.gltf that may arrive whole at a second try; other files have had theirs. */
@@ -96,17 +121,14 @@ function reason(error: unknown): string {
 }
 
 /** Radius to the farthest vertex: a box's own sphere is up to 1.7 times too large for a round body. */
-function radiusAround(object: Object3D, centre: Vector3): number {
+function radiusAround(meshes: readonly Mesh[], centre: Vector3): number {
 	const vertex = new Vector3();
 	let radius = 0;
-	object.updateMatrixWorld(true);
-	object.traverse((child) => {
-		if (!(child instanceof Mesh)) return;
-		const position = child.geometry.getAttribute('position');
-		for (let i = 0; i < position.count; i++) {
-			vertex.fromBufferAttribute(position, i).applyMatrix4(child.matrixWorld);
+	for (const mesh of meshes) {
+		for (let i = 0; i < mesh.geometry.getAttribute('position').count; i++) {
+			mesh.getVertexPosition(i, vertex).applyMatrix4(mesh.matrixWorld);
 			radius = Math.max(radius, vertex.distanceTo(centre));
 		}
-	});
+	}
 	return radius;
 }

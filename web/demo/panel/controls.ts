@@ -20,6 +20,9 @@ import { SplitLine } from './split.ts';
 /** Values that a reset keeps. */
 const KEPT: readonly (keyof View)[] = ['model', 'still', 'ui', 'lang'];
 
+/** Rounded as the panel shows them. */
+const seconds = (time = 0) => Math.round(100 * time) / 100;
+
 const titleOf = (entry: MenuEntry, name: string) => words.titles[name] ?? entry.title;
 
 const menuOf = (entries: readonly MenuEntry[], value: (entry: MenuEntry) => string): Menu =>
@@ -64,6 +67,7 @@ export class Controls {
 			bakedColours: () => this.#change({ colour: undefined }, 'style'),
 		});
 		exhibit.changed = () => this.#update();
+		exhibit.dynamics.posed = (time) => this.panel.follow(seconds(time));
 		store.subscribe((_, changed) => {
 			if (changed.some((name) => parameters[name].controls)) this.#update();
 		});
@@ -94,10 +98,13 @@ export class Controls {
 		const nothing = shown ? [] : [{ value: '', title: '–' }];
 		this.panel.offer('model', [...nothing, ...menuOf(offered(menu), ({ name }) => name), ...others]);
 		const own = { value: '', title: words.asBaked };
+		const { clips } = this.#picture.stage.model ?? {};
+		this.panel.offer('clip', clips?.names.map((name) => ({ value: name, title: name })) ?? []);
 		this.panel.offer('preset', [own, ...menuOf(pelts(menu), ({ pelt }) => pelt ?? '')]);
 		const values: Shown = {
 			...{ model: shown, env: environment, shells: Math.round(fur?.shells.shellCount ?? 1) },
 			colour: fur ? bakedColours(fur) : ['000000', '000000'],
+			...{ clip: clips?.name ?? '', time: seconds(clips?.time), duration: clips?.duration ?? 0 },
 		};
 		this.panel.update(values, able);
 		const brush = able.fur && able.alone;
@@ -119,6 +126,7 @@ export class Controls {
 			...{ eigen: hasEigen(view, entry, menu), root: fur !== undefined && !hasOwnColours(fur) },
 			...statesFor(view, entry, menu, body),
 			...{ calm: this.#picture.calm, alone: !fur || (view.crowd ?? 1) <= 1 },
+			...{ clips: this.#picture.stage.model?.clips !== undefined, plays: !this.#picture.still },
 		};
 	}
 
@@ -157,7 +165,7 @@ export class Controls {
 	async #reset(): Promise<void> {
 		const { camera } = this.#picture;
 		const left = NAMES.filter((name) => !KEPT.includes(name));
-		this.#store.change(Object.fromEntries(left.map((name) => [name, undefined])));
+		this.#store.change({ ...Object.fromEntries(left.map((name) => [name, undefined])), ...this.#exhibit.firstClip });
 		camera.chosen = false;
 		this.#exhibit.dynamics.reset();
 		this.#tools.choose('light');

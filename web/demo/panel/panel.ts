@@ -41,7 +41,10 @@ export class Panel {
 	readonly #actions = document.createElement('div');
 	/** The button that stays at the end. */
 	readonly #last: Element | null;
-	#shown: Shown = { model: '', env: 'none', shells: 1, colour: ['000000', '000000'] };
+	#shown: Shown = {
+		...{ model: '', env: 'none', shells: 1, colour: ['000000', '000000'] },
+		...{ clip: '', time: 0, duration: 0 },
+	};
 
 	constructor(container: HTMLElement, handlers: PanelHandlers) {
 		this.#handlers = handlers;
@@ -91,7 +94,7 @@ export class Panel {
 	}
 
 	/** Sets the entries of a menu. */
-	offer(name: 'model' | 'preset', entries: Menu): void {
+	offer(name: 'model' | 'preset' | 'clip', entries: Menu): void {
 		const titles = Object.fromEntries(entries.map(({ value, title }) => [title, value]));
 		const menu = this.#menus[name];
 		const offered = JSON.stringify(titles);
@@ -108,7 +111,9 @@ export class Panel {
 			controller.enable(control.enabled?.(able, view) ?? true);
 			controller.show(control.visible?.(view) ?? true);
 			if (control.kind === 'slider')
-				(controller as NumberController).max(Math.max(control.range[1], control.get(view, shown)));
+				(controller as NumberController).max(
+					control.most?.(shown) ?? Math.max(control.range[1], control.get(view, shown)),
+				);
 			if (control.kind === 'choice') {
 				const { options } = (controller as OptionController).$select;
 				control.names.forEach((name, i) => {
@@ -120,14 +125,32 @@ export class Panel {
 				for (const input of controller.domElement.querySelectorAll('input')) input.disabled = controller._disabled;
 			controller.updateDisplay();
 		}
+		this.#folders.clips.show(able.clips);
 		this.#bakedColours.enable(able.fur);
 		this.#clean.enable(able.wet || able.dirt);
 		this.#explain(able, view);
 	}
 
-	#explain({ model, fur, alone, eigen, root, wet, dirt, calm }: Abilities, { method }: View): void {
-		const { noFur, noEigen, crowd, colourPlane, noStates, noEigenStates, noDirt, calm: moveless } = words.reasons;
+	/** Shows how far the clip has come. */
+	follow(seconds: number): void {
+		this.#shown.time = seconds;
+		for (const { control, controller } of this.#rows) if (control.label === 'time') controller.updateDisplay();
+	}
+
+	#explain({ model, fur, alone, eigen, root, wet, dirt, calm, plays }: Abilities, { method }: View): void {
+		const {
+			noFur,
+			noEigen,
+			crowd,
+			colourPlane,
+			noStates,
+			noEigenStates,
+			noDirt,
+			calm: moveless,
+			stillClips,
+		} = words.reasons;
 		this.#say('body', fur || !model ? '' : noFur);
+		this.#say('clips', plays ? '' : stillClips);
 		this.#say('light', !fur ? '' : !alone ? crowd : eigen ? '' : noEigen);
 		this.#say('hair', fur && !root ? colourPlane : '');
 		const dry = method === 'eigen' ? noEigenStates : noStates;

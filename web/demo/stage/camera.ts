@@ -2,7 +2,6 @@
 
 import {
 	Box2,
-	type BufferAttribute,
 	MathUtils,
 	Mesh,
 	MOUSE,
@@ -135,9 +134,8 @@ export class OrbitCamera extends PerspectiveCamera {
 		this.updateMatrixWorld();
 		body.traverse((part) => {
 			if (!(part instanceof Mesh)) return;
-			const position: BufferAttribute = part.geometry.getAttribute('position');
-			for (let i = 0; i < position.count; i++) {
-				const { x, y } = vertex.fromBufferAttribute(position, i).applyMatrix4(part.matrixWorld).project(this);
+			for (let i = 0; i < part.geometry.getAttribute('position').count; i++) {
+				const { x, y } = part.getVertexPosition(i, vertex).applyMatrix4(part.matrixWorld).project(this);
 				box.expandByPoint(pixel.set(((x + 1) / 2) * width, ((1 - y) / 2) * height));
 			}
 		});

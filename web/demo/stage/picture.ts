@@ -219,6 +219,11 @@ export class Picture {
 		const wandering = light.step(elapsed);
 		if (wandering) this.updateLight();
 		const wait = this.animate(awake ? Math.min(interval / 1000, MAX_STEP) : 1 / 60);
+		if (stage.reframed) {
+			stage.reframed = false;
+			this.updateLight();
+			this.#frame();
+		}
 		if (wait === 0) this.#moving = true;
 		const glowing = lamp.glide(camera, calm ? Number.POSITIVE_INFINITY : elapsed);
 		if (this.#moving || turning || entering) this.#moved = now;

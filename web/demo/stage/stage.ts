@@ -1,12 +1,12 @@
 /** Stage: renderer, lights, backdrop and the model on show. */
 
 import {
+	Box3,
 	type DataTexture,
 	DirectionalLight,
 	Group,
 	HalfFloatType,
 	Material,
-	Mesh,
 	type Object3D,
 	type PerspectiveCamera,
 	Scene,
@@ -26,7 +26,7 @@ import { Crowd } from './crowd.ts';
 import type { Environment } from './environment.ts';
 import { footing } from './footing.ts';
 import { Lamps } from './lamps.ts';
-import type { Model } from './model.ts';
+import { features, type Model } from './model.ts';
 import { heightOf, stand } from './stand.ts';
 
 const MAX_PIXEL_RATIO = 2;
@@ -48,6 +48,8 @@ export class Stage {
 	/** Radius of one body, in a crowd too. */
 	bodyRadius = 1;
 	model: Model | undefined;
+	/** True once centre and radius have changed by themselves; who frames them sets it back. */
+	reframed = false;
 	#crowd: Crowd | undefined;
 	readonly #edges = new FurEdgeEffect();
 	/** True where the renderer can smooth edges. */
@@ -58,8 +60,13 @@ export class Stage {
 	/** Lights of the environment. */
 	readonly #environmentLights = new Group();
 	#environment: Environment | undefined;
-	/** Offset of the body from its place, world. */
+	/** Offset of the body from its place, world, and turn about the upright axis, radians. */
 	readonly #offset = new Vector3();
+	#yaw = 0;
+	/** Box around the body in its pose, at its place in the file. */
+	readonly #pose = new Box3();
+	readonly #lift = new Vector3();
+	#fur: Fur | undefined;
 	readonly #toLamp = new Vector3();
 	/** Size of the window, CSS pixels. */
 	#width = 1;
@@ -104,6 +111,7 @@ export class Stage {
 		}
 		this.model = model;
 		this.#offset.setScalar(0);
+		this.#yaw = 0;
 		this.#shadow.visible = this.#ground.visible = model !== undefined;
 		if (model) this.scene.add(model.object);
 	}
@@ -132,25 +140,45 @@ export class Stage {
 		const crowd = this.#crowd;
 		if (crowd) crowd.count = count;
 		model.object.visible = this.#shadow.visible = !many;
+		this.#fur = fur;
+		this.#frame(model);
+		this.followPose();
+	}
+
+	/** Fits light and camera to what is on show. */
+	#frame(model: Model): void {
 		this.bodyRadius = model.radius;
-		this.radius = crowd?.radius ?? model.radius;
+		this.radius = this.#crowd?.radius ?? model.radius;
 		model.box.getCenter(this.centre);
-		const length = fur?.shells.furLength ?? 0.05 * model.radius;
-		const ground = footing({ ...model, fur });
-		this.#shadow.fit(model.box, fur ? length : 0, ground);
-		const reach = crowd?.reach ?? this.radius;
-		this.#ground.fit(model.box, ground, reach * (many ? ROOM.crowd : ROOM.body));
+		const length = this.#fur?.shells.furLength ?? 0.05 * model.radius;
 		this.#turnLight();
-		fitFurShadow(this.key, new Sphere(this.centre, reach + length), length);
+		fitFurShadow(this.key, new Sphere(this.centre, (this.#crowd?.reach ?? this.radius) + length), length);
+	}
+
+	/** Fits the ground, and the soft shadow on it, to the pose of the body; call after a step of its clip. */
+	followPose(): void {
+		const { model } = this;
+		const fur = this.#fur;
+		if (!model) return;
+		// One clip needs other room than another.
+		if (model.radius !== this.bodyRadius || !model.box.getCenter(this.#lift).equals(this.centre)) {
+			this.#frame(model);
+			this.reframed = true;
+		}
+		const ground = footing({ ...model, fur });
+		if (model.clips) model.clips.poseBox(this.#pose);
+		else this.#pose.copy(model.box);
+		this.#shadow.fit(this.#pose, fur?.shells.furLength ?? 0, ground);
+		this.#followBody();
+		const reach = this.#crowd ? this.#crowd.reach * ROOM.crowd : model.radius * ROOM.body;
+		this.#ground.fit(model.box, ground, reach);
 	}
 
 	/** Smooths the edges of eyes, noses and the like between hairs. */
 	#smoothOutlines(object: Object3D, fur: Fur): void {
 		if (!this.#smooth) return;
-		for (const child of object.children) {
-			if (child === fur.skin || child === fur.shells.parent || !(child instanceof Mesh)) continue;
-			if (child.material instanceof Material && !child.material.transparent) this.#edges.mark(child.material);
-		}
+		for (const { material } of features(object, fur))
+			if (material instanceof Material && !material.transparent) this.#edges.mark(material);
 	}
 
 	/**
@@ -163,9 +191,20 @@ export class Stage {
 		const { model } = this;
 		if (!model) return;
 		this.#offset.copy(offset).multiplyScalar(model.radius);
+		this.#yaw = yaw;
 		stand(model, this.#offset, yaw);
-		this.#shadow.follow(this.#offset, yaw, heightOf(model));
+		this.#followBody();
 		this.#turnLight();
+	}
+
+	/** Moves the soft shadow to where the body is above the ground. */
+	#followBody(): void {
+		const { model } = this;
+		if (!model) return;
+		this.#lift.copy(this.#offset);
+		// A leap is one over the lowest point of the clip.
+		if (model.clips) this.#lift.y += this.#pose.min.y - model.clips.faded(({ box }) => box.min.y);
+		this.#shadow.follow(this.#lift, this.#yaw, heightOf(model), model.box);
 	}
 
 	/** Keeps the lamp's direction while its target moves. */

@@ -4,7 +4,7 @@ import type { Words } from '../words/en.ts';
 import type { EnvironmentName, View } from './view.ts';
 
 /** Folders of the panel, in its order. */
-export const FOLDERS = ['body', 'light', 'hair', 'weather'] as const;
+export const FOLDERS = ['body', 'clips', 'light', 'hair', 'weather'] as const;
 export type Folder = (typeof FOLDERS)[number];
 
 /** Keys of plain words, which name things in both languages. */
@@ -17,6 +17,11 @@ export interface Shown {
 	env: EnvironmentName | 'none';
 	shells: number;
 	colour: readonly [root: string, tip: string];
+	/** '' for none */
+	clip: string;
+	/** seconds into the clip, and its duration */
+	time: number;
+	duration: number;
 }
 
 /** Abilities of the model on show. */
@@ -35,6 +40,9 @@ export interface Abilities {
 	calm: boolean;
 	/** one body, no crowd */
 	alone: boolean;
+	clips: boolean;
+	/** clips may play */
+	plays: boolean;
 }
 
 interface Base<Shows> {
@@ -52,6 +60,8 @@ export interface Slider extends Base<number> {
 	kind: 'slider';
 	range: readonly [min: number, max: number];
 	step: number;
+	/** largest value for what is on show; without it that of the range, or the present value if that is larger */
+	most?: (shown: Shown) => number;
 }
 
 export interface Toggle extends Base<boolean> {

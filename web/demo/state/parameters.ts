@@ -43,6 +43,8 @@ type Table = { readonly [Name in keyof View]-?: Parameter<NonNullable<View[Name]
 
 /** Shells that the slider reaches; the address may ask for more. */
 const MAX_SLIDER_SHELLS = 128;
+/** Longest time into a clip, seconds. */
+const MAX_TIME = 3600;
 /** Wind blows to the right until a direction is chosen, degrees. */
 const RIGHT = 90;
 /** Share of the room's width at which a second method begins at first. */
@@ -252,6 +254,38 @@ export const parameters: Table = {
 			}),
 		],
 	},
+	clip: {
+		value: values.clip,
+		doc: ['Walk', 'Clip of a model that has some; without it the first'],
+		controls: [
+			menu('clips', 'clip', {
+				get: ({ clip }, shown) => clip ?? shown.clip,
+				set: (clip) => ({ clip }),
+			}),
+		],
+	},
+	time: {
+		value: values.number(0, MAX_TIME, 3),
+		doc: ['0.4', 'Seconds into the clip at which it is held; without it the clip plays'],
+		controls: [
+			toggle('clips', 'play', {
+				enabled: ({ plays }) => plays,
+				get: ({ time }) => time === undefined,
+				set: (play, _, shown) => ({ time: play ? undefined : shown.time }),
+			}),
+			slider('clips', 'time', {
+				range: [0, MAX_TIME],
+				step: 0.01,
+				most: ({ duration }) => duration,
+				get: ({ time }, shown) => time ?? shown.time,
+				set: (time) => ({ time }),
+			}),
+		],
+	},
+	speed: ranged('speed', {
+		...{ folder: 'clips', label: 'speed', range: [0.1, 3], step: 0.05, initial: 1, enabled: ({ plays }) => plays },
+		doc: ['0.5', 'Speed of the clip, a factor of its own'],
+	}),
 	details: { value: values.flag, doc: ['1', 'All figures of the picture beside its speed and shells, with graphs'] },
 	still: { value: values.flag, doc: ['1', 'Nothing moves by itself, and wind bends the fur without gusts'] },
 	ui: { value: values.flag, doc: ['0', 'The picture alone'] },

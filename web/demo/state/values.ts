@@ -7,6 +7,7 @@ import { METHODS } from './view.ts';
 export type Kind =
 	| 'model'
 	| 'preset'
+	| 'clip'
 	| 'choice'
 	| 'split'
 	| 'light'
@@ -60,7 +61,7 @@ export function whole(max: number): Value<number> {
 	};
 }
 
-export function number(min: number, max: number): Value<number> {
+export function number(min: number, max: number, digits = 2): Value<number> {
 	return {
 		kind: 'number',
 		limits: [String(min), String(max)],
@@ -68,7 +69,7 @@ export function number(min: number, max: number): Value<number> {
 			const [value = Number.NaN] = numbers(text, 1) ?? [];
 			return value >= min && value <= max ? value : undefined;
 		},
-		write: (value) => short(value, 2),
+		write: (value) => short(value, digits),
 	};
 }
 
@@ -96,6 +97,13 @@ export const preset: Value<string> = {
 	limits: [],
 	read: (text) => (/^[a-z][a-z0-9-]*$/.test(text) ? text : undefined),
 	write: (name) => name,
+};
+
+export const clip: Value<string> = {
+	kind: 'clip',
+	limits: [],
+	read: (text) => text || undefined,
+	write: encodeURIComponent,
 };
 
 export const split: Value<NonNullable<View['split']>> = {

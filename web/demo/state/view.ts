@@ -47,6 +47,12 @@ export interface View {
 	readonly wet?: number | undefined;
 	readonly dirt?: number | undefined;
 	readonly turn?: boolean | undefined;
+	/** name of the model's clip */
+	readonly clip?: string | undefined;
+	/** seconds at which the clip is held; undefined: it plays */
+	readonly time?: number | undefined;
+	/** factor of the clip's speed */
+	readonly speed?: number | undefined;
 	readonly details?: boolean | undefined;
 	readonly still: boolean;
 	readonly ui: boolean;

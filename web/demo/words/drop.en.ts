@@ -9,6 +9,8 @@ export const en = {
 	/** Name of several files without a folder. */
 	files: (count: number) => `${count} files`,
 	bakeIt: (name: string, command: string) => `${name} has no fur yet, so its skin is shown. To grow some:\n${command}`,
+	/** Added to that for a model with clips. */
+	willMove: 'Its clips come along: the fur moves with the body.',
 	newer: (name: string, version: string, known: string) =>
 		`${name}: its fur is of version ${version}, newer than the ${known} that this page knows; the skin is shown alone`,
 };

@@ -10,5 +10,6 @@ export const zh: DropWords = {
 	openFolderTip: '打开本机上烘焙好的文件夹，也可以直接拖到画面上。不会上传任何内容。',
 	files: (count) => `${count} 个文件`,
 	bakeIt: (name, command) => `${name} 还没有毛发，因此只显示皮肤。要让它长出毛发：\n${command}`,
+	willMove: '动作会一并保留：毛发将随身体而动。',
 	newer: (name, version, known) => `${name}：其毛发格式版本为 ${version}，高于本页支持的 ${known}，因此只显示皮肤`,
 };

@@ -39,6 +39,7 @@ export const en = {
 	panel: 'Fur',
 	settings: 'Settings',
 	body: 'Body',
+	clips: 'Animation',
 	light: 'Light',
 	hair: 'Hair',
 	weather: 'Weather',
@@ -64,6 +65,10 @@ export const en = {
 	wetness: 'Wetness',
 	dirt: 'Dirt',
 	turntable: 'Turntable',
+	clip: 'Clip',
+	play: 'Play',
+	time: 'Time, s',
+	speed: 'Speed',
 	clean: 'Dry and clean',
 	copy: 'Copy link',
 	save: 'Save picture',
@@ -93,6 +98,7 @@ export const en = {
 		noEigenStates: 'Eigen curves hold for dry fur only; choose PTM for wet and dirty fur.',
 		noDirt: 'This fur was baked without a dirty state.',
 		calm: 'Animation is off, as the link or the system asks: wind bends the fur, without gusts.',
+		stillClips: 'Clips are held, as the link asks.',
 	},
 	/** Titles of models and pelts by name, in the place of those in models.json. */
 	titles: {} as Record<string, string>,
@@ -123,6 +129,7 @@ export const en = {
 	expected: {
 		model: 'the name or the folder of a model',
 		preset: 'the name of a preset',
+		clip: 'the name of a clip',
 		choice: (names: string) => `one of ${names}`,
 		split: (names: string) => `METHOD,SHARE: one of ${names}, and 0 to 1`,
 		light: 'a direction x,y,z',
@@ -138,6 +145,8 @@ export const en = {
 	wrongModel: (name: string, names: string, shown: string) =>
 		`model=${name}: expected ${names} or a folder; showing ${shown}`,
 	wrongPreset: (name: string, names: string) => `preset=${name}: expected ${names}; ignored`,
+	wrongClip: (name: string, names: string, shown: string) => `clip=${name}: expected ${names}; showing ${shown}`,
+	noClips: (name: string) => `clip=${name}: this model has no clips; ignored`,
 	notShown: (name: string, reason: string) => `${name} cannot be shown: ${reason}`,
 	notAFolder: 'expected a model of the menu, or the address of a folder',
 	noFur: (title: string) => `${title}: this model has no fur that this page can grow`,

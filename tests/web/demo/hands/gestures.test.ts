@@ -1,4 +1,13 @@
-import { Group, Mesh, MeshBasicMaterial, PerspectiveCamera, SphereGeometry, Vector2, type Vector3 } from 'three';
+import {
+	Group,
+	type Intersection,
+	Mesh,
+	MeshBasicMaterial,
+	PerspectiveCamera,
+	SphereGeometry,
+	Vector2,
+	type Vector3,
+} from 'three';
 import { describe, expect, it } from 'vitest';
 import { Gestures } from '../../../../web/demo/hands/gestures.ts';
 import type { DragAction } from '../../../../web/demo/hands/tools.ts';
@@ -15,7 +24,8 @@ function hands(act: DragAction) {
 	const done: [act: string, aside: number][] = [];
 	const note = (name: string) => (at: Vector3) => void done.push([name, Math.round(10 * at.x) / 10]);
 	const skin = new Mesh(new SphereGeometry(1, 64, 32), new MeshBasicMaterial());
-	const fur = { skin, shells: { furLength: 0.1 } };
+	const restPoint = ({ point }: Intersection, target: Vector3) => target.copy(point);
+	const fur = { skin, shells: { furLength: 0.1 }, restPoint };
 	const dynamics = {
 		...{ rain: note('rain'), mud: note('mud'), stroke: note('stroke') },
 		...{ warmUp() {}, sway: { release() {}, pull: note('pull') } },

@@ -17,6 +17,9 @@ describe('a view and its address', () => {
 		{ split: { method: 'unlit', share: 0 }, fins: true, shells: 256, still: false, ui: true },
 		{ wind: [0.35, 270], wet: 0.5, dirt: 1, turn: true, still: true, ui: true },
 		{ wind: [0, 12.5], wet: 0, dirt: 0.01, turn: false, still: false, ui: true },
+		{ model: 'fox', clip: 'Walk', time: 0.4, speed: 0.5, still: true, ui: true },
+		{ clip: 'Läuft & springt, 50 %', time: 0, speed: 3, still: false, ui: true },
+		{ time: 3599.125, still: false, ui: true },
 		{ model: '../out/fox/', camera: [-179.9, 90, 0.01234], still: false, ui: false },
 	];
 
@@ -35,7 +38,7 @@ describe('a view and its address', () => {
 
 	it('are readable: the example of the documentation', () => {
 		const search =
-			'?model=bunny&preset=fox&method=eigen&split=lengyel,0.5&light=0.303,0.808,0.505&lights=3&camera=30,12,1&shells=48&fins=0&length=1.2&density=0.8&colour=33221a,e8b98a&planes=64&env=sunset&crowd=5&wind=0.4,90&wet=0.75&dirt=0.3&turn=1&still=1&ui=0&lang=zh';
+			'?model=bunny&preset=fox&method=eigen&split=lengyel,0.5&light=0.303,0.808,0.505&lights=3&camera=30,12,1&shells=48&fins=0&length=1.2&density=0.8&colour=33221a,e8b98a&planes=64&env=sunset&crowd=5&wind=0.4,90&wet=0.75&dirt=0.3&turn=1&clip=Walk&time=0.4&speed=0.5&still=1&ui=0&lang=zh';
 		expect(formatAddress(parseAddress(search).view)).toBe(search);
 	});
 
@@ -134,6 +137,16 @@ describe('reading an address', () => {
 		'dirt=0.5,1',
 		'turn=2',
 		'turn=slow',
+		'clip=',
+		'time=',
+		'time=-0.1',
+		'time=3601',
+		'time=now',
+		'time=1,2',
+		'speed=0',
+		'speed=0.05',
+		'speed=3.1',
+		'speed=fast',
 		'lang=fr',
 		'fins=no',
 		'still=yes',

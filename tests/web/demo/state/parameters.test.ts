@@ -6,7 +6,10 @@ import { withAddressTable } from '../../../../web/demo/state/docs.ts';
 import { NAMES, parameters } from '../../../../web/demo/state/parameters.ts';
 import { FIRST_VIEW, type View } from '../../../../web/demo/state/view.ts';
 
-const shown: Shown = { model: 'bunny', env: 'none', shells: 24, colour: ['102030', 'a0b0c0'] };
+const shown: Shown = {
+	...{ model: 'bunny', env: 'none', shells: 24, colour: ['102030', 'a0b0c0'] },
+	...{ clip: 'Walk', time: 0.4, duration: 2 },
+};
 
 /** Values that a control can be set to. */
 function settings(control: Control): unknown[] {
@@ -60,7 +63,7 @@ describe('the table of parameters', () => {
 
 	it('leaves values as at first out of the view', () => {
 		for (const { name, control } of cases)
-			if (!['model', 'automatic', 'shells', 'root', 'tip'].includes(control.label))
+			if (!['model', 'automatic', 'shells', 'root', 'tip', 'clip', 'time'].includes(control.label))
 				expect(control.set(control.get(FIRST_VIEW, shown) as never, FIRST_VIEW, shown)[name], name).toBeUndefined();
 	});
 

@@ -32,6 +32,16 @@ export const teaching = {
 		says: (side: number, all: string, own: string) =>
 			`Over ${side} × ${side} texels, all held-out lamps: ${all} % off, ${own} % without what the whole layer shares.`,
 	},
+	pose: {
+		picture:
+			'A furry limb of two bones, with the frame of one vertex before and after. Drag, or use the arrow keys, to turn the joint.',
+		bars: 'The six light moments of the vertex, before and after the joint has turned.',
+		columns: ['before', 'now'] as [string, string],
+		joint: 'Joint',
+		degrees: (degrees: string) => `${degrees}°`,
+		says: (before: string, now: string) =>
+			`Times the six numbers of figure 4’s patch: L = ${before} before, ${now} now.`,
+	},
 	ask: {
 		dome: {
 			ask: 'Predict: when the lamp sinks from above to the horizon, which layer loses the larger share of its light?',

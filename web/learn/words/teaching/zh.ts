@@ -30,6 +30,14 @@ export const teaching: typeof english = {
 		says: (side, all, own) =>
 			`平均范围 ${side} × ${side} 个纹素，全部检验灯：误差 ${all}%，去掉全层共有的部分后为 ${own}%。`,
 	},
+	pose: {
+		picture: '由两根骨骼带动的毛茸茸的肢体，以及一个顶点转动前后的标架。拖动或按方向键转动关节。',
+		bars: '关节转动前后，这个顶点的六个光照矩。',
+		columns: ['之前', '现在'],
+		joint: '关节',
+		degrees: (degrees) => `${degrees}°`,
+		says: (before, now) => `乘以图 4 那块毛发的六个数：之前 L = ${before}，现在 ${now}。`,
+	},
 	ask: {
 		dome: {
 			ask: '先猜：灯从头顶降到地平线时，哪一层失去的亮度比例更大？',
