@@ -9,7 +9,7 @@ import { Studio } from './studio.ts';
 
 const SECONDS = 1 / 60; // simulated length of a frame
 
-/** Modes compared: a statue of the same vertices, the character in that pose, in its clip, and there with springs. */
+/** Modes compared: a statue of the same vertices, the character at rest, in its clip, and there with springs. */
 const MODES = ['statue', 'held', 'moving', 'springs'] as const;
 
 type Mode = (typeof MODES)[number];
@@ -41,14 +41,9 @@ class Subject {
 		this.#studio = new Studio(renderer, fur, width, height);
 		const mixer = new AnimationMixer(gltf.scene);
 		const [clip] = gltf.animations;
-		if (clip && mode !== 'statue') mixer.clipAction(clip).play();
-		mixer.update(0);
-		if (mode === 'held') {
-			mixer.stopAllAction();
-			fur.shells.skeleton?.pose();
-		}
-		if (mode === 'springs') new FurMotion(fur, { renderer });
 		const moves = mode === 'moving' || mode === 'springs';
+		if (clip && moves) mixer.clipAction(clip).play();
+		if (mode === 'springs') new FurMotion(fur, { renderer });
 		this.#step = () => {
 			if (moves) mixer.update(SECONDS);
 			fur.update(SECONDS);

@@ -13,7 +13,7 @@ const options = /** @type {const} */ ({ model: { type: 'string' }, json: { type:
 
 const NAMES = {
 	statue: 'statue',
-	held: 'character in the same pose',
+	held: 'character at rest',
 	moving: 'in its first clip',
 	springs: 'and its hairs on springs',
 };
