@@ -34,12 +34,13 @@ class Character:
         return len(self.json["bufferViews"]) - 1
 
     def add(self, values: Any, kind: str = "float32", *, scalars: bool = False) -> int:
-        """An accessor: float32 as it is, another kind as normalised integers; `uint*!` as whole numbers."""
+        """An accessor: float32 as it is, another kind as normalised integers; with a `!` as whole numbers."""
         values = np.asarray(values, dtype=np.float64)
         flat = values.reshape(-1, 1) if scalars else values.reshape(len(values), -1)
         dtype = np.dtype(kind.rstrip("!"))
         normalised = dtype.kind in "iu" and not kind.endswith("!")
-        stored = (np.rint(flat * np.iinfo(dtype).max) if normalised else flat).astype(dtype)
+        whole = np.rint(flat * np.iinfo(dtype).max if normalised else flat) if dtype.kind in "iu" else flat
+        stored = whole.astype(dtype)
         record = {"componentType": CODES[dtype.name], "count": len(flat), "type": KINDS[flat.shape[1]]}
         self.json["accessors"].append({**record, "bufferView": self.view(stored.tobytes())})
         if normalised:
@@ -133,7 +134,7 @@ def bent_tube(positions: str = "float32", weights: str = "float32", joints: str 
     made = Character()
     vertices, faces = tube()
     scene = made.node(scale=[2, 2, 2], name="scene")
-    small = 0.25 if positions != "float32" else 1.0  # normalised integers reach to 1
+    small = {"float32": 1.0, "int16": 0.25, "int16!": 8000.0}[positions]  # normalised integers reach to 1
     mesh = made.mesh(small * vertices, faces, positions)
     which, share = tube_weights(vertices)
     made.primitive(mesh)["attributes"] |= {"JOINTS_0": made.add(which, joints), "WEIGHTS_0": made.add(share, weights)}

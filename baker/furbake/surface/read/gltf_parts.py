@@ -23,7 +23,7 @@ DIRECTIONS = ("_COMB", "_DIRECTION")
 """Attributes that are vectors in the node's space and turn with it."""
 
 FARTHEST = 1e9
-"""Displacement of a vertex by a target, beyond which the target is broken."""
+"""Displacements and weights of a target beyond this are taken for broken ones."""
 
 
 @dataclass(frozen=True)

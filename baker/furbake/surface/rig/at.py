@@ -23,9 +23,9 @@ def in_pose(model: str, rig: Rig | None, clip: str, seconds: float) -> Rig:
     """
     if rig is None or not rig.clips:
         raise MeshError(f"{model}: has no clips, expected the clip {shown(clip)} of the pose")
-    pose = pose_at(rig, _clip(model, rig, clip), seconds)
-    rig = replace(rig, pose=pose)
-    return replace(rig, posed=posed(rig, pose))
+    with np.errstate(all="ignore"):
+        pose = pose_at(rig, _clip(model, rig, clip), seconds)
+        return replace(rig, pose=pose, posed=posed(rig, pose))
 
 
 def pose_at(rig: Rig, clip: Clip, seconds: float) -> Pose:

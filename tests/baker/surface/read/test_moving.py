@@ -70,15 +70,10 @@ def walking(made: Character, first: int = 2) -> None:
 
 @pytest.mark.parametrize(
     ("positions", "weights", "joints"),
-    [("float32", "float32", "uint8!"), ("int16", "uint8", "uint16!"), ("uint16", "uint16", "uint8!")],
+    [("float32", "float32", "uint8!"), ("int16", "uint8", "uint16!"), ("int16!", "uint16", "uint8!")],
 )
 def test_a_bent_tube_moves_as_the_file_says(tmp_path: Path, positions: str, weights: str, joints: str) -> None:
     made = bent_tube(positions, weights, joints)
-    if positions == "uint16":  # no number below 0: moved, and moved back by the inverse bind matrices
-        made = bent_tube("int16", weights, joints)
-        made.json["accessors"][0]["normalized"] = False
-        made.numbers[0] = made.numbers[0] * 32767
-        made.json["nodes"][0]["scale"] = [1e-4] * 3
     walking(made)
     rig = rig_of(made, tmp_path)
     assert [clip.name for clip in rig.clips] == ["lines", "steps", "splines"]

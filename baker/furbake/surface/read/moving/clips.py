@@ -15,6 +15,9 @@ from furbake.surface.soup import Floats, Ints, MeshError
 
 WIDTHS = {"translation": 3, "rotation": 4, "scale": 3, "weights": 1}
 
+FARTHEST = 1e9
+"""Seconds and values beyond this are taken for broken ones."""
+
 LONG = 0.005
 """Rotations whose length is farther from 1 than this are made unit ones; integers are not nearer."""
 
@@ -123,9 +126,9 @@ def _cleaned(channel: Channel, told: Told) -> Channel | None:
     values = channel.values.reshape(len(times), 3 if cubic else 1, -1)
     own = values[:, 1] if cubic else values[:, 0]
     length = np.linalg.norm(own, axis=1) if channel.path == "rotation" else np.ones(len(times))
-    good = np.isfinite(times) & (times >= 0.0) & np.isfinite(own).all(axis=1) & (length > SHORT)
+    good = (times >= 0.0) & (times <= FARTHEST) & (np.abs(own) <= FARTHEST).all(axis=1) & (length > SHORT)
     # A tangent that is not finite is flat: those outside of the first and last key are often left as they were.
-    values = np.where(np.isfinite(values), values, 0.0)
+    values = np.where(np.abs(values) <= FARTHEST, values, 0.0)
     good &= times >= np.maximum.accumulate(np.where(good, times, -1.0))
     times, values, length = times[good], values[good], length[good]
     times, rising = _rising(times, values)

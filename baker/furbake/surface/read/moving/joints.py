@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 from furbake.surface.read.gltf_data import GltfData, Record
 from furbake.surface.read.gltf_nodes import text
 from furbake.surface.read.gltf_parts import Part
-from furbake.surface.read.moving.skins import Skin, bound, influences, read_skin, regular, spans
+from furbake.surface.read.moving.skins import HUGE, Skin, bound, influences, read_skin, regular, spans
 from furbake.surface.read.moving.told import Told
 from furbake.surface.rig.rig import RigNode
 from furbake.surface.soup import Floats, Ints
@@ -189,14 +189,14 @@ def _rig_node(record: Record, parent: int, moved: bool, told: Told) -> RigNode:
     node = replace(_still(text(record.get("name"))), parent=parent)
     if "matrix" in record:
         matrix = np.array(record["matrix"], dtype=np.float64).reshape(4, 4).T
-        if not np.isfinite(matrix).all():
+        if not (np.abs(matrix) <= HUGE).all():
             told.add(BAD_NODE)
             return node
         return _apart(node, matrix) if moved else replace(node, matrix=matrix)
     translation = np.array(record.get("translation", (0, 0, 0)), dtype=np.float64).reshape(3)
     rotation = np.array(record.get("rotation", (0, 0, 0, 1)), dtype=np.float64).reshape(4)
     scale = np.array(record.get("scale", (1, 1, 1)), dtype=np.float64).reshape(3)
-    if not (np.isfinite(translation).all() and np.isfinite(rotation).all() and np.isfinite(scale).all()):
+    if not all((np.abs(numbers) <= HUGE).all() for numbers in (translation, rotation, scale)):
         told.add(BAD_NODE)
         return node
     length = float(np.linalg.norm(rotation))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from furbake.surface.read.gltf_data import GltfData, Record
 from furbake.surface.read.gltf_nodes import text
-from furbake.surface.read.gltf_parts import Part
+from furbake.surface.read.gltf_parts import FARTHEST, Part
 from furbake.surface.read.moving.told import Told
 from furbake.surface.rig.clip import sample
 from furbake.surface.rig.rig import BODY, Channel, Target
@@ -74,7 +74,7 @@ def _names(mesh: Record, number: int) -> list[str]:
 def _weights(listed: Any, number: int) -> list[float]:
     listed = listed if isinstance(listed, list) else []
     found = [float(value) if isinstance(value, int | float) else 0.0 for value in listed[:number]]
-    found = [value if np.isfinite(value) else 0.0 for value in found]
+    found = [value if abs(value) <= FARTHEST else 0.0 for value in found]
     return found + [0.0] * (number - len(found))
 
 

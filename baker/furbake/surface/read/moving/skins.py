@@ -16,6 +16,9 @@ from furbake.surface.soup import Floats, Ints, MeshError
 FLATTEST = 1e-12
 """Determinant of a matrix, in its largest number to the third power, below which it cannot be inverted."""
 
+HUGE = 1e12
+"""Numbers beyond this, or their inverse, are taken for broken ones."""
+
 NO_SKIN = "skin without joints left out", "skins without joints left out"
 OUTSIDE = "joint outside of the scene stands still", "joints outside of the scene stand still"
 BIND = (
@@ -92,13 +95,13 @@ def _matrices(data: GltfData, index: Any) -> Floats:
 
 
 def regular(matrices: Floats) -> NDArray[np.bool_]:
-    """(n,) which of (n, 4, 4) matrices are finite and can be inverted."""
-    finite: NDArray[np.bool_] = np.asarray(np.isfinite(matrices).all(axis=(1, 2)))
+    """(n,) which of (n, 4, 4) matrices have numbers of a sensible size and can be inverted."""
+    finite: NDArray[np.bool_] = np.asarray((np.abs(matrices) <= HUGE).all(axis=(1, 2)))
     turn = np.where(finite[:, None, None], matrices, 0.0)[:, :3, :3]
     size = np.abs(turn).max(axis=(1, 2), initial=0.0)
     with np.errstate(over="ignore", under="ignore", divide="ignore", invalid="ignore"):
         volume = np.asarray(np.abs(np.linalg.det(turn / np.where(size > 0.0, size, 1.0)[:, None, None])))
-    return np.asarray(finite & (size > 0.0) & (volume > FLATTEST))
+    return np.asarray(finite & (size >= 1.0 / HUGE) & (volume > FLATTEST))
 
 
 def spans(parents: dict[int, int]) -> dict[int, tuple[int, int]]:
