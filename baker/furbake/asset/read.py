@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from furbake.asset.gltf import EXTENSION
 from furbake.asset.planes import Bytes, read_png
 from furbake.surface.files import read_regular
-from furbake.surface.limits import Budget
+from furbake.surface.limits import Budget, limits
 from furbake.surface.read.accessors import TYPES, WIDTHS, elements
 
 
@@ -64,6 +64,8 @@ class Asset:
         if "sparse" not in accessor:
             values = self._elements(index, accessor, kind, width, count)
             return values[:, 0] if width == 1 else values
+        if not 1 <= count * width <= limits().numbers:
+            raise AssetError(f"model.gltf: accessor {index} has {count} elements, expected 1 to {limits().numbers}")
         sparse, values = accessor["sparse"], np.zeros((count, width), dtype=kind)
         if "bufferView" in accessor:
             values = self._elements(index, accessor, kind, width, count).copy()

@@ -226,12 +226,13 @@ def archive(kind: str, files: dict[str, bytes]) -> bytes:
     return gzip.compress(data, mtime=0) if kind == "tar.gz" else bz2.compress(data)
 
 
-def baked(folder: Path) -> dict[str, bytes]:
+def baked(folder: Path, model: str) -> dict[str, bytes]:
     """Files of a tiny bake."""
     hairs = Hairs(count=12)
     options = BakeOptions(layers=2, size=8, lights=8, coat=Coat(guard=hairs, under=hairs, clumps=3))
-    bake("sphere", folder / "baked", options)
-    return {path.name: path.read_bytes() for path in (folder / "baked").iterdir()}
+    out = folder / f"baked-{Path(model).stem}"
+    bake(model, out, options)
+    return {path.name: path.read_bytes() for path in out.iterdir()}
 
 
 def seeds(folder: Path) -> list[Seed]:
@@ -257,5 +258,8 @@ def seeds(folder: Path) -> list[Seed]:
     found.append(Seed("stl text", "a.stl", {"a.stl": str(ball().export(file_type="stl_ascii")).encode()}))
     found += [Seed(kind, f"a.{kind}", {f"a.{kind}": archive(kind, obj())}) for kind in ("zip", "tar.gz", "tar.bz2")]
     found.append(Seed("bz2", "a.obj.bz2", {"a.obj.bz2": bz2.compress(obj()["a.obj"])}))
-    found.append(Seed("baked", "", baked(folder)))
+    found.append(Seed("baked", "", baked(folder, "sphere")))
+    character = folder / "character.glb"
+    character.write_bytes(packed(*scene(True)))
+    found.append(Seed("baked character", "", baked(folder, str(character))))
     return found

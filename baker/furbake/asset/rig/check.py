@@ -21,8 +21,6 @@ ROUNDING = 2e-3
 WIDTHS = {"translation": 3, "rotation": 4, "scale": 3, "weights": 1}
 """Numbers of a key by the path of its channel; weights have one for each target."""
 
-FLOAT = 5126
-
 
 def joints(asset: Asset) -> Iterator[str]:
     """Skin, shells and fins have one skin or none, whose joints exist and move all of their vertices."""
@@ -101,13 +99,14 @@ def targets(asset: Asset) -> Iterator[str]:
     meshes = {name: _mesh(asset, name) for name in PARTS if name in asset.fur}
     expected = meshes["skin"]["primitives"][0].get("targets", [])
     names = meshes["skin"].get("extras", {}).get("targetNames")
+    good: set[tuple[int, int]] = set()
     for name, mesh in meshes.items():
         for primitive in mesh["primitives"]:
             found = primitive.get("targets", [])
             if len(found) != len(expected):
                 yield f"{name}: {len(found)} morph targets, expected {len(expected)} as of the skin"
             for i, target in enumerate(found):
-                yield from _target(asset, f"{name}: target {i}", target, primitive["attributes"])
+                yield from _target(asset, f"{name}: target {i}", target, primitive["attributes"], good)
         weights = mesh.get("weights", [0.0] * len(expected))
         if len(weights) != len(expected):
             yield f"{name}: {len(weights)} weights of morph targets, expected {len(expected)}"
@@ -118,25 +117,31 @@ def targets(asset: Asset) -> Iterator[str]:
         yield f"skin: {len(names)} targetNames, expected {len(expected)}"
 
 
-def _target(asset: Asset, name: str, target: Record, attributes: Record) -> Iterator[str]:
+def _target(asset: Asset, name: str, target: Record, attributes: Record, good: set[tuple[int, int]]) -> Iterator[str]:
+    """Problems of a target; good : accessors that have none for vertices of such a count."""
     if "POSITION" not in target:
         yield f"{name} has no POSITION, expected displacements"
+    accessors = asset.document["accessors"]
     for attribute, index in target.items():
-        values = asset.accessor(index)
         if attribute not in attributes:
             yield f"{name} moves {attribute}, expected only what the vertices have"
             continue
-        count = asset.document["accessors"][attributes[attribute]]["count"]
-        if values.shape != (count, 3):
-            yield f"{name} has {len(values)} values of {attribute}, expected {count} of three numbers"
-        elif not np.isfinite(values).all():
+        got, count = accessors[index], accessors[attributes[attribute]]["count"]
+        if (index, count) in good:
+            continue
+        if (got["count"], got["type"]) != (count, "VEC3"):
+            yield f"{name} has {got['count']} values of {attribute}, expected {count} of three numbers"
+        elif not np.isfinite(asset.accessor(index)).all():
             yield f"{name}: {attribute} is not finite, expected numbers"
+        else:
+            good.add((index, count))
 
 
 def clips(asset: Asset) -> Iterator[str]:
     """Animations move nodes of the scene, by as many numbers as there are keys."""
     seen = drawn(asset)
     shapes = len(_mesh(asset, "skin")["primitives"][0].get("targets", []))
+    good: set[tuple[int, int, bool, str]] = set()
     for i, animation in enumerate(asset.document.get("animations", [])):
         name = f"animation {animation.get('name', i)!r:.60}"
         for channel in animation["channels"]:
@@ -148,22 +153,32 @@ def clips(asset: Asset) -> Iterator[str]:
             elif not 0 <= channel["sampler"] < len(animation["samplers"]):
                 yield f"{name}: sampler {channel['sampler']}, expected one of {len(animation['samplers'])}"
             else:
-                yield from _sampler(asset, name, animation["samplers"][channel["sampler"]], path, shapes)
+                yield from _sampler(asset, name, animation["samplers"][channel["sampler"]], path, shapes, good)
 
 
-def _sampler(asset: Asset, name: str, sampler: Record, path: str, shapes: int) -> Iterator[str]:
-    times, values = asset.accessor(sampler["input"]), asset.accessor(sampler["output"])
+def _sampler(
+    asset: Asset, name: str, sampler: Record, path: str, shapes: int, good: set[tuple[int, int, bool, str]]
+) -> Iterator[str]:
+    """Problems of a sampler; good : those, by keys, values and use, that have none."""
     cubic = sampler.get("interpolation", "LINEAR") == "CUBICSPLINE"
+    key = sampler["input"], sampler["output"], cubic, path
+    if key in good:
+        return
+    times, values = asset.accessor(sampler["input"]), asset.accessor(sampler["output"])
     expected = len(times) * (3 if cubic else 1) * (shapes if path == "weights" else 1)
     width = 1 if values.ndim == 1 else values.shape[1]
-    if len(values) != expected or width != WIDTHS[path]:
+    finite = np.isfinite(times).all() and np.isfinite(values).all()
+    some = len(values) == expected and width == WIDTHS[path]
+    rising = times.ndim == 1 and finite and times[0] >= 0.0 and (np.diff(times) > 0.0).all()
+    if not some:
         yield (
             f"{name}: {len(values)} values of {width} numbers for {path} at {len(times)} keys, "
             f"expected {expected} of {WIDTHS[path]}"
         )
-    finite = np.isfinite(times).all() and np.isfinite(values).all()
-    if times.ndim != 1 or not finite or times[0] < 0.0 or (np.diff(times) <= 0.0).any():
+    if not rising:
         yield f"{name}: keys of {path} that are not finite or whose times do not rise from 0, expected such ones"
+    if some and rising:
+        good.add(key)
 
 
 def tree(asset: Asset) -> Iterator[str]:
