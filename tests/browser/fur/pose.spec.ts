@@ -64,6 +64,18 @@ test('roots on the GPU are where joints and morph targets put them, within the b
 	expect(error).toBe(0);
 });
 
+test('no crack opens between patches of a body that moves', async ({ page }) => {
+	const { json } = await character('public/models/bunny');
+	await page.route('**/bunny/model.gltf', (route) => route.fulfill({ json: bare(json) }));
+	const moments = [0, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9].map((seconds) => ['Wave', seconds] as [string, number]);
+	const { counts, error } = await page.evaluate(([url, at]) => loaded.cracks(url, at, 400), [bunny, moments] as const);
+	for (const { inside, open } of counts) {
+		expect(inside).toBeGreaterThan(5000);
+		expect(open).toBe(0);
+	}
+	expect(error).toBe(0);
+});
+
 for (const shadows of [false, true])
 	test(`a body turned by its joint is lit as one turned by its node${shadows ? ', in shadow' : ''}`, async ({
 		page,

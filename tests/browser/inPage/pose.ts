@@ -24,6 +24,7 @@ import {
 } from 'three';
 import { type GLTF, GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { clone } from 'three/addons/utils/SkeletonUtils.js';
+import type { Jointed } from '../../../web/fur/body/FurPose.ts';
 import { Fur, FurLoaderPlugin } from '../../../web/fur/index.ts';
 import { renderFloats } from '../../../web/measure/studio.ts';
 import { toBase64 } from './flat.ts';
@@ -62,6 +63,9 @@ class Stand {
 			.multiplyScalar(6 * radius)
 			.add(center);
 		this.camera.lookAt(center);
+		this.camera.near = radius;
+		this.camera.far = 20 * radius;
+		this.camera.updateProjectionMatrix();
 	}
 
 	/** A moment of a clip; undefined: at rest. */
@@ -113,7 +117,7 @@ function placesOf(part: Mesh<InstancedBufferGeometry, ShaderMaterial>, reach: nu
 	Object.assign(probe.defaultAttributeValues, material.defaultAttributeValues);
 	delete probe.defines.BODY_LIGHT;
 	const points = new Points(geometry, probe);
-	const { isSkinnedMesh, skeleton, bindMatrix, bindMatrixInverse } = part as Mesh & Record<string, unknown>;
+	const { isSkinnedMesh, skeleton, bindMatrix, bindMatrixInverse } = part as typeof part & Jointed;
 	Object.assign(points, { isSkinnedMesh, skeleton, bindMatrix, bindMatrixInverse, frustumCulled: false });
 	points.matrixAutoUpdate = points.matrixWorldAutoUpdate = false;
 	points.matrixWorld.copy(part.matrixWorld);
@@ -155,6 +159,57 @@ export async function vertices(url: string, moments: [clip: string | undefined, 
 	return { answers, error: gl.getError() };
 }
 
+/**
+ * Pixels inside the outline of the skin that the surface below the shells leaves open, at moments of a clip: with hairs of no
+ * length and full coverage, and the skin hidden.
+ *
+ * @param size of the pictures, pixels
+ */
+export async function cracks(url: string, moments: [clip: string | undefined, seconds: number][], size: number) {
+	const stand = await Stand.load(url);
+	const { fur, scene, camera } = stand;
+	const { shells, fins, skin } = fur;
+	const target = new WebGLRenderTarget(size, size, { type: FloatType });
+	if (fins) fins.visible = false;
+	const { material } = shells;
+	const closed = new ShaderMaterial({
+		glslVersion: material.glslVersion,
+		lights: material.lights,
+		uniforms: { ...material.uniforms, ...UniformsUtils.clone(UniformsLib.lights), furLength: { value: 0 } },
+		defines: { ...material.defines },
+		vertexShader: material.vertexShader,
+		fragmentShader: 'out vec4 colour; void main() { colour = vec4(1.0); }',
+	});
+	Object.assign(closed.defaultAttributeValues, material.defaultAttributeValues);
+	delete closed.defines.BODY_LIGHT;
+	const counts = moments.map(([clip, seconds]) => {
+		stand.pose(clip, seconds);
+		stand.look(fur.bounds(new Sphere()));
+		fur.visible = false;
+		const body = renderFloats(renderer, scene, camera, target);
+		fur.visible = true;
+		skin.visible = false;
+		Object.assign(shells, { material: closed });
+		const hairs = renderFloats(renderer, scene, camera, target);
+		Object.assign(shells, { material });
+		skin.visible = true;
+		const isBody = (i: number) => (body[4 * i + 3] ?? 0) > 0.5;
+		let [inside, open] = [0, 0];
+		const where: number[] = [];
+		for (let i = size; i < size * (size - 1); i++) {
+			// On the outline itself two shaders may round to either side.
+			if (![i, i - 1, i + 1, i - size, i + size].every(isBody)) continue;
+			inside++;
+			if ((hairs[4 * i + 3] ?? 0) < 0.5) where.push(i % size, Math.floor(i / size), open++);
+		}
+		return { inside, open, where };
+	});
+	closed.dispose();
+	target.dispose();
+	stand.dispose();
+	return { counts, error: gl.getError() };
+}
+
 /** Peak signal to noise, decibels, of premultiplied pixels in 0..1. */
 function psnr(a: Float32Array, b: Float32Array): number {
 	const sum = a.reduce((total, value, i) => total + (value - (b[i] ?? Number.NaN)) ** 2, 0);
@@ -176,6 +231,9 @@ export async function turned(still: string, moving: string, shadows: boolean) {
 		stand.lamp.castShadow = shadows;
 		Object.assign(stand.lamp.shadow.camera, { left: -2, right: 2, bottom: -2, top: 2, near: 0.1, far: 8 });
 		stand.lamp.position.multiplyScalar(3);
+		stand.camera.near = 0.1;
+		stand.camera.far = 100;
+		stand.camera.updateProjectionMatrix();
 		stand.camera.position.set(1, 2, 8);
 		stand.camera.lookAt(0, 0.5, 0);
 	}
