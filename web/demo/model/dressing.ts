@@ -37,7 +37,7 @@ export class Dressing {
 		this.#onShow = onShow;
 	}
 
-	/** Styles hairs, weather, crowd and lamps by the view. @returns true if that needs states, which `dress` fetches */
+	/** Styles hairs, weather, crowd and lamps by the view. @returns true if that needs what `dress` fetches */
 	style(): boolean {
 		const { stage } = this.#picture;
 		const view = this.#store.get();
@@ -47,7 +47,7 @@ export class Dressing {
 		stage.lamps = view.lights ?? 1;
 		stage.exposure = view.exposure ?? 1;
 		this.#picture.request();
-		return !this.#hasStates && this.#dynamics.needsStates(view);
+		return (!this.#hasStates && this.#dynamics.needsStates(view)) || this.#dynamics.lacksMotion(view);
 	}
 
 	/** Dresses the model by the view. @param first the first fur of all shows at once, and whole a frame later */
@@ -67,6 +67,7 @@ export class Dressing {
 		const { outfits, without } = await availableOutfits(view, menu, target);
 		if (late()) return;
 		if (without) this.#store.change(without);
+		if (this.#dynamics.lacksMotion(view)) await this.#dynamics.loadMotion();
 		const wanted = wantsFine(view.planes);
 		const fine = wanted ? await fineOutfits(this.#store.get(), menu, target, false) : undefined;
 		if (late()) return;
@@ -96,6 +97,8 @@ export class Dressing {
 		if (!first) return;
 		await this.#looks.showFirst(this.#store, () => picture.drawn());
 		performance.mark('furbake:fur');
+		// Ready for the first wind or hand.
+		void this.#dynamics.loadMotion();
 	}
 
 	/** Fades over to finer planes; the fur stays as it is where they cannot be had. */
