@@ -105,3 +105,22 @@ export interface MotionFigures {
 	follicles: number;
 	costs: MotionCost[];
 }
+
+/** Cost of a character, measured by `npm run character`. */
+export interface CharacterCost {
+	mode: 'statue' | 'held' | 'moving' | 'springs';
+	/** Milliseconds per frame. */
+	frame: number;
+	/** Frame time over the statue's. */
+	ratio: number;
+	/** Milliseconds of script per frame, of clip and springs. */
+	script: number;
+}
+
+/** Figures of `npm run character`. */
+export interface CharacterFigures {
+	width: number;
+	height: number;
+	joints: number;
+	costs: CharacterCost[];
+}

@@ -51,7 +51,8 @@ export function calm(joints = 1, follicles = 0): Drive {
 		blow: new Float32Array(3),
 		gusts: 0,
 		waves: new Float32Array(4 * WAVES),
-		joints: new Float32Array(row * Math.ceil((JOINT * joints) / row)),
+		// A row at least: of a body whose weights are all 0 no joint carries anything.
+		joints: new Float32Array(row * Math.max(Math.ceil((JOINT * joints) / row), 1)),
 		kicks: false,
 		ways: new Float32Array(row * Math.ceil((4 * follicles) / row)),
 		morphs: false,

@@ -194,6 +194,17 @@ describe('hairs of a character', () => {
 		}
 	});
 
+	it('do nothing where no joint carries them', () => {
+		const body = limb(() => Number.NaN);
+		const motion = new FurMotion(body.fur);
+		motion.wind.strength = 1;
+		for (let frame = 0; frame < 30; frame++) {
+			body.shoulder.rotation.y += 0.1;
+			motion.update(FRAME);
+		}
+		expect(largest(swingOf(body))).toBe(0);
+	});
+
 	it('stay within their limit when another pose comes at once, and hang as that pose lets them soon after', () => {
 		const [body, still] = [limb(), limb()];
 		const [motion, settled] = [new FurMotion(body.fur), new FurMotion(still.fur)];
