@@ -1,8 +1,10 @@
 /** The fur of the model on show: pelts and methods, their states and finer planes, as the view asks for them. */
 
 import { notice } from '../say/notice.ts';
+import type { Crowd } from '../stage/crowd.ts';
 import type { Picture } from '../stage/picture.ts';
 import type { Store } from '../state/store.ts';
+import type { View } from '../state/view.ts';
 import { words } from '../words/index.ts';
 import { adjust } from './adjust.ts';
 import type { Dynamics } from './dynamics.ts';
@@ -26,6 +28,7 @@ export class Dressing {
 	readonly #dynamics: Dynamics;
 	readonly #onShow: OnShow;
 	#latest = 0;
+	#Crowd: typeof Crowd | undefined;
 	/** True once the states of the furs on show were asked for, and have not failed. */
 	#hasStates = false;
 
@@ -37,17 +40,28 @@ export class Dressing {
 		this.#onShow = onShow;
 	}
 
-	/** Styles hairs, weather, crowd and lamps by the view. @returns true if that needs states, which `dress` fetches */
+	/** Styles hairs, weather, crowd and lamps by the view. @returns true if that needs what `dress` fetches */
 	style(): boolean {
 		const { stage } = this.#picture;
 		const view = this.#store.get();
 		this.#looks.style(view);
 		this.#dynamics.style(view);
-		stage.setCrowd(view.crowd ?? 1, this.#looks.fur);
+		stage.setCrowd(view.crowd ?? 1, this.#looks.fur, this.#Crowd);
 		stage.lamps = view.lights ?? 1;
 		stage.exposure = view.exposure ?? 1;
 		this.#picture.request();
-		return !this.#hasStates && this.#dynamics.needsStates(view);
+		return (!this.#hasStates && this.#dynamics.needsStates(view)) || this.#lacks(view);
+	}
+
+	/** True for a view that needs modules that are not loaded. */
+	#lacks(view: View): boolean {
+		return ((view.crowd ?? 1) > 1 && !this.#Crowd) || this.#dynamics.lacksMotion(view);
+	}
+
+	/** Loads the modules that a view needs; what cannot be had is left out until it is asked for again. */
+	async #load(view: View): Promise<void> {
+		if (this.#dynamics.lacksMotion(view)) await this.#dynamics.loadMotion();
+		if ((view.crowd ?? 1) > 1) this.#Crowd = (await import('../stage/crowd.ts').catch(() => undefined))?.Crowd;
 	}
 
 	/** Dresses the model by the view. @param first the first fur of all shows at once, and whole a frame later */
@@ -67,6 +81,7 @@ export class Dressing {
 		const { outfits, without } = await availableOutfits(view, menu, target);
 		if (late()) return;
 		if (without) this.#store.change(without);
+		if (this.#lacks(view)) await this.#load(view);
 		const wanted = wantsFine(view.planes);
 		const fine = wanted ? await fineOutfits(this.#store.get(), menu, target, false) : undefined;
 		if (late()) return;
@@ -96,6 +111,8 @@ export class Dressing {
 		if (!first) return;
 		await this.#looks.showFirst(this.#store, () => picture.drawn());
 		performance.mark('furbake:fur');
+		// Ready for the first wind or hand.
+		void this.#dynamics.loadMotion();
 	}
 
 	/** Fades over to finer planes; the fur stays as it is where they cannot be had. */

@@ -1,7 +1,7 @@
 /** Dynamics of the body on show: its clips, motion of its hairs, water and dirt on them, and its own sway. */
 
 import { DataTexture, FloatType, MathUtils, RGBAFormat, type Vector3 } from 'three';
-import { FurMotion, FurWeather } from '../../fur/index.ts';
+import { type FurMotion, FurWeather } from '../../fur/index.ts';
 import { notice, withdraw } from '../say/notice.ts';
 import type { Stage } from '../stage/stage.ts';
 import type { View } from '../state/view.ts';
@@ -22,6 +22,9 @@ export class Dynamics {
 	readonly #stage: Stage;
 	readonly #calm: boolean;
 	#motion: FurMotion | undefined;
+	#Motion: typeof FurMotion | undefined;
+	/** First request of what moves hairs, by a frame; none repeats it. */
+	#asked: Promise<void> | undefined;
 	#weather: FurWeather | undefined;
 	/** Swing of hairs at rest, which compiles their shaders: for the next frame, and of the last one. */
 	#warmUpSwing: DataTexture | undefined;
@@ -41,6 +44,20 @@ export class Dynamics {
 	/** True once something was painted, which no link has. */
 	get hasPaint(): boolean {
 		return this.#weather?.painted ?? false;
+	}
+
+	/** True for a view that needs a part of the library that `loadMotion` loads. */
+	lacksMotion({ wind: [strength] = [0, 0] }: View): boolean {
+		return strength > 0 && !this.#Motion;
+	}
+
+	/** Loads what moves hairs; where that fails, they stay as they are until it is asked for again. */
+	async loadMotion(): Promise<void> {
+		try {
+			this.#Motion = (await import('./later.ts')).FurMotion;
+		} catch {
+			this.#Motion = undefined;
+		}
 	}
 
 	/** True for fur that is wet or dirty, or about to be. */
@@ -118,7 +135,8 @@ export class Dynamics {
 
 	#needMotion(): FurMotion | undefined {
 		const { body } = this.#looks;
-		if (body) this.#motion ??= new FurMotion(body, { renderer: this.#stage.renderer });
+		if (!this.#Motion) this.#asked ??= this.loadMotion();
+		else if (body) this.#motion ??= new this.#Motion(body, { renderer: this.#stage.renderer });
 		return this.#motion;
 	}
 
@@ -131,6 +149,7 @@ export class Dynamics {
 	/** Draws the next frame with a swing of zero: shaders of moving hairs are compiled before the first stroke. */
 	warmUp(): void {
 		const { body } = this.#looks;
+		if (!this.#Motion) this.#asked ??= this.loadMotion();
 		if (!body || this.#motion) return;
 		const { columns, rows } = body.follicles;
 		this.#warmUpSwing = new DataTexture(new Float32Array(4 * columns * rows), columns, rows, RGBAFormat, FloatType);

@@ -10,7 +10,7 @@ import {
 	type FurMethodOptions,
 	type FurMotion,
 	type FurWeather,
-	furMethod,
+	type furMethod,
 	updateFurs,
 } from '../../fur/index.ts';
 import { DEFAULT_LOOK } from '../../page/look.ts';
@@ -26,6 +26,8 @@ export interface Outfit {
 	/** Strength of its highlights; undefined: the usual. */
 	gloss: number | undefined;
 	method: FurMethodName;
+	/** Makes the light of a method of comparison; undefined: the fur's own light. */
+	light: typeof furMethod | undefined;
 }
 
 interface Look {
@@ -163,10 +165,10 @@ export class Looks {
 
 	/** Makes the looks of a body, without showing them. */
 	#setLooks(body: Fur, outfits: readonly Outfit[], view: View): void {
-		this.#looks = this.#fursOf(body, outfits).map(([fur, { gloss, method }]) => {
+		this.#looks = this.#fursOf(body, outfits).map(([fur, { gloss, method, light }]) => {
 			// Rivals copy the switches of the fur's own material: style that first.
 			style(fur, gloss, view);
-			return { fur, gloss, rival: method === 'ptm' ? undefined : furMethod(fur, method, this.#methodOptions) };
+			return { fur, gloss, rival: light?.(fur, method, this.#methodOptions) };
 		});
 	}
 

@@ -2,7 +2,7 @@
 
 import type { Fur, FurLimits, FurMethodName } from '../../fur/index.ts';
 import { notice } from '../say/notice.ts';
-import type { Method, View } from '../state/view.ts';
+import { isRival, type Method, type View } from '../state/view.ts';
 import { words } from '../words/index.ts';
 import { loadPelt, sourceAt } from './load.ts';
 import type { Outfit } from './looks.ts';
@@ -94,7 +94,7 @@ function outfitsOf(
 			const own = method !== 'eigen' && view.preset === undefined;
 			const pelt = own && !lent ? undefined : peltOf(view, entry, menu, method);
 			const { tips = 1, gloss } = (!own && pelt) || {};
-			return { pelt: pelt && (await load(pelt.name, limits)), tips, gloss, method: name };
+			return { pelt: pelt && (await load(pelt.name, limits)), tips, gloss, method: name, light: await lightOf(name) };
 		}),
 	);
 }
@@ -142,7 +142,13 @@ export async function fineOutfits(
 	// A model's own fur looks as it was baked.
 	const { tips = 1, gloss } = view.preset === undefined ? {} : pelt;
 	const fur = await load(pelt.name, limits);
-	return methods.map((method) => ({ pelt: fur, tips, gloss, method: method as FurMethodName }));
+	const named = methods.map(async (method) => ({ method: method as FurMethodName, light: await lightOf(method) }));
+	return (await Promise.all(named)).map((lit) => ({ pelt: fur, tips, gloss, ...lit }));
+}
+
+/** Loads the light of a method of comparison; undefined for the fur's own. */
+async function lightOf(method: Method): Promise<Outfit['light']> {
+	return isRival(method) ? (await import('./later.ts')).furMethod : undefined;
 }
 
 function load(name: string, limits: FurLimits): Promise<Fur> {

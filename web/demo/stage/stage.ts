@@ -22,7 +22,7 @@ import { daylightSky, KEY_COLOUR, KEY_POWER } from '../../page/daylight.ts';
 import { disposeAll } from '../../page/dispose.ts';
 import { ContactShadow, Ground, SLATE } from '../../page/ground.ts';
 import { setToneMapping } from '../../page/toneMapping.ts';
-import { Crowd } from './crowd.ts';
+import type { Crowd } from './crowd.ts';
 import type { Environment } from './environment.ts';
 import { footing } from './footing.ts';
 import { Lamps } from './lamps.ts';
@@ -125,20 +125,20 @@ export class Stage {
 	 * Shows that many bodies of the model, and fits light and camera to all of them.
 	 *
 	 * @param fur of the bodies; a model without fur stands alone
+	 * @param Made what shows crowds; one body without it
 	 */
-	setCrowd(count: number, fur: Fur | undefined): void {
+	setCrowd(count: number, fur: Fur | undefined, Made?: typeof Crowd): void {
 		const { model } = this;
 		if (!model) return;
 		if (fur) this.#smoothOutlines(model.object, fur);
-		const many = fur !== undefined && count > 1;
+		const many = fur && Made && count > 1;
 		if (!many || this.#crowd?.fur !== fur) this.#clearCrowd();
 		if (many && !this.#crowd) {
-			this.#crowd = new Crowd(model, fur);
+			this.#crowd = new Made(model, fur);
 			this.#crowd.pictureHeight = this.renderer.domElement.height;
 			this.scene.add(this.#crowd);
 		}
-		const crowd = this.#crowd;
-		if (crowd) crowd.count = count;
+		if (this.#crowd) this.#crowd.count = count;
 		model.object.visible = this.#shadow.visible = !many;
 		this.#fur = fur;
 		this.#frame(model);

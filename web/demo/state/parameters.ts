@@ -277,7 +277,8 @@ export const parameters: Table = {
 				range: [0, MAX_TIME],
 				step: 0.01,
 				most: ({ duration }) => duration,
-				get: ({ time }, shown) => time ?? shown.time,
+				// Later than the end is the end.
+				get: ({ time }, shown) => Math.min(time ?? shown.time, shown.duration),
 				set: (time) => ({ time }),
 			}),
 		],

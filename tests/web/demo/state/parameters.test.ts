@@ -8,7 +8,7 @@ import { FIRST_VIEW, type View } from '../../../../web/demo/state/view.ts';
 
 const shown: Shown = {
 	...{ model: 'bunny', env: 'none', shells: 24, colour: ['102030', 'a0b0c0'] },
-	...{ clip: 'Walk', time: 0.4, duration: 2 },
+	...{ clip: 'Walk', time: 0.4, duration: 3600 },
 };
 
 /** Values that a control can be set to. */
