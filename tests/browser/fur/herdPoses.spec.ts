@@ -37,7 +37,9 @@ test('bodies of a herd stand in poses of their own, in three draws a level', asy
 		MADE,
 		bodies,
 	] as const);
-	test.info().annotations.push({ type: 'dB', description: `${apart.psnr.toFixed(1)}, unposed ${unposed.psnr.toFixed(1)}` });
+	test
+		.info()
+		.annotations.push({ type: 'dB', description: `${apart.psnr.toFixed(1)}, unposed ${unposed.psnr.toFixed(1)}` });
 	expect(apart.psnr).toBeGreaterThan(50);
 	expect(unposed.psnr).toBeLessThan(apart.psnr - 15);
 	expect(draws).toBeLessThanOrEqual(2 * levels);

@@ -41,7 +41,10 @@ class Stage {
 	constructor(fur: Fur, reach: number) {
 		this.#lamp.position.set(-1, 1.2, 0.6).multiplyScalar(5 * reach);
 		fitFurShadow(this.#lamp, new Sphere(new Vector3(), reach), fur.asset.length);
-		const ground = new Mesh(new PlaneGeometry(20 * reach, 20 * reach).rotateX(-Math.PI / 2), new MeshStandardMaterial());
+		const ground = new Mesh(
+			new PlaneGeometry(20 * reach, 20 * reach).rotateX(-Math.PI / 2),
+			new MeshStandardMaterial(),
+		);
 		ground.position.y = -0.5 * reach;
 		ground.receiveShadow = true;
 		this.scene.add(this.#lamp, this.#lamp.target, new HemisphereLight(0xffffff, 0x808080, 2), ground);
@@ -119,7 +122,11 @@ export async function alone(url: string, share: number) {
 	const still = other.draw();
 	herd.dispose();
 	fur.dispose();
-	return { present: differences(plain, present), kept: differences(plain, kept), still: differences(kept, still).worst };
+	return {
+		present: differences(plain, present),
+		kept: differences(plain, kept),
+		still: differences(kept, still).worst,
+	};
 }
 
 const furDraws = (part: Object3D) => /^(fins of )?fur, up to/.test(part.name) && part.visible;

@@ -1,12 +1,4 @@
-import {
-	type Camera,
-	Frustum,
-	Matrix4,
-	Object3D,
-	type OrthographicCamera,
-	Sphere,
-	Vector4,
-} from 'three';
+import { type Camera, Frustum, Matrix4, Object3D, type OrthographicCamera, Sphere, Vector4 } from 'three';
 import type { Fur } from '../Fur.ts';
 import { cutFor, pixelsPerUnit, shellsFor } from '../shells/lod.ts';
 import { BodyHull, BodyLevel, BodyMaterial } from './BodyLevel.ts';

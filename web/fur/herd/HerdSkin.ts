@@ -1,4 +1,13 @@
-import { InstancedMesh, type Material, Matrix4, type Mesh, type Object3D, type Skeleton, type Sphere, type WebGLRenderer } from 'three';
+import {
+	InstancedMesh,
+	type Material,
+	Matrix4,
+	type Mesh,
+	type Object3D,
+	type Skeleton,
+	type Sphere,
+	type WebGLRenderer,
+} from 'three';
 import type { Jointed } from '../body/FurPose.ts';
 import { FurFins } from '../shells/FurFins.ts';
 import { FurShells } from '../shells/FurShells.ts';

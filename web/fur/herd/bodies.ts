@@ -21,12 +21,7 @@ export function findEye(camera: Camera, axes: Matrix4, eye: Eye): void {
  * @param spheres x, y, z, r of each body
  * @param powers takes the result
  */
-export function measurePowers(
-	spheres: Float32Array,
-	count: number,
-	eye: Readonly<Eye>,
-	powers: Float64Array,
-): void {
+export function measurePowers(spheres: Float32Array, count: number, eye: Readonly<Eye>, powers: Float64Array): void {
 	for (let i = 0; i < count; i++) {
 		const x = spheres[4 * i] as number;
 		const y = spheres[4 * i + 1] as number;

@@ -1,14 +1,25 @@
 /** Meshes that hang on joints (eyes, say), as skin that follows its joint: bodies in poses of their own share draws. */
 
-import { BufferAttribute, BufferGeometry, Float32BufferAttribute, Matrix3, Matrix4, Mesh, type Skeleton, Vector3 } from 'three';
+import {
+	BufferAttribute,
+	BufferGeometry,
+	Float32BufferAttribute,
+	Matrix3,
+	Matrix4,
+	Mesh,
+	type Object3D,
+	type Skeleton,
+	Vector3,
+} from 'three';
 import { placement } from './pieces.ts';
 
 /** Mesh that the joint above it moves, in the units of the skin; a mesh that hangs on no joint, as it is. */
 export function hung(mesh: Mesh, skeleton: Skeleton): Mesh {
+	const bones: readonly Object3D[] = skeleton.bones;
 	let above = mesh.parent;
-	while (above && !skeleton.bones.some((bone) => bone === above)) above = above.parent;
+	while (above && !bones.includes(above)) above = above.parent;
 	if (!above || mesh.geometry.hasAttribute('skinIndex')) return mesh;
-	const joint = skeleton.bones.findIndex((bone) => bone === above);
+	const joint = bones.indexOf(above);
 	const inverse = skeleton.boneInverses[joint] ?? new Matrix4();
 	const copy = new Mesh(jointed(mesh.geometry, joint, inverse.clone().invert().multiply(placement(mesh, above))));
 	copy.material = mesh.material;

@@ -52,7 +52,9 @@ function isPlain({ material, geometry, customDepthMaterial }: Mesh): boolean {
  */
 export function gatherPieces(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Piece[] {
 	const plain = meshes.filter(isPlain);
-	const groups = [true, false].map((moved) => plain.filter((mesh) => mesh.geometry.hasAttribute('skinIndex') === moved));
+	const groups = [true, false].map((moved) =>
+		plain.filter((mesh) => mesh.geometry.hasAttribute('skinIndex') === moved),
+	);
 	const shared = groups.filter((group) => group.length > 1);
 	const merged = shared.map((group) => merge(group, placement));
 	const alone = meshes.filter((mesh) => !shared.some((group) => group.includes(mesh)));
@@ -175,8 +177,7 @@ function joined(meshes: readonly Mesh[], name: string, total: number): BufferAtt
 	let at = 0;
 	for (const { geometry } of meshes) {
 		const attribute = geometry.getAttribute(name);
-		for (let i = 0; i < attribute.count; i++)
-			for (let c = 0; c < 4; c++) values[at++] = attribute.getComponent(i, c);
+		for (let i = 0; i < attribute.count; i++) for (let c = 0; c < 4; c++) values[at++] = attribute.getComponent(i, c);
 	}
 	return new BufferAttribute(values, 4);
 }

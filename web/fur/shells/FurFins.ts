@@ -28,11 +28,15 @@ const everywhere = new Sphere(new Vector3(), Number.POSITIVE_INFINITY);
  * their shells and share placement and sphere with them, to the bit.
  */
 export class FurFins extends Mesh<BufferGeometry, FurFinMaterial> implements Jointed {
-	/** Joints of the body, as on three's SkinnedMesh; those of the skin. */
+	/** True where joints move the body, as on three's SkinnedMesh. @internal */
 	declare isSkinnedMesh?: true;
+	/** Joints of the skin. @internal */
 	declare skeleton?: Skeleton;
+	/** The skin's. @internal */
 	declare bindMatrix?: Matrix4;
+	/** World → the mesh's own units. @internal */
 	declare bindMatrixInverse?: Matrix4;
+	/** For SkeletonUtils.clone. @internal */
 	declare bind?: Jointed['bind'];
 	/** Columns of the picture to draw; undefined: all. */
 	clip: FurColumns | undefined;
@@ -75,6 +79,7 @@ export class FurFins extends Mesh<BufferGeometry, FurFinMaterial> implements Joi
 		this.fit(shells);
 	}
 
+	/** Takes the body's pose, too. @internal */
 	override updateMatrixWorld(force?: boolean): void {
 		super.updateMatrixWorld(force);
 		this.#pose?.follow(this);

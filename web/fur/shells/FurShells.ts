@@ -38,11 +38,15 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> implem
 	automatic = true;
 	/** Spacing of automatic shells over what looks best: 2 draws half as many. */
 	coarseness = 1;
-	/** Joints of the body, as on three's SkinnedMesh; those of the skin. */
+	/** True where joints move the body, as on three's SkinnedMesh. @internal */
 	declare isSkinnedMesh?: true;
+	/** Joints of the skin. @internal */
 	declare skeleton?: Skeleton;
+	/** The skin's. @internal */
 	declare bindMatrix?: Matrix4;
+	/** World → the mesh's own units. @internal */
 	declare bindMatrixInverse?: Matrix4;
+	/** For SkeletonUtils.clone. @internal */
 	declare bind?: Jointed['bind'];
 	/** Columns of the picture to draw; undefined: all. */
 	clip: FurColumns | undefined;
@@ -108,6 +112,7 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> implem
 		(this.geometry.boundingSphere as Sphere).radius = this.#radius + this.#stretch * this.material.furLength;
 	}
 
+	/** Takes the body's pose, too. @internal */
 	override updateMatrixWorld(force?: boolean): void {
 		super.updateMatrixWorld(force);
 		this.#pose?.follow(this);
