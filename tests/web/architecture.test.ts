@@ -168,10 +168,13 @@ describe('the pages', () => {
 		for (const name of imports(path)) expect(others).not.toContain(name.split('/')[0]);
 	});
 
-	it.each(below('measure'))('%s measures for any page: it takes packages, its own room and the library', (path) => {
-		for (const name of imports(path))
-			expect(name).toMatch(/^(three(\/addons\/.*)?$|measure\/|fur\/(index|reference)\.ts$)/);
-	});
+	it.each(below('measure'))(
+		'%s measures for any page: it takes packages, its own room, what any page may have, and the library',
+		(path) => {
+			for (const name of imports(path))
+				expect(name).toMatch(/^(three(\/addons\/.*)?$|(measure|page)\/|fur\/(index|reference)\.ts$)/);
+		},
+	);
 
 	it.each(below('page'))('%s is what any page may have: it takes its own room and three', (path) => {
 		for (const name of imports(path)) expect(name).toMatch(/^(page\/|three(\/addons\/.*)?$)/);

@@ -26,7 +26,7 @@ const isJointed = ({ geometry }: Pick<Mesh, 'geometry'>): boolean => geometry.ha
 interface InstancedPiece {
 	piece: Piece;
 	mesh: InstancedMesh;
-	/** Of a piece that joints move. */
+	/** Material of a piece that joints move. */
 	posed: PosedMaterial | undefined;
 	places: Places;
 	/** Matrices of all bodies. */
