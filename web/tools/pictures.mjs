@@ -15,9 +15,9 @@ import { serve } from './site/vite.mjs';
 const BUNNY = 'model=bunny&planes=128&camera=-20,10,0.9';
 /** The fox running, looking about, and walking at sunset. */
 const FOX = [
-	'clip=Run&time=0.35&camera=78,6,0.6',
-	'clip=Survey&time=1.2&camera=28,12,0.55&light=-0.4,0.7,0.5',
-	'clip=Walk&time=0.3&camera=48,4,0.55&env=sunset',
+	'clip=Run&time=0.35&camera=62,8,0.8',
+	'clip=Survey&time=1.2&camera=28,12,0.64&light=-0.4,0.7,0.5',
+	'clip=Walk&time=0.3&camera=42,4,0.78&env=sunset',
 ];
 /** Light from the left, from above, from behind. */
 const LIGHTS = ['-0.9,0.45,0.2', '0.05,0.98,0.2', '0.75,0.45,-0.5'];
