@@ -92,7 +92,7 @@ export class BodyMotion {
 		this.#skin.fill(0);
 		this.#from.set(this.#to);
 		this.#placements.read(this.#to);
-		const moved = this.#placed && this.#to.some((value, i) => value !== this.#from[i]);
+		const moved = this.#placed && differ(this.#to, this.#from);
 		const changed = this.#morphs?.look(seconds) && this.#placed;
 		if (!this.#placed || (moved && !this.#measure(seconds))) this.#settle();
 		return moved || changed === true;
@@ -117,8 +117,9 @@ export class BodyMotion {
 		const unit = this.#scale(this.#to) * this.#furLength;
 		for (let i = 0; i < skin.length; i++)
 			skin[i] = ((this.#to[i] as number) - (this.#from[i] as number)) / (seconds * unit);
-		for (const [joint, sphere] of this.#joints.spheres.entries()) {
-			const speed = speedOf(skin, joint, sphere);
+		const { spheres } = this.#joints;
+		for (let joint = 0; joint < spheres.length; joint++) {
+			const speed = speedOf(skin, joint, spheres[joint] as Sphere);
 			// Jump: farther than the body's size, or turned by more than a quarter.
 			if (!(speed * seconds * this.#furLength < 2 * this.#sphere.radius)) return false;
 			const felt = 1 + speed / this.#fastest;
@@ -130,7 +131,9 @@ export class BodyMotion {
 	/** World units per unit of the mesh, mean of the joints. */
 	#scale(placements: Float64Array): number {
 		let scale = 0;
-		for (const [joint, share] of this.#joints.shares.entries()) scale += share * lengthOf(placements, 16 * joint);
+		const { shares } = this.#joints;
+		for (let joint = 0; joint < shares.length; joint++)
+			scale += (shares[joint] as number) * lengthOf(placements, 16 * joint);
 		return scale || 1;
 	}
 
@@ -147,8 +150,9 @@ export class BodyMotion {
 	/** Whether hairs have caught up; a negligible rest is dropped. */
 	caughtUp(): boolean {
 		for (let i = 0; i < this.#rest.length; i++) this.#rest[i] = (this.#skin[i] as number) - (this.#felt[i] as number);
-		for (const [joint, sphere] of this.#joints.spheres.entries())
-			if (speedOf(this.#rest, joint, sphere) > MIN_SPEED) return false;
+		const { spheres } = this.#joints;
+		for (let joint = 0; joint < spheres.length; joint++)
+			if (speedOf(this.#rest, joint, spheres[joint] as Sphere) > MIN_SPEED) return false;
 		if (this.#morphs && this.#morphs.rest > MIN_SPEED) return false;
 		this.#felt.set(this.#skin);
 		this.#morphs?.catchUp();
@@ -207,11 +211,12 @@ export class BodyMotion {
 		const { x, y, z } = this.#sphere.center;
 		const middle = this.#middle;
 		this.#centre.fill(0);
-		for (const [joint, share] of this.#joints.shares.entries())
+		const { shares } = this.#joints;
+		for (let joint = 0; joint < shares.length; joint++)
 			for (let row = 0, at = 16 * joint; row < 3; row++, at++)
 				this.#centre[row] =
 					(this.#centre[row] as number) +
-					share *
+					(shares[joint] as number) *
 						((middle[at] as number) * x +
 							(middle[at + 4] as number) * y +
 							(middle[at + 8] as number) * z +
@@ -230,6 +235,12 @@ export class BodyMotion {
 		}
 		return false;
 	}
+}
+
+/** Whether any number differs; without a closure, since it runs in every frame. */
+function differ(one: Float64Array, other: Float64Array): boolean {
+	for (let i = 0; i < one.length; i++) if (one[i] !== other[i]) return true;
+	return false;
 }
 
 /** Length of a column of a matrix. */

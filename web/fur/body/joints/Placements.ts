@@ -23,11 +23,16 @@ export class Placements {
 	read(to: Float64Array): void {
 		const { bones } = this.#joints;
 		const mesh = this.#mesh as SkinnedMesh;
+		if (!mesh.skeleton) {
+			mesh.updateWorldMatrix(true, false);
+			if (Math.abs(mesh.matrixWorld.determinant()) > 0) mesh.matrixWorld.toArray(to);
+			return;
+		}
 		this.#fresh.clear();
 		this.#refresh(mesh);
 		for (let joint = 0; joint < bones.length; joint++) {
 			const matrix = this.#matrix.copy(mesh.matrixWorld);
-			if (mesh.skeleton) this.#bone(mesh, bones[joint] as number, matrix);
+			this.#bone(mesh, bones[joint] as number, matrix);
 			if (Math.abs(matrix.determinant()) > 0) matrix.toArray(to, 16 * joint);
 		}
 	}
