@@ -22,7 +22,7 @@ const own = ({ callFrame, selfSize, children }: Allocations): number =>
 	(/\/(demo|fur|page)\/(\w+\/)*\w+\.ts/.test(callFrame.url) ? selfSize : 0) +
 	children.reduce((sum, child) => sum + own(child), 0);
 
-/** Frames as the page draws them keep nothing, and throw nothing away. @param most bytes of fractions thrown away per frame */
+/** Frames as the page draws them keep nothing, and throw nothing away. @param most bytes thrown away per frame */
 async function expectNoBytes(page: Page, most = 1000): Promise<void> {
 	const devtools = await page.context().newCDPSession(page);
 	await devtools.send('HeapProfiler.enable');
