@@ -64,7 +64,13 @@ export class CpuSprings implements Solver, SpringStates {
 		const { offsets } = this.#strokes;
 		const { xx, xv, vx: vFromX, vv, fastest } = this.#spring;
 		const lanes = this.#strokes.widest > 0;
-		let [sagX, sagY, sagZ, blowX, blowY, blowZ] = [0, 0, 0, 0, 0, 0];
+		// Fractions from the start: numbers that begin as integers become an object at each follicle.
+		let sagX = sag[0] as number;
+		let sagY = sag[1] as number;
+		let sagZ = sag[2] as number;
+		let blowX = blow[0] as number;
+		let blowY = blow[1] as number;
+		let blowZ = blow[2] as number;
 		for (let i = 0, at = 0, s = 0, run = 0; i < count; i++, at += 3, s += STATE) {
 			if (i === joints.first[run]) {
 				this.#blend.set(drive, run++);
