@@ -107,15 +107,14 @@ export class FurInstances extends Object3D {
 		const { shells, fins, skin } = fur;
 		const root = skin.parent ?? skin;
 		const { skeleton } = shells;
-		this.#poses = skeleton && new HerdPoses(skeleton.bones.length);
-		const joints = skeleton && this.#poses && { skeleton, poses: this.#poses };
+		this.#poses = skeleton && new HerdPoses(skeleton);
 		this.#firstJoints = new Uint32Array(capacity);
 		this.#furMatrix = placement(shells, root);
 		this.#texel = fur.asset.length / (fur.asset.height * fur.asset.size);
 		this.fewestShells = fur.asset.layers / 2;
 		this.#fit();
 
-		this.#skin = new HerdSkin(root, capacity, this.#bounds, joints, (renderer) => {
+		this.#skin = new HerdSkin(root, capacity, this.#bounds, this.#poses, (renderer) => {
 			this.height = renderer.getCurrentViewport(viewport).w;
 		});
 		this.#finMaterial = fins && new BodyMaterial(fins.material);
@@ -204,12 +203,11 @@ export class FurInstances extends Object3D {
 	}
 
 	#capture(pose: number): void {
-		const { shells, skin, material } = this.#fur;
-		const { skeleton } = shells;
-		if (!(skeleton || 'MORPHS' in material.defines) || !(pose >= 0 && pose < MAX_POSES)) return;
+		const { skin, material } = this.#fur;
+		if (!(this.#poses || 'MORPHS' in material.defines) || !(pose >= 0 && pose < MAX_POSES)) return;
 		this.#fur.bounds(sphere);
 		matrix.copy((skin.parent ?? skin).matrixWorld).invert();
-		if (!skeleton || this.#poses?.capture(pose, skeleton, matrix, sphere)) this.#refit();
+		if (!this.#poses || this.#poses.capture(pose, matrix, sphere)) this.#refit();
 	}
 
 	/** Puts a body into one of the poses kept by `capturePose`; at first all are in pose 0. */

@@ -11,15 +11,16 @@ const matrix = new Matrix4();
  * other.
  */
 export class HerdPoses extends Skeleton {
-	/** Joints of a pose. */
-	readonly joints: number;
+	/** Joints of the body itself. */
+	readonly own: Skeleton;
 	/** Sphere around the body in all poses so far, fur included, the body's axes. */
 	readonly sphere = new Sphere().makeEmpty();
 
-	/** @param joints of the body */
-	constructor(joints: number) {
+	/** @param own joints of the body itself */
+	constructor(own: Skeleton) {
 		super([], []);
-		this.joints = joints;
+		this.own = own;
+		const joints = own.bones.length;
 		const side = 4 * Math.ceil(Math.sqrt(4 * joints * MAX_POSES) / 4);
 		this.boneMatrices = new Float32Array(4 * side * side);
 		this.boneTexture = new DataTexture(this.boneMatrices, side, side, RGBAFormat, FloatType);
@@ -29,23 +30,22 @@ export class HerdPoses extends Skeleton {
 
 	/** Number of the first joint of a pose. */
 	first(pose: number): number {
-		return pose * this.joints;
+		return pose * this.own.bones.length;
 	}
 
 	/**
-	 * Copies a pose.
+	 * Copies the body's present pose, as the world matrices of its bones say it.
 	 *
 	 * @param pose number to keep it under
-	 * @param skeleton whose bones have their present world matrices
 	 * @param body world → the body's axes
 	 * @param sphere around body and fur in this pose, world
 	 * @returns whether the sphere around all poses has grown
 	 */
-	capture(pose: number, skeleton: Skeleton, body: Matrix4, sphere: Sphere): boolean {
-		const { boneMatrices, boneTexture, joints } = this;
-		for (let i = 0; i < joints; i++) {
-			const [bone, inverse] = [skeleton.bones[i], skeleton.boneInverses[i]];
-			if (!bone || !inverse) continue;
+	capture(pose: number, body: Matrix4, sphere: Sphere): boolean {
+		const { boneMatrices, boneTexture } = this;
+		for (const [i, bone] of this.own.bones.entries()) {
+			const inverse = this.own.boneInverses[i];
+			if (!inverse) continue;
 			matrix.multiplyMatrices(body, bone.matrixWorld).multiply(inverse);
 			matrix.toArray(boneMatrices as Float32Array, 16 * (this.first(pose) + i));
 		}

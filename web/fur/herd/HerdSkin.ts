@@ -4,7 +4,6 @@ import {
 	Matrix4,
 	type Mesh,
 	type Object3D,
-	type Skeleton,
 	type Sphere,
 	type WebGLRenderer,
 } from 'three';
@@ -36,30 +35,33 @@ interface InstancedPiece {
 /** Opaque meshes of all bodies of a herd: the skin, and what stands beside it (eyes, say). */
 export class HerdSkin {
 	readonly #pieces: readonly InstancedPiece[];
+	/** Meshes that hang on joints, as skin. */
+	readonly #copies: readonly Mesh[];
 
 	/**
 	 * @param root of one body
 	 * @param capacity largest number of bodies
 	 * @param bounds of all bodies
-	 * @param skeleton of the body, if it has joints; and its poses
+	 * @param poses of a body that has joints
 	 * @param drawn called before each draw
 	 */
 	constructor(
 		root: Object3D,
 		capacity: number,
 		bounds: Sphere,
-		joints: { skeleton: Skeleton; poses: HerdPoses } | undefined,
+		poses: HerdPoses | undefined,
 		drawn: (renderer: WebGLRenderer) => void,
 	) {
 		const meshes: Mesh[] = [];
 		root.traverse((part) => {
 			if ((part as Mesh).isMesh && !(part instanceof FurShells || part instanceof FurFins)) meshes.push(part as Mesh);
 		});
-		const hanging = joints ? meshes.map((mesh) => hung(mesh, joints.skeleton)) : meshes;
-		const axes = (mesh: Mesh) => (joints && isJointed(mesh) ? new Matrix4() : placement(mesh, root));
+		const hanging = poses ? meshes.map((mesh) => hung(mesh, poses.own)) : meshes;
+		this.#copies = hanging.filter((mesh) => !meshes.includes(mesh));
+		const axes = (mesh: Mesh) => (poses && isJointed(mesh) ? new Matrix4() : placement(mesh, root));
 		this.#pieces = gatherPieces(hanging, axes).map((piece) => {
 			const { geometry, material, mesh: own } = piece;
-			const posed = joints && isJointed(piece) ? new PosedMaterial(material as Material) : undefined;
+			const posed = poses && isJointed(piece) ? new PosedMaterial(material as Material) : undefined;
 			const mesh = new InstancedMesh(geometry, posed?.material ?? material, 0);
 			const places = new Places(capacity);
 			mesh.instanceMatrix = places;
@@ -71,7 +73,7 @@ export class HerdSkin {
 			mesh.onBeforeRender = drawn;
 			if (own.morphTargetInfluences) mesh.morphTargetInfluences = own.morphTargetInfluences;
 			if (posed) {
-				joints?.poses.carry(mesh as Jointed);
+				poses?.carry(mesh as Jointed);
 				mesh.customDepthMaterial = posed.depth;
 			}
 			return { piece, mesh, posed, places, matrices: new Float32Array(capacity * 16) };
@@ -107,6 +109,7 @@ export class HerdSkin {
 	}
 
 	dispose(): void {
+		for (const { geometry } of this.#copies) geometry.dispose();
 		for (const { mesh, posed, piece } of this.#pieces) {
 			mesh.removeFromParent();
 			mesh.dispose();
