@@ -11,10 +11,11 @@ export const repository = fileURLToPath(new URL('../..', import.meta.url));
 export const served = (path: string) =>
 	path.startsWith('public/') ? path.slice('public'.length) : `/@fs${repository}${path}`;
 
+/** An empty page with a module of `inPage/`, whose exports are the global `loaded`. */
+export const openInPage = (page: Page, name: string) => openModule(page, site, `/inPage/${name}.js`);
+
 /** A page with nothing on it but the library. */
-export async function openStage(page: Page): Promise<void> {
-	await openModule(page, site, served('tests/browser/inPage/stage.ts'));
-}
+export const openStage = (page: Page) => openInPage(page, 'stage');
 
 export async function readAsset(folder: string): Promise<{ fur: FurAsset; images: { uri: string }[] }> {
 	const gltf = JSON.parse(await readFile(`${repository}${folder}/model.gltf`, 'utf8'));

@@ -1,8 +1,9 @@
-import { mkdtempSync, readFileSync, rmSync, statSync } from 'node:fs';
+import { mkdtempSync, readdirSync, readFileSync, rmSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { extname, join } from 'node:path';
+import { basename, extname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { build, type Plugin } from 'vite';
+import { shaderPlugin } from '../../web/tools/site/plugins.mjs';
 import { serve as serveSite } from '../../web/tools/site/vite.mjs';
 
 const TYPES: Record<string, string> = {
@@ -13,6 +14,27 @@ const TYPES: Record<string, string> = {
 	'.woff2': 'font/woff2',
 };
 
+/** Builds the modules that run inside a page, each with its exports: a hundred sources take longer to load than to run. */
+async function buildModules(dist: string): Promise<void> {
+	const folder = fileURLToPath(new URL('inPage', import.meta.url));
+	const files = readdirSync(folder).filter((name) => name.endsWith('.ts'));
+	await build({
+		configFile: false,
+		root: folder,
+		logLevel: 'error',
+		plugins: [shaderPlugin()],
+		build: {
+			outDir: join(dist, 'inPage'),
+			minify: false,
+			rolldownOptions: {
+				input: Object.fromEntries(files.map((name) => [basename(name, '.ts'), join(folder, name)])),
+				preserveEntrySignatures: 'strict',
+				output: { entryFileNames: '[name].js' },
+			},
+		},
+	});
+}
+
 /** The built pages and what belongs to them, in front of everything else; `sources.html` is the demo from its sources. */
 const builtPages = (dist: string): Plugin => ({
 	name: 'furbake-built-pages',
@@ -22,7 +44,7 @@ const builtPages = (dist: string): Plugin => ({
 			if (pathname === '/sources.html') request.url = `/index.html${search}`;
 			const path = pathname === '/' ? '/index.html' : pathname;
 			const file = join(dist, decodeURIComponent(path));
-			const built = /^\/(assets\/.+|[\w-]+\.html)$/.test(path);
+			const built = /^\/((assets|inPage)\/.+|[\w-]+\.html)$/.test(path);
 			if (!built || !statSync(file, { throwIfNoEntry: false })?.isFile()) return next();
 			response.setHeader('Content-Type', TYPES[extname(file)] ?? 'application/octet-stream');
 			response.end(readFileSync(file));
@@ -44,6 +66,7 @@ export default async function serve(): Promise<() => Promise<void>> {
 		// Models are served as they are.
 		build: { outDir: dist, copyPublicDir: false },
 	});
+	await buildModules(dist);
 	const { url, close } = await serveSite([builtPages(dist)]);
 	process.env.FURBAKE_URL = url;
 	return async () => {

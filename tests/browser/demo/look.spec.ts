@@ -1,10 +1,9 @@
 /** The demo's highlights and light from behind, beside what is baked: little more light in front, a rim that glows. */
 
 import type { BodyJob } from '../../../web/measure/bodyJob.ts';
-import { openModule } from '../../../web/tools/browser.mjs';
-import { expect, site, test } from '../harness.ts';
+import { expect, test } from '../harness.ts';
 import type { Parts } from '../inPage/look.ts';
-import { served } from '../library.ts';
+import { openInPage } from '../library.ts';
 
 declare const loaded: typeof import('../inPage/look.ts');
 
@@ -30,7 +29,7 @@ const JOB: BodyJob = {
 test('with the demo’s highlights and light from behind, the level stays, the rim glows and the face is dark', async ({
 	page,
 }) => {
-	await openModule(page, site, served('tests/browser/inPage/look.ts'));
+	await openInPage(page, 'look');
 	const cells = await page.evaluate(([url, job]) => loaded.parts(url, job), ['/models/bunny/model.gltf', JOB] as const);
 	const [front, behind] = cells as [{ none: Parts; usual: Parts }, { none: Parts; usual: Parts }];
 	test.info().annotations.push({ type: 'light', description: JSON.stringify(cells) });

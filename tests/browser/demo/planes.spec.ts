@@ -1,10 +1,9 @@
 /** Finer planes after the first fur, and outlines without stair steps. */
 
 import type { Page } from '@playwright/test';
-import { openModule } from '../../../web/tools/browser.mjs';
 import { expect, open, site, state, test, type Watch } from '../harness.ts';
 import { drawNothing, shrinkPicture } from '../inPage/gpu.ts';
-import { served } from '../library.ts';
+import { openInPage, served } from '../library.ts';
 
 declare const loaded: typeof import('../inPage/fade.ts');
 
@@ -13,7 +12,7 @@ const mark = (page: Page, name: string) =>
 	page.evaluate((called) => performance.getEntriesByName(called)[0]?.startTime, `furbake:${name}`);
 
 test('furs go over into one another step by step, compiled before they are seen', async ({ page }) => {
-	await openModule(page, site, served('tests/browser/inPage/fade.ts'));
+	await openInPage(page, 'fade');
 	const model = (name: string) => served(`public/models/${name}/model.gltf`);
 	const { whole, first, last, worst, programs, textures, parts, left, error } = await page.evaluate(
 		(urls) => loaded.fade(...urls, 6),
@@ -31,7 +30,7 @@ test('furs go over into one another step by step, compiled before they are seen'
 });
 
 test('outlines are nearer to those of many samples, of what is marked over any pattern', async ({ page }) => {
-	await openModule(page, site, served('tests/browser/inPage/fade.ts'));
+	await openInPage(page, 'fade');
 	for (const marked of [false, true]) {
 		const { plain, smooth, opaque } = await page.evaluate((on) => loaded.outline(on), marked);
 		expect(smooth / plain, marked ? 'marked' : 'by its shade').toBeLessThan(0.8);

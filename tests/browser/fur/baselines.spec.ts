@@ -2,16 +2,15 @@
 
 import type { Page } from '@playwright/test';
 import type { FurMethodName } from '../../../web/fur/index.ts';
-import { openModule } from '../../../web/tools/browser.mjs';
-import { expect, site, test } from '../harness.ts';
+import { expect, test } from '../harness.ts';
 import type { RivalStage } from '../inPage/rivals.ts';
-import { served } from '../library.ts';
+import { openInPage, served } from '../library.ts';
 
 declare const rivals: RivalStage;
 
 const METHODS = ['ptm', 'unlit', 'lengyel', 'shadow-layers'] as const satisfies FurMethodName[];
 
-const openRivals = (page: Page) => openModule(page, site, served('tests/browser/inPage/rivals.ts'));
+const openRivals = (page: Page) => openInPage(page, 'rivals');
 const directed = served('public/models/torus-512/model.gltf');
 const undirected = served('public/models/sphere/model.gltf');
 

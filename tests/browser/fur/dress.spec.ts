@@ -1,14 +1,13 @@
 /** Furs of one body: in another's pelt, side by side, denser and longer. */
 
-import { openModule } from '../../../web/tools/browser.mjs';
-import { expect, site, test } from '../harness.ts';
-import { served } from '../library.ts';
+import { expect, test } from '../harness.ts';
+import { openInPage, served } from '../library.ts';
 
 declare const loaded: typeof import('../inPage/dress.ts');
 
 const model = (name: string) => served(`public/models/${name}/model.gltf`);
 
-test.beforeEach(({ page }) => openModule(page, site, served('tests/browser/inPage/dress.ts')));
+test.beforeEach(({ page }) => openInPage(page, 'dress'));
 
 test('a body in the pelt that it was baked with looks as it does undressed, in another one otherwise', async ({
 	page,

@@ -1,9 +1,8 @@
 /** A herd of a character: many bodies in a few draws, each in a pose of its own. */
 
-import { openModule } from '../../../web/tools/browser.mjs';
 import { character } from '../character.ts';
-import { expect, site, test } from '../harness.ts';
-import { repository, served } from '../library.ts';
+import { expect, test } from '../harness.ts';
+import { openInPage, repository, served } from '../library.ts';
 
 declare const loaded: typeof import('../inPage/herdPoses.ts');
 
@@ -16,7 +15,7 @@ test.beforeEach(async ({ page }) => {
 		const name = new URL(route.request().url()).pathname.split('/').at(-1) ?? '';
 		return name === 'model.gltf' ? route.fulfill({ json }) : route.fulfill({ path: `${repository}${FOLDER}/${name}` });
 	});
-	await openModule(page, site, served('tests/browser/inPage/herdPoses.ts'));
+	await openInPage(page, 'herdPoses');
 });
 
 test('a herd of one character is the character, in its present pose and in a kept one', async ({ page }) => {

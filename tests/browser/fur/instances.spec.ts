@@ -1,17 +1,16 @@
 /** Many bodies of one asset on the GPU: what they look like, and what they cost. */
 
 import type { Page } from '@playwright/test';
-import { openModule } from '../../../web/tools/browser.mjs';
-import { expect, site, test } from '../harness.ts';
+import { expect, test } from '../harness.ts';
 import type { Drawn, Place, Wanted } from '../inPage/herd.ts';
-import { floats, served } from '../library.ts';
+import { floats, openInPage, served } from '../library.ts';
 
 declare const loaded: typeof import('../inPage/herd.ts');
 
 const bunny = served('public/models/bunny/model.gltf');
 const sphere = served('public/models/sphere/model.gltf');
 
-test.beforeEach(({ page }) => openModule(page, site, served('tests/browser/inPage/herd.ts')));
+test.beforeEach(({ page }) => openInPage(page, 'herd'));
 
 function draw(page: Page, url: string, wanted: Wanted): Promise<Drawn> {
 	return page.evaluate(([u, w]) => loaded.draw(u, w), [url, wanted] as const);

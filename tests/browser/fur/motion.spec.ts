@@ -1,12 +1,11 @@
 /** Fur that moves on the GPU moves as on the CPU, and leaves the renderer as it was. */
 
-import { openModule } from '../../../web/tools/browser.mjs';
-import { expect, site, test } from '../harness.ts';
-import { served } from '../library.ts';
+import { expect, test } from '../harness.ts';
+import { openInPage, served } from '../library.ts';
 
 declare const loaded: typeof import('../inPage/motion.ts');
 
-test.beforeEach(({ page }) => openModule(page, site, served('tests/browser/inPage/motion.ts')));
+test.beforeEach(({ page }) => openInPage(page, 'motion'));
 
 for (const [name, jointed] of [
 	['torus-512', false],

@@ -1,9 +1,8 @@
 /** Characters: fur on bodies that are moved by joints and morph targets. */
 
-import { openModule } from '../../../web/tools/browser.mjs';
 import { character, type Made } from '../character.ts';
-import { expect, site, test } from '../harness.ts';
-import { floats, served } from '../library.ts';
+import { expect, test } from '../harness.ts';
+import { floats, openInPage, served } from '../library.ts';
 import { PosedGltf } from '../posed.ts';
 
 declare const loaded: typeof import('../inPage/pose.ts');
@@ -11,7 +10,7 @@ declare const loaded: typeof import('../inPage/pose.ts');
 const torus = served('public/models/torus-512/model.gltf');
 const bunny = served('public/models/bunny/model.gltf');
 
-test.beforeEach(({ page }) => openModule(page, site, served('tests/browser/inPage/pose.ts')));
+test.beforeEach(({ page }) => openInPage(page, 'pose'));
 
 /** Largest distance between places that should be the same, and from the middle of `bounds`. */
 function compare(got: Float32Array, wanted: (vertex: number) => ArrayLike<number>, bounds: { center: number[] }) {

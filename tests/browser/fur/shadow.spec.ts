@@ -3,10 +3,9 @@
 import { readFile } from 'node:fs/promises';
 import type { Page } from '@playwright/test';
 import type { BodyJob } from '../../../web/measure/bodyJob.ts';
-import { openModule } from '../../../web/tools/browser.mjs';
-import { expect, site, test } from '../harness.ts';
+import { expect, test } from '../harness.ts';
 import type { Box } from '../inPage/neck.ts';
-import { repository, served } from '../library.ts';
+import { openInPage, repository, served } from '../library.ts';
 
 declare const loaded: typeof import('../inPage/shade.ts') & typeof import('../inPage/neck.ts');
 
@@ -31,7 +30,7 @@ for (const spot of [false, true]) {
 	test(`a lone ball is as bright with a shadow map as without, in the shadow of another it is dark; spot: ${spot}`, async ({
 		page,
 	}) => {
-		await openModule(page, site, served('tests/browser/inPage/shade.ts'));
+		await openInPage(page, 'shade');
 		await curved(page);
 		const eyes = await page.evaluate(([u, s]) => loaded.terminator(u, s), [served(MODEL), spot] as const);
 		const brightest = Math.max(...eyes.flatMap(({ plain }) => plain.filter((value) => !Number.isNaN(value))));
@@ -98,7 +97,7 @@ const jobOf = (lamp: BodyJob['cells'][0]['lamp']): BodyJob => ({
 
 for (const [i, { lamp, boxes, traced }] of necks.entries()) {
 	test(`the head's shadow on the neck is as dark as it is traced, ${i}`, async ({ page }) => {
-		await openModule(page, site, served('tests/browser/inPage/neck.ts'));
+		await openInPage(page, 'neck');
 		const [mapped, bare] = await page.evaluate(
 			([url, job, where]) => loaded.means(url, job, where, [{ method: 'ptm' }, { method: 'ptm-bare' }]),
 			[served(BUNNY), jobOf(lamp), boxes] as const,
@@ -116,7 +115,7 @@ for (const [i, { lamp, boxes, traced }] of necks.entries()) {
 }
 
 test('one lamp of three casts a shadow on its own light alone', async ({ page }) => {
-	await openModule(page, site, served('tests/browser/inPage/neck.ts'));
+	await openInPage(page, 'neck');
 	const { lamp, boxes } = necks[1] as (typeof necks)[0];
 	const others: BodyJob['cells'][0]['lamp'][] = [
 		[0.6, 0.3, 0.74],

@@ -1,13 +1,12 @@
 /** Hairs that swing: the same ones in shells, fins, shadows, rivals and herds; and no trace of it when they hang still. */
 
-import { openModule } from '../../../web/tools/browser.mjs';
-import { expect, site, test } from '../harness.ts';
-import { served } from '../library.ts';
+import { expect, test } from '../harness.ts';
+import { openInPage, served } from '../library.ts';
 
 declare const loaded: typeof import('../inPage/swing.ts');
 
 test('fur that swings is as if it were combed there, and as before when it has come to rest', async ({ page }) => {
-	await openModule(page, site, served('tests/browser/inPage/swing.ts'));
+	await openInPage(page, 'swing');
 	const swung = await page.evaluate((url) => loaded.swings(url), served('public/models/torus-512/model.gltf'));
 	test.info().annotations.push({ type: 'swing', description: JSON.stringify(swung) });
 	expect(swung.error).toBe(0);

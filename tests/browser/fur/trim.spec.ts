@@ -1,14 +1,13 @@
 /** Fur that is cut: shorter outlines, as much fur below the cut as there was, and light that gets to its roots. */
 
-import { openModule } from '../../../web/tools/browser.mjs';
-import { expect, site, test } from '../harness.ts';
-import { served } from '../library.ts';
+import { expect, test } from '../harness.ts';
+import { openInPage, served } from '../library.ts';
 
 declare const loaded: typeof import('../inPage/trim.ts');
 
 const LENGTHS = [1, 0.6, 0.2];
 
-test.beforeEach(({ page }) => openModule(page, site, served('tests/browser/inPage/trim.ts')));
+test.beforeEach(({ page }) => openInPage(page, 'trim'));
 
 test('shorter fur has a smaller outline, fewer shells and lower fins, and is the baked one again at its full length', async ({
 	page,

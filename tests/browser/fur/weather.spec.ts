@@ -1,16 +1,15 @@
 /** Wet and dirty fur: states on the GPU, mixed as numpy mixes them, loaded when they are wanted. */
 
 import { readFile } from 'node:fs/promises';
-import { openModule } from '../../../web/tools/browser.mjs';
-import { expect, site, test } from '../harness.ts';
-import { floats, readFloats, repository, served } from '../library.ts';
+import { expect, test } from '../harness.ts';
+import { floats, openInPage, readFloats, repository, served } from '../library.ts';
 
 declare const loaded: typeof import('../inPage/weather.ts');
 
 const STATES = 'tests/golden/states';
 const url = served(`${STATES}/model.gltf`);
 
-test.beforeEach(({ page }) => openModule(page, site, served('tests/browser/inPage/weather.ts')));
+test.beforeEach(({ page }) => openInPage(page, 'weather'));
 
 test("wet, dry and muddy fur is as bright as numpy's mix of the states' bytes", async ({ page }) => {
 	const { lights, weathers } = JSON.parse(await readFile(`${repository}${STATES}/weather.json`, 'utf8'));
