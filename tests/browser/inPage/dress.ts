@@ -2,53 +2,27 @@
 
 import {
 	Color,
-	DirectionalLight,
 	FloatType,
-	HemisphereLight,
 	Mesh,
 	type MeshStandardMaterial,
 	type Object3D,
-	PerspectiveCamera,
-	Scene,
 	WebGLRenderer,
 	WebGLRenderTarget,
 } from 'three';
 import { dressFur, type Fur, FurInstances, furMethod } from '../../../web/fur/index.ts';
 import { loadFur, renderFloats } from '../../../web/measure/studio.ts';
+import { psnr, Stand } from './Stand.ts';
 
 const SIZE = 120;
 const renderer = new WebGLRenderer({ antialias: false });
 const gl = renderer.getContext() as WebGL2RenderingContext;
 
-/** A furry body alone, lit from the left and by the sky. */
-class Scenery {
-	readonly scene = new Scene();
-	readonly lamp = new DirectionalLight(0xffffff, 6);
-	readonly camera = new PerspectiveCamera(20, 1, 0.1, 100);
-	readonly #target = new WebGLRenderTarget(SIZE, SIZE, { type: FloatType });
-
-	constructor(readonly body: Fur) {
-		this.lamp.position.set(-1, 0.6, 0.6);
-		this.scene.add(this.lamp, this.lamp.target, new HemisphereLight(0xffffff, 0x808080, 2));
-		this.scene.add(body.skin.parent ?? body.skin);
-		this.camera.position.set(0, 1, 8);
-		this.camera.lookAt(0, 0, 0);
-		body.shells.shellCount = 8;
-	}
-
-	draw(): Float32Array {
-		return renderFloats(renderer, this.scene, this.camera, this.#target);
-	}
-
-	dispose(): void {
-		this.#target.dispose();
-	}
-}
-
-/** Peak signal to noise, decibels, of premultiplied pixels in 0..1. */
-function psnr(a: Float32Array, b: Float32Array): number {
-	const sum = a.reduce((total, value, i) => total + (value - (b[i] ?? Number.NaN)) ** 2, 0);
-	return -10 * Math.log10(sum / a.length);
+/** A furry body alone. */
+function standOf(body: Fur): Stand {
+	const stand = new Stand(renderer, SIZE);
+	stand.scene.add(body.skin.parent ?? body.skin);
+	body.shells.shellCount = 8;
+	return stand;
 }
 
 /** Largest difference in some columns of the picture, [first, last). */
@@ -71,40 +45,40 @@ const outline = (pixels: Float32Array) => pixels.filter((value, i) => i % 4 === 
 export async function wardrobe(body: string, same: string, other: string) {
 	const [own, twin, pelt] = await Promise.all([body, same, other].map((url) => loadFur(url)));
 	if (!own || !twin || !pelt) throw new Error('nothing to wear');
-	const stage = new Scenery(own);
-	const first = stage.draw();
+	const stand = standOf(own);
+	const first = stand.draw();
 	own.visible = false;
-	const bare = stage.draw();
+	const bare = stand.draw();
 	const alike = dressFur(own, twin);
 	alike.shells.shellCount = 8;
-	const again = stage.draw();
+	const again = stand.draw();
 	const bunny = { tiles: alike.asset.tiles, length: alike.asset.length, expected: own.asset };
 	alike.visible = false;
 	const fox = dressFur(own, pelt, { tips: 0.5 });
 	fox.shells.shellCount = 8;
-	const foxy = stage.draw();
+	const foxy = stand.draw();
 	const lengyel = furMethod(fox, 'lengyel');
 	lengyel.apply();
-	const local = stage.draw();
+	const local = stand.draw();
 	lengyel.dispose();
 	const herd = new FurInstances(fox, 1, [8]);
 	herd.height = SIZE;
 	own.skin.parent?.removeFromParent();
-	stage.scene.add(herd);
-	const one = stage.draw();
+	stand.scene.add(herd);
+	const one = stand.draw();
 	herd.dispose();
-	stage.scene.add(own.skin.parent ?? own.skin);
+	stand.scene.add(own.skin.parent ?? own.skin);
 	fox.visible = false;
 	own.visible = true;
-	const last = stage.draw();
+	const last = stand.draw();
 	const textures = renderer.info.memory.textures;
 	fox.dispose();
 	alike.dispose();
 	// Of its own a dressed body has tables of light alone: mean curves, the slabs of shells and of fins, and lamps at its vertices.
 	const tables = 2 * (3 + 3);
-	const kept = renderer.info.memory.textures === textures - tables && apart(stage.draw(), first) === 0;
+	const kept = renderer.info.memory.textures === textures - tables && apart(stand.draw(), first) === 0;
 	for (const fur of [pelt, own, twin]) fur.dispose();
-	stage.dispose();
+	stand.dispose();
 	return {
 		alike: psnr(again, first),
 		bunny,
@@ -129,13 +103,13 @@ export async function split(url: string, at: number) {
 	};
 	const white = await loadFur(url, { skin });
 	const roots = (white.skin as Mesh<never, MeshStandardMaterial>).material.color.r / white.asset.ramp.root[0];
-	const stage = new Scenery(white);
+	const stand = standOf(white);
 	const dark = dressFur(white, white);
 	dark.shells.shellCount = 8;
 	for (const name of ['root', 'tip', 'tip2'] as const) white.material[name] = new Color(1, 1, 1);
 	const shown = (...furs: Fur[]) => {
 		for (const fur of [white, dark]) fur.visible = furs.includes(fur);
-		return stage.draw();
+		return stand.draw();
 	};
 	const [left, right, bare] = [shown(white), shown(dark), shown()];
 	white.clip = { from: 0, to: at };
@@ -145,7 +119,7 @@ export async function split(url: string, at: number) {
 	const half = new WebGLRenderTarget(SIZE, SIZE, { type: FloatType });
 	half.scissor.set(0, 0, SIZE, SIZE / 2);
 	half.scissorTest = true;
-	const part = renderFloats(renderer, stage.scene, stage.camera, half);
+	const part = renderFloats(renderer, stand.scene, stand.camera, half);
 	const rows = (pixels: Float32Array, first: number, last: number) =>
 		pixels.subarray(first * SIZE * 4, last * SIZE * 4);
 	white.clip = dark.clip = undefined;
@@ -164,7 +138,7 @@ export async function split(url: string, at: number) {
 	white.dispose();
 	dark.dispose();
 	half.dispose();
-	stage.dispose();
+	stand.dispose();
 	const { geometries, textures } = renderer.info.memory;
 	return { left: { geometries, textures }, early, roots, differences, error: gl.getError() };
 }
@@ -172,12 +146,12 @@ export async function split(url: string, at: number) {
 /** How much of the picture fur covers, by density and by length, and by methods that were made before and after. */
 export async function cover(url: string) {
 	const fur = await loadFur(url);
-	const stage = new Scenery(fur);
+	const stand = standOf(fur);
 	fur.skin.visible = false;
 	const { material } = fur;
 	const dense = (density: number) => {
 		material.density = density;
-		return stage.draw();
+		return stand.draw();
 	};
 	const densities = [0.4, 1, 2].map((density) => covered(dense(density)));
 	const light = [1, 2].map((density) => {
@@ -189,17 +163,17 @@ export async function cover(url: string) {
 	const after = furMethod(fur, 'lengyel');
 	const methods = [before, after].map((method) => {
 		method.apply();
-		return stage.draw();
+		return stand.draw();
 	});
 	material.density = 1;
-	const thin = stage.draw();
+	const thin = stand.draw();
 	const maps = furMethod(fur, 'shadow-layers', { renderer });
 	maps.apply();
 	fur.update(0);
-	const shaded = stage.draw();
+	const shaded = stand.draw();
 	fur.shells.material.density = 2;
 	const drawn = fur.update(0);
-	const shadedMore = stage.draw();
+	const shadedMore = stand.draw();
 	for (const method of [before, after, maps]) method.dispose();
 	const densityByRival = material.density;
 	material.density = 1;
@@ -207,7 +181,7 @@ export async function cover(url: string) {
 	fur.shells.automatic = true;
 	const lengths = [0.5, 1, 1.5].map((length) => {
 		fur.length = length * fur.asset.length;
-		const pixels = stage.draw();
+		const pixels = stand.draw();
 		return {
 			outline: outline(pixels),
 			shells: fur.shells.shellCount,
@@ -221,26 +195,26 @@ export async function cover(url: string) {
 	const herd = new FurInstances(fur, 1, [8]);
 	herd.height = SIZE;
 	root.removeFromParent();
-	stage.scene.add(herd);
+	stand.scene.add(herd);
 	const herds = [1, 0.5].map((length) => {
 		fur.length = length * fur.asset.length;
-		return outline(stage.draw());
+		return outline(stand.draw());
 	});
 	// What is left of cut fur is its densest part.
 	fur.length = fur.asset.length;
-	const whole = stage.draw();
+	const whole = stand.draw();
 	fur.clip = { from: 0, to: 0.5 };
-	const half = stage.draw();
+	const half = stand.draw();
 	fur.clip = undefined;
 	material.density = 3;
 	const crowd = {
-		denser: covered(stage.draw()) / covered(whole),
+		denser: covered(stand.draw()) / covered(whole),
 		left: apart(half, whole, 0, SIZE / 2),
 		right: apart(half, whole, SIZE / 2),
 	};
 	herd.dispose();
 	fur.dispose();
-	stage.dispose();
+	stand.dispose();
 	return {
 		crowd,
 		densities,

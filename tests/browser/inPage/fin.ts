@@ -11,7 +11,8 @@ import {
 	WebGLRenderTarget,
 } from 'three';
 import { loadFur, renderFloats } from '../../../web/measure/studio.ts';
-import { channel, renderer, toBase64, uncovered } from './flat.ts';
+import { channel, renderer, uncovered } from './flat.ts';
+import { toBase64 } from './Stand.ts';
 
 export const finStage = {
 	/**

@@ -16,12 +16,6 @@ import { renderFloats } from '../../../web/measure/studio.ts';
 
 export const renderer = new WebGLRenderer({ antialias: false });
 
-export function toBase64(bytes: Uint8Array): string {
-	let text = '';
-	for (let i = 0; i < bytes.length; i += 0x8000) text += String.fromCharCode(...bytes.subarray(i, i + 0x8000));
-	return btoa(text);
-}
-
 /** Bytes of level 0 of a texture array as the GPU holds them, layer after layer. */
 export function readArray(texture: Texture, size: number, layers: number): Uint8Array {
 	renderer.initTexture(texture);

@@ -19,6 +19,7 @@ import {
 } from 'three';
 import { type Fur, FurInstances, fitFurShadow } from '../../../web/fur/index.ts';
 import { loadFur, renderFloats } from '../../../web/measure/studio.ts';
+import { toBase64 } from './Stand.ts';
 
 const renderer = new WebGLRenderer({ antialias: false });
 renderer.info.autoReset = false;
@@ -42,13 +43,6 @@ const buffers = () => calls('createBuffer') - calls('deleteBuffer');
 /** Draws no pixel from now on: for what is counted. */
 export function blind(): void {
 	for (const how of ['drawArrays', 'drawElements', 'drawElementsInstanced'] as const) gl[how] = () => {};
-}
-
-function toBase64(pixels: Float32Array): string {
-	const bytes = new Uint8Array(pixels.buffer);
-	let text = '';
-	for (let i = 0; i < bytes.length; i += 0x8000) text += String.fromCharCode(...bytes.subarray(i, i + 0x8000));
-	return btoa(text);
 }
 
 /** Where a body stands: x, y, z, turn about y in radians, size. */
@@ -144,7 +138,7 @@ class Herd {
 	draw(): Drawn {
 		const before = calls('bufferData', 'bufferSubData');
 		renderer.info.reset();
-		const picture = toBase64(renderFloats(renderer, this.scene, this.camera, this.target));
+		const picture = toBase64(new Uint8Array(renderFloats(renderer, this.scene, this.camera, this.target).buffer));
 		const { calls: draws, triangles } = renderer.info.render;
 		const levels = this.bodies.flatMap(({ children }) => children.flatMap(levelOf));
 		const uploads = calls('bufferData', 'bufferSubData') - before;
@@ -232,7 +226,8 @@ export async function memory(url: string, wanted: Wanted) {
 	const counts: { buffers: number; geometries: number; planes: number }[] = [];
 	const pictures: string[] = [];
 	const look = (herd: Herd) => {
-		pictures.push(toBase64(renderFloats(renderer, plain, herd.camera, herd.target)));
+		const pixels = renderFloats(renderer, plain, herd.camera, herd.target);
+		pictures.push(toBase64(new Uint8Array(pixels.buffer)));
 		const { geometries } = renderer.info.memory;
 		counts.push({ buffers: buffers(), geometries, planes: calls('texSubImage3D') });
 	};

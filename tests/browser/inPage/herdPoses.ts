@@ -2,60 +2,46 @@
 
 import {
 	AnimationMixer,
-	DirectionalLight,
-	FloatType,
 	type Group,
-	HemisphereLight,
 	Matrix4,
 	Mesh,
 	MeshStandardMaterial,
 	type Object3D,
-	PerspectiveCamera,
-	PlaneGeometry,
-	Scene,
 	Sphere,
 	SphereGeometry,
 	Vector3,
 	WebGLRenderer,
-	WebGLRenderTarget,
 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { type Fur, FurInstances, FurLoaderPlugin, fitFurShadow } from '../../../web/fur/index.ts';
-import { renderFloats } from '../../../web/measure/studio.ts';
+import { psnr, Stand } from './Stand.ts';
 
 const SIZE = 240;
 const renderer = new WebGLRenderer({ antialias: false });
 renderer.info.autoReset = false;
 renderer.shadowMap.enabled = true;
-const target = new WebGLRenderTarget(SIZE, SIZE, { type: FloatType });
 
 /** Share of the clip, and place along x. */
 export type Body = [share: number, x: number];
 
-class Stage {
-	readonly scene = new Scene();
-	readonly camera = new PerspectiveCamera(30, 1, 0.05, 200);
-	readonly #lamp = new DirectionalLight(0xffffff, 6);
-
+/** Bodies on a ground under a lamp that casts shadows. */
+class Stage extends Stand {
 	/** @param reach radius of all bodies, world units */
 	constructor(fur: Fur, reach: number) {
-		this.#lamp.position.set(-1, 1.2, 0.6).multiplyScalar(5 * reach);
-		fitFurShadow(this.#lamp, new Sphere(new Vector3(), reach), fur.asset.length);
-		const ground = new Mesh(
-			new PlaneGeometry(20 * reach, 20 * reach).rotateX(-Math.PI / 2),
-			new MeshStandardMaterial(),
-		);
-		ground.position.y = -0.5 * reach;
-		ground.receiveShadow = true;
-		this.scene.add(this.#lamp, this.#lamp.target, new HemisphereLight(0xffffff, 0x808080, 2), ground);
+		super(renderer, SIZE);
+		this.lamp.position.set(-1, 1.2, 0.6).multiplyScalar(5 * reach);
+		fitFurShadow(this.lamp, new Sphere(new Vector3(), reach), fur.asset.length);
+		this.addGround(-0.5 * reach, 20 * reach);
+		this.camera.fov = 30;
+		this.camera.updateProjectionMatrix();
 		this.camera.position.set(0.4 * reach, 0.8 * reach, 4.4 * reach);
 		this.camera.lookAt(0, 0, 0);
 		this.camera.updateMatrixWorld();
 	}
 
-	draw(): Float32Array {
+	override draw(): Float32Array {
 		renderer.info.reset();
-		return renderFloats(renderer, this.scene, this.camera, target);
+		return super.draw();
 	}
 }
 
@@ -95,8 +81,7 @@ class Character {
 
 function differences(one: Float32Array, other: Float32Array): { psnr: number; worst: number } {
 	const off = one.map((value, i) => Math.abs(value - (other[i] as number)));
-	const sum = off.reduce((total, value) => total + value * value, 0);
-	return { psnr: -10 * Math.log10(sum / off.length), worst: off.sort().at(-1 - 4 * 12) as number };
+	return { psnr: psnr(one, other), worst: off.sort().at(-1 - 4 * 12) as number };
 }
 
 /** A character in a pose by itself, beside a herd of one: by the present pose, and by a kept one. */

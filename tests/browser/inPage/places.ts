@@ -16,7 +16,7 @@ import {
 } from 'three';
 import type { Jointed } from '../../../web/fur/body/FurPose.ts';
 import { renderFloats } from '../../../web/measure/studio.ts';
-import { toBase64 } from './flat.ts';
+import { toBase64 } from './Stand.ts';
 
 /** World places to which the shader of shells or fins itself moves their vertices, by hairs without a length. */
 export function placesOf(

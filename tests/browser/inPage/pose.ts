@@ -2,14 +2,10 @@
 
 import {
 	AnimationMixer,
-	DirectionalLight,
 	FloatType,
-	HemisphereLight,
 	type Mesh,
 	type Object3D,
-	PerspectiveCamera,
 	Quaternion,
-	Scene,
 	ShaderMaterial,
 	Sphere,
 	UniformsLib,
@@ -23,6 +19,7 @@ import { clone } from 'three/addons/utils/SkeletonUtils.js';
 import { Fur, FurLoaderPlugin } from '../../../web/fur/index.ts';
 import { renderFloats } from '../../../web/measure/studio.ts';
 import { placesOf } from './places.ts';
+import { psnr, Stand } from './Stand.ts';
 
 const SIZE = 160;
 const renderer = new WebGLRenderer({ antialias: false });
@@ -30,26 +27,22 @@ renderer.shadowMap.enabled = true;
 const gl = renderer.getContext() as WebGL2RenderingContext;
 
 /** A character in a scene of its own. */
-class Stand {
-	readonly scene = new Scene();
+class Character extends Stand {
 	readonly mixer: AnimationMixer;
 	readonly fur: Fur;
-	readonly lamp = new DirectionalLight(0xffffff, 6);
-	readonly camera = new PerspectiveCamera(20, 1, 0.1, 100);
-	readonly #target = new WebGLRenderTarget(SIZE, SIZE, { type: FloatType });
 
 	constructor(readonly gltf: GLTF) {
+		super(renderer, SIZE);
 		this.fur = gltf.userData.fur;
 		this.mixer = new AnimationMixer(gltf.scene);
-		this.lamp.position.set(-1, 0.6, 0.6);
-		this.scene.add(this.lamp, this.lamp.target, new HemisphereLight(0xffffff, 0x808080, 2), gltf.scene);
+		this.scene.add(gltf.scene);
 		this.look(this.fur.bounds(new Sphere()));
 		this.fur.shells.shellCount = 8;
 	}
 
-	static async load(url: string): Promise<Stand> {
+	static async load(url: string): Promise<Character> {
 		const loader = new GLTFLoader().register((parser) => new FurLoaderPlugin(parser));
-		return new Stand(await loader.loadAsync(url));
+		return new Character(await loader.loadAsync(url));
 	}
 
 	look({ center, radius }: Sphere): void {
@@ -72,20 +65,15 @@ class Stand {
 		this.mixer.setTime(seconds);
 	}
 
-	draw(): Float32Array {
-		return renderFloats(renderer, this.scene, this.camera, this.#target);
-	}
-
-	dispose(): void {
+	override dispose(): void {
 		this.fur.dispose();
-		this.lamp.dispose();
-		this.#target.dispose();
+		super.dispose();
 	}
 }
 
 /** Where the GPU has the vertices of shells and fins at moments of clips, and the bounds of body and fur there. */
 export async function vertices(url: string, moments: [clip: string | undefined, seconds: number][]) {
-	const stand = await Stand.load(url);
+	const stand = await Character.load(url);
 	const { fur } = stand;
 	const answers = moments.map(([clip, seconds]) => {
 		stand.pose(clip, seconds);
@@ -111,7 +99,7 @@ export async function vertices(url: string, moments: [clip: string | undefined, 
  * @param size of the pictures, pixels
  */
 export async function cracks(url: string, moments: [clip: string | undefined, seconds: number][], size: number) {
-	const stand = await Stand.load(url);
+	const stand = await Character.load(url);
 	const { fur, scene, camera } = stand;
 	const { shells, fins, skin } = fur;
 	const target = new WebGLRenderTarget(size, size, { type: FloatType });
@@ -155,12 +143,6 @@ export async function cracks(url: string, moments: [clip: string | undefined, se
 	return { counts, error: gl.getError() };
 }
 
-/** Peak signal to noise, decibels, of premultiplied pixels in 0..1. */
-function psnr(a: Float32Array, b: Float32Array): number {
-	const sum = a.reduce((total, value, i) => total + (value - (b[i] ?? Number.NaN)) ** 2, 0);
-	return -10 * Math.log10(sum / a.length);
-}
-
 /** Turns an object about the world's origin. */
 function turn(object: Object3D, angle: number): void {
 	const by = new Quaternion().setFromAxisAngle(new Vector3(0.5, 1, 0.3).normalize(), angle);
@@ -170,7 +152,7 @@ function turn(object: Object3D, angle: number): void {
 
 /** A still body, turned, and the same as a character, turned by its first joint; in decibels. */
 export async function turned(still: string, moving: string, shadows: boolean) {
-	const [node, joint] = [await Stand.load(still), await Stand.load(moving)];
+	const [node, joint] = [await Character.load(still), await Character.load(moving)];
 	const pictures: Float32Array[] = [];
 	for (const stand of [node, joint]) {
 		stand.lamp.castShadow = shadows;
@@ -200,7 +182,7 @@ export async function turned(still: string, moving: string, shadows: boolean) {
 /** A character and its copy: what moves with whom, and what is left of both. */
 export async function twins(url: string) {
 	const { geometries, textures } = renderer.info.memory;
-	const stand = await Stand.load(url);
+	const stand = await Character.load(url);
 	const alone = stand.draw();
 	const twin = clone(stand.gltf.scene);
 	const fur = Fur.of(twin);

@@ -1,16 +1,6 @@
 /** Runs inside the page: fur in the light of its rivals. Its answers go to `baselines.spec.ts`. */
 
-import {
-	AmbientLight,
-	Color,
-	DirectionalLight,
-	FloatType,
-	type IUniform,
-	PerspectiveCamera,
-	Scene,
-	WebGLRenderer,
-	WebGLRenderTarget,
-} from 'three';
+import { AmbientLight, Color, type IUniform, WebGLRenderer } from 'three';
 import {
 	type Fur,
 	type FurMethod,
@@ -18,7 +8,8 @@ import {
 	type FurMethodOptions,
 	furMethod,
 } from '../../../web/fur/index.ts';
-import { loadFur, renderFloats } from '../../../web/measure/studio.ts';
+import { loadFur } from '../../../web/measure/studio.ts';
+import { Stand } from './Stand.ts';
 
 const SIZE = 120;
 const SHELLS = 16;
@@ -43,16 +34,13 @@ for (const kind of ['Texture', 'Buffer', 'Framebuffer', 'Renderbuffer', 'VertexA
 }
 
 /** A model of one colour, from root to tip, without its skin in the picture and with a lamp from the left. */
-class Rivals {
-	readonly scene = new Scene();
-	readonly lamp = new DirectionalLight(0xffffff, 6);
-	readonly camera = new PerspectiveCamera(20, 1, 0.1, 100);
-	readonly #target = new WebGLRenderTarget(SIZE, SIZE, { type: FloatType });
-
+class Rivals extends Stand {
 	constructor(readonly fur: Fur) {
+		super(renderer, SIZE);
 		const { shells, fins, skin } = fur;
 		this.lamp.position.set(-1, 0.3, 0.2);
-		this.scene.add(skin.parent ?? skin, this.lamp);
+		this.sky.removeFromParent();
+		this.scene.add(skin.parent ?? skin);
 		this.camera.position.set(0, 3, 9);
 		this.camera.lookAt(0, 0, 0);
 		if (fins) fins.visible = false;
@@ -64,10 +52,6 @@ class Rivals {
 		});
 	}
 
-	draw(): Float32Array {
-		return renderFloats(renderer, this.scene, this.camera, this.#target);
-	}
-
 	/** @returns what the method shows */
 	shoot(method: FurMethod): Float32Array {
 		method.apply();
@@ -75,9 +59,9 @@ class Rivals {
 		return this.draw();
 	}
 
-	dispose(): void {
+	override dispose(): void {
 		this.fur.dispose();
-		this.#target.dispose();
+		super.dispose();
 	}
 }
 

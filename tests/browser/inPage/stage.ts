@@ -8,7 +8,8 @@ import { measureFins } from '../../../web/measure/fins.ts';
 import { loadFur, Studio } from '../../../web/measure/studio.ts';
 import { oracle, underDome } from './dome.ts';
 import { finStage } from './fin.ts';
-import { channel, Flat, readArray, renderer, toBase64, uncovered } from './flat.ts';
+import { channel, Flat, readArray, renderer, uncovered } from './flat.ts';
+import { toBase64 } from './Stand.ts';
 
 /** How a layer is lit. */
 interface Look {

@@ -1,23 +1,9 @@
 /** Runs inside the page: fur that swings beside fur that is combed as far. Its answers go to `swing.spec.ts`. */
 
-import {
-	BufferAttribute,
-	DataTexture,
-	DirectionalLight,
-	FloatType,
-	HemisphereLight,
-	Mesh,
-	MeshStandardMaterial,
-	PerspectiveCamera,
-	PlaneGeometry,
-	Scene,
-	Sphere,
-	Vector3,
-	WebGLRenderer,
-	WebGLRenderTarget,
-} from 'three';
+import { BufferAttribute, DataTexture, FloatType, type Mesh, Sphere, Vector3, WebGLRenderer } from 'three';
 import { dressFur, type Fur, FurInstances, fitFurShadow, furMethod } from '../../../web/fur/index.ts';
-import { loadFur, renderFloats } from '../../../web/measure/studio.ts';
+import { loadFur } from '../../../web/measure/studio.ts';
+import { psnr, Stand } from './Stand.ts';
 
 const SIZE = 120;
 /** Where all hairs lean, before their normals are taken out of it. */
@@ -34,27 +20,16 @@ gl.linkProgram = (program) => {
 };
 
 /** A furry body on a ground under a lamp that casts shadows. */
-class Scenery {
-	readonly scene = new Scene();
-	readonly lamp = new DirectionalLight(0xffffff, 6);
-	readonly camera = new PerspectiveCamera(20, 1, 0.1, 100);
-	readonly #target = new WebGLRenderTarget(SIZE, SIZE, { type: FloatType });
-
+class Scenery extends Stand {
 	constructor(readonly fur: Fur) {
-		const ground = new Mesh(new PlaneGeometry(20, 20).rotateX(-Math.PI / 2), new MeshStandardMaterial());
-		ground.position.y = -0.6;
-		ground.receiveShadow = true;
+		super(renderer, SIZE);
+		this.addGround(-0.6);
 		this.lamp.position.set(-6, 3, 3);
 		fitFurShadow(this.lamp, new Sphere(new Vector3(), 2), fur.asset.length);
-		this.scene.add(this.lamp, this.lamp.target, new HemisphereLight(0xffffff, 0x808080, 2), ground);
 		this.scene.add(fur.skin.parent ?? fur.skin);
 		this.camera.position.set(0, 3, 7);
 		this.camera.lookAt(0, -0.2, 0);
 		fur.shells.shellCount = 8;
-	}
-
-	draw(): Float32Array {
-		return renderFloats(renderer, this.scene, this.camera, this.#target);
 	}
 
 	/** Shells and fins, either alone, their shadow without them, and two rivals. */
@@ -128,12 +103,6 @@ function comb({ shells, fins }: Fur, texels: Float32Array): () => void {
 			if (!before[p]?._comb) geometry.deleteAttribute('_comb');
 		}
 	};
-}
-
-/** Peak signal to noise, decibels, of premultiplied pixels in 0..1. */
-function psnr(a: Float32Array, b: Float32Array): number {
-	const sum = a.reduce((total, value, i) => total + (value - (b[i] ?? Number.NaN)) ** 2, 0);
-	return -10 * Math.log10(Math.max(sum / a.length, 1e-12));
 }
 
 const bits = (pixels: Float32Array) => new Uint32Array(pixels.buffer);

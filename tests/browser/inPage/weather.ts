@@ -11,7 +11,8 @@ import {
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { dressFur, type Fur, FurInstances, FurLoaderPlugin, FurWeather, furMethod } from '../../../web/fur/index.ts';
 import { loadFur, Studio } from '../../../web/measure/studio.ts';
-import { Flat, renderer, toBase64 } from './flat.ts';
+import { Flat, renderer } from './flat.ts';
+import { toBase64 } from './Stand.ts';
 
 interface Weather {
 	wetness: number;
