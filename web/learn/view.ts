@@ -21,7 +21,7 @@ import type { Lesson } from './lesson.ts';
 import type { Picture } from './painter.ts';
 
 /** Vertical field of view, degrees. */
-const FIELD_OF_VIEW = 24;
+export const FIELD_OF_VIEW = 24;
 /** Size of the window over the lamp's sphere, for the lamp's halo. */
 const ROOM = 1.06;
 
@@ -37,6 +37,8 @@ export interface WindowOptions {
 	eye?: Readonly<{ azimuth: number; elevation: number }>;
 	/** Zoom over the view of the lamp's whole sphere. */
 	zoom?: number;
+	/** Distance of the eye in place of the zoom, radii. */
+	distance?: number;
 	/** Middle of the picture; the lamp's centre by default. */
 	target?: Vector3;
 	/** Whether the lamp is shown and can be dragged. */
@@ -139,11 +141,11 @@ export class View {
 	#aim(
 		camera: PerspectiveCamera,
 		aspect: number,
-		{ eye, azimuth = eye?.azimuth ?? 0, elevation = eye?.elevation ?? 20, zoom = 1, target }: WindowOptions,
+		{ eye, azimuth = eye?.azimuth ?? 0, elevation = eye?.elevation ?? 20, zoom = 1, distance, target }: WindowOptions,
 	): void {
 		camera.aspect = aspect;
 		const half = Math.tan(MathUtils.degToRad(FIELD_OF_VIEW / 2)) * Math.min(1, aspect);
-		const away = (this.radius * lampDistance * ROOM) / (zoom * Math.sin(Math.atan(half)));
+		const away = this.radius * (distance ?? (lampDistance * ROOM) / (zoom * Math.sin(Math.atan(half))));
 		this.#toCamera.setFromSphericalCoords(away, MathUtils.degToRad(90 - elevation), MathUtils.degToRad(azimuth));
 		camera.position.copy(target ?? this.centre).add(this.#toCamera);
 		camera.near = Math.max(away - 2.5 * this.radius, 0.02 * away);

@@ -1,13 +1,14 @@
 /**
  * `npm run pictures`: regenerates the project's pictures: `public/og.jpg` for shared links, `still.jpg`, the bunny under
  * three lights, and `demo.jpg` and `learn.jpg`, the pages themselves. `npm run pictures -- --fox models/my-fox` makes
- * `fox.jpg` of README's fox, baked there.
+ * `fox.jpg` of README's fox, baked there; `npm run pictures -- --truth` traces the lesson's ring (minutes; `mitsuba`).
  */
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { browserArgs, ensureBrowser } from './browser.mjs';
-import { ensureNode } from './environment.mjs';
+import { ensureNode, ensurePython, python } from './environment.mjs';
 import { readOptions } from './measure/measure.mjs';
-import { command, root, say } from './process.mjs';
+import { command, Failure, root, run, say } from './process.mjs';
 import { serve } from './site/vite.mjs';
 
 /** @import { Browser, Page } from '@playwright/test' */
@@ -134,9 +135,24 @@ async function photograph(page, name, quality = 84) {
 	say(`public/${name}`);
 }
 
+/** Path-traced pictures of the lesson's rivals. */
+async function truth() {
+	await ensurePython();
+	const folder = join(root, 'web', 'learn', 'rivals');
+	const file = join(folder, 'view.json');
+	const { model } = JSON.parse(readFileSync(file, 'utf8'));
+	const baked = join(root, 'public', 'models', model);
+	const code = await run(python, ['-m', 'furbake.study.verify.lesson', file, baked, folder]);
+	if (code !== 0) throw new Failure('the pictures were not traced: the reason stands above');
+}
+
 await command(async () => {
-	const { fox } = readOptions({ fox: { type: 'string' } });
+	const { fox, truth: traced } = readOptions({ fox: { type: 'string' }, truth: { type: 'boolean' } });
 	await ensureNode();
+	if (traced) {
+		await truth();
+		return;
+	}
 	const { chromium } = await import('@playwright/test');
 	const server = await serve();
 	const browser = await chromium.launch({ executablePath: await ensureBrowser(), args: browserArgs });

@@ -6,23 +6,15 @@ import { ARTICLE, type Table1Row } from '../../measure/bench/results.ts';
 import { action, controlRow, note, pane, panes } from '../controls.ts';
 import { ARTICLE_FORM, loadFurry, reach } from '../data/assets.ts';
 import type { Lesson, Mount } from '../lesson.ts';
+import { LAMP_NAMES, lampOf, truthPane } from '../rivals/truth.ts';
+import ring from '../rivals/view.json';
 import { View, type ViewOptions } from '../view.ts';
 
-const MODEL = 'torus-4608';
 const SHELLS = 16;
-/** Azimuth and elevation of the eye, degrees. */
-const EYE = { azimuth: 20, elevation: 38 };
-/** Lamps under which the methods differ, world axes; the ring's eye is at its front, a little to the right. */
-const LAMPS: Record<keyof Lesson['words']['rivals']['lamps'], [x: number, y: number, z: number]> = {
-	above: [0, 1, 0],
-	side: [-0.94, 0.2, 0.34],
-	behind: [-0.34, 0.2, -0.94],
-	eye: [0.27, 0.62, 0.74],
-};
 const METHODS = ['unlit', 'lengyel', 'shadow-layers', 'ptm'] as const satisfies FurMethodName[];
 
 export const mount: Mount = async (place, lesson) => {
-	const [furry, article] = await Promise.all([loadFurry(MODEL, lesson), loadFurry(ARTICLE_FORM, lesson)]);
+	const [furry, article] = await Promise.all([loadFurry(ring.model, lesson), loadFurry(ARTICLE_FORM, lesson)]);
 	pictures(place, lesson, furry.fur, dressFur(furry.fur, article.fur), reach(furry)).add(furry.object);
 	table(place, lesson);
 };
@@ -47,15 +39,14 @@ function pictures(
 		...METHODS.map((name) => ({ name, of: fur, method: furMethod(fur, name, { renderer }) })),
 		{ name: 'article' as const, of: article, method: furMethod(article, 'ptm') },
 	];
-	const row = panes(place, rivals.length);
+	const row = panes(place, (rivals.length + 1) / 2);
 	let view: View | undefined;
 	for (const { name, of, method } of rivals) {
 		const { element, caption } = pane(row);
 		const options: ViewOptions = {
 			label: words.picture(words.methods[name].name),
 			aspect: 1,
-			...EYE,
-			zoom: 1.08,
+			...ring.eye,
 			...around,
 			before() {
 				for (const each of [fur, article]) each.shells.visible = each === of;
@@ -69,14 +60,14 @@ function pictures(
 		strong.textContent = words.methods[name].name;
 		caption.append(strong, ` ${words.methods[name].costs}`);
 	}
+	truthPane(row, lesson);
 	const made = view as View;
 	// Less ambient light than elsewhere, to show shadows.
-	made.sky.intensity *= 0.5;
+	made.sky.intensity *= ring.sky;
 	made.cast(fur.asset.length);
 	const lamps = controlRow(place);
 	lamps.append(words.lamp);
-	for (const name of ['above', 'side', 'behind', 'eye'] as const)
-		action(lamps, words.lamps[name], () => lesson.light.set(...LAMPS[name]));
+	for (const name of LAMP_NAMES) action(lamps, words.lamps[name], () => lesson.light.set(...lampOf(name).toArray()));
 	return made;
 }
 

@@ -95,6 +95,12 @@ export const en = {
 			behind: 'low, behind the ring',
 			eye: 'beside the eye',
 		},
+		truth: {
+			name: 'Path-traced',
+			picture: (lamp: string) => `The ring’s very hairs, path-traced under a lamp ${lamp}.`,
+			costs: 'The truth: every hair by itself, 256 light paths per pixel, minutes per picture.',
+			elsewhere: 'The truth, for the four lamps below alone: choose one.',
+		},
 		table: 'Table 1: frames per second, by triangles of the body; 16 shells, light moving',
 		article: 'The article, 2009',
 		here: 'This machine, now',

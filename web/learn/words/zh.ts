@@ -70,6 +70,12 @@ export const zh: Words = {
 		},
 		lamp: '灯',
 		lamps: { above: '从上方', side: '从侧面低处', behind: '从圆环后方低处', eye: '在眼睛旁边' },
+		truth: {
+			name: '路径追踪',
+			picture: (lamp) => `灯${lamp}时，对圆环的每根毛作路径追踪的结果。`,
+			costs: '真值：逐根毛计算，每像素 256 条光路，一幅图要几分钟。',
+			elsewhere: '真值只有下面四种灯位，请任选一种。',
+		},
 		table: '表 1：不同三角形数下的帧率（帧/秒），16 层壳层，光源移动',
 		article: '论文（2009）',
 		here: '本机实测',

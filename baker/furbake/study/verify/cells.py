@@ -63,7 +63,7 @@ class Frame:
     """Framing of the pictures.
 
     centre : (3,) all eyes look at it; radius : of the skin around it, model units
-    distance : of the eyes from it; width, height : pixels
+    distance : of the eyes from it; width, height : pixels; field : from the lower to the upper edge, degrees
     """
 
     centre: Floats
@@ -71,6 +71,7 @@ class Frame:
     distance: float
     width: int
     height: int
+    field: float = FIELD_OF_VIEW
 
 
 def axes(azimuth: float, elevation: float) -> Floats:

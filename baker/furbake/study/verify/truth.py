@@ -14,12 +14,15 @@ from furbake.groom.ground import Ints
 from furbake.groom.strands import Groom, Single
 from furbake.pelt.hairs.ramp import RGB
 from furbake.pelt.hairs.strands import Strands
-from furbake.study.verify.cells import FIELD_OF_VIEW, Cell, Floats, Frame
+from furbake.study.verify.cells import Cell, Floats, Frame
 from furbake.study.verify.paint import write_painted
 from furbake.study.verify.pathtrace import DEPTH, control_points, load
 
 ROULETTE = 6
 """Vertices after which a path may end by chance (Russian roulette)."""
+
+HORIZON = 64
+"""Rows of the sky's picture above the horizon, and below it."""
 
 LANES = 4_000_000
 """Paths that are traced at once: LLVM keeps the state of all of them in memory."""
@@ -31,6 +34,7 @@ class Scene:
 
     vertices, faces : of the skin; albedo, skin : shares of the light that hairs and skin scatter back
     colours : (S, P, 3) linear, of the hairs' points, and `ground`, the skin's, in place of these; None: all is grey
+    sky : radiance from above (y) and from below, in place of the lamp
     """
 
     groom: Groom
@@ -40,13 +44,14 @@ class Scene:
     skin: float
     colours: Single | None = None
     ground: RGB = (0.0, 0.0, 0.0)
+    sky: tuple[RGB, RGB] | None = None
 
 
 @dataclass(frozen=True)
 class Traced:
     """A picture from the tracer, row 0 on top, (height, width) each; light in colours (height, width, 3).
 
-    light : in the unit of L, 4π·radiance/(albedo·irradiance), in colours 4π·radiance/irradiance
+    light : in the unit of L, 4π·radiance/(albedo·irradiance), in colours 4π·radiance/irradiance; of the sky, radiance
     cover : share of the pixel that hides what is behind
     halves : the light of either half of the paths, for its noise
     """
@@ -80,12 +85,13 @@ def trace(
             world = mitsuba.load_dict(
                 {
                     "type": "scene",
-                    "integrator": {"type": "path", "max_depth": depth, "rr_depth": ROULETTE},
-                    "lamp": {
-                        "type": "directional",
-                        "direction": [float(-x) for x in cell.to_lamp],
-                        "irradiance": _grey(unit),
+                    "integrator": {
+                        "type": "path",
+                        "max_depth": depth,
+                        "rr_depth": ROULETTE,
+                        "hide_emitters": True,
                     },
+                    "lamp": _lamp(cell, unit) if scene.sky is None else _sky(mitsuba, scene.sky),
                     "eye": _eye(mitsuba, seen, cell, coloured),
                     **body,
                 }
@@ -139,12 +145,23 @@ def _write_ply(path: Path, vertices: Floats, faces: Ints) -> None:
     path.write_bytes(header.encode() + vertices.astype("<f4").tobytes() + rows.tobytes())
 
 
+def _lamp(cell: Cell, irradiance: float) -> dict[str, Any]:
+    direction = [float(-x) for x in cell.to_lamp]
+    return {"type": "directional", "direction": direction, "irradiance": _grey(irradiance)}
+
+
+def _sky(mitsuba: Any, sides: tuple[RGB, RGB]) -> dict[str, Any]:
+    """One radiance from above the horizon, another one from below it."""
+    texels = np.repeat(np.array(sides, np.float32), HORIZON, axis=0)[:, None].repeat(4 * HORIZON, axis=1)
+    return {"type": "envmap", "bitmap": mitsuba.Bitmap(np.ascontiguousarray(texels))}
+
+
 def _eye(mitsuba: Any, seen: Frame, cell: Cell, coloured: bool) -> dict[str, Any]:
     to = mitsuba.ScalarTransform4f
     place = {"origin": cell.eye.tolist(), "target": seen.centre.tolist(), "up": [0, 1, 0]}
     return {
         "type": "perspective",
-        "fov": FIELD_OF_VIEW,
+        "fov": seen.field,
         "fov_axis": "y",
         "near_clip": 0.01 * seen.distance,
         "far_clip": 10 * seen.distance,
