@@ -3,6 +3,7 @@
 import { Color, DirectionalLight, Vector3, WebGLRenderer } from 'three';
 import { fitFurShadow } from '../fur/index.ts';
 import { daylightSky, KEY_COLOUR } from '../page/daylight.ts';
+import { facing } from '../page/facing.ts';
 import { DEFAULT_LOOK } from '../page/look.ts';
 import { setToneMapping } from '../page/toneMapping.ts';
 import { loadFur, Studio } from './studio.ts';
@@ -41,9 +42,10 @@ export async function drawSides(url: string, size: number, backdrop: string): Pr
 	studio.light(key, daylightSky());
 	Object.assign(fur.material, DEFAULT_LOOK);
 	const { bounds } = studio;
+	const front = facing(fur.skin.parent ?? fur.skin, fur.skin);
 	const found: Record<string, string> = {};
 	for (const [side, azimuth] of Object.entries(SIDES)) {
-		studio.look(azimuth, POLAR, DISTANCE);
+		studio.look(front + azimuth, POLAR, DISTANCE);
 		key.position.copy(studio.fromEye(LAMP).multiplyScalar(4 * bounds.radius)).add(bounds.center);
 		fitFurShadow(key, bounds, fur.asset.length);
 		key.target.updateMatrixWorld();

@@ -1,6 +1,7 @@
 /** The model on show, in its fur and its environment, as the view asks for them. */
 
 import { FUR_VERSION } from '../../fur/index.ts';
+import { facing } from '../../page/facing.ts';
 import type { OwnModel } from '../open/drop.ts';
 import { notice, withdraw } from '../say/notice.ts';
 import type { Progress } from '../say/progress.ts';
@@ -38,6 +39,8 @@ export class Exhibit {
 	readonly #surroundings: Surroundings;
 	readonly #dressing: Dressing;
 	#latest = 0;
+	/** Azimuth of the face of the model on show, radians. */
+	#front = 0;
 
 	/** @param store of the view that is asked for; what cannot be had is taken out of it */
 	constructor(picture: Picture, store: Store, progress: Progress) {
@@ -150,11 +153,11 @@ export class Exhibit {
 	}
 
 	#firstLight(): Triple {
-		return this.#surroundings.sun ?? firstView(this.entry).light;
+		return this.#surroundings.sun ?? firstView(this.entry, 1, this.#front).light;
 	}
 
 	#firstCamera(): Triple {
-		return firstView(this.entry, this.#store.get().crowd).camera;
+		return firstView(this.entry, this.#store.get().crowd, this.#front).camera;
 	}
 
 	/** Changes the environment; says why and keeps the one before where that fails. */
@@ -235,6 +238,7 @@ export class Exhibit {
 		this.#chooseClip(first);
 		stage.setCrowd(1, undefined);
 		this.shown = name;
+		this.#front = facing(model.object, model.fur?.skin ?? model.object);
 		lamp.visible = view.ui;
 		if (!camera.chosen) camera.orbit = view.camera ?? this.#firstCamera();
 		if (first || light.drifting) light.put(view.light ?? this.#firstLight(), !view.light);

@@ -1,5 +1,6 @@
 /** The list of models and pelts: `models/models.json`. */
 
+import { MathUtils, Object3D, Vector3 } from 'three';
 import { parseAddress } from '../state/address.ts';
 import type { Triple } from '../state/view.ts';
 
@@ -50,10 +51,19 @@ export function pelts(entries: readonly MenuEntry[], basis: 'ptm' | 'eigen' = 'p
 	return entries.filter((entry) => entry.pelt !== undefined && entry.basis === basis && !entry.fine);
 }
 
-/** First light and camera of a model, or of a crowd. */
-export function firstView(entry: MenuEntry | undefined, crowd = 1): { light: Triple; camera: Triple } {
-	const { light = DEFAULT_LIGHT, camera = DEFAULT_CAMERA } = parseAddress(entry?.view ?? '').view;
-	return { light, camera: crowd > 1 ? CROWD_CAMERA : camera };
+/**
+ * First light and camera of a model, or of a crowd.
+ *
+ * @param front azimuth of the model's face, radians from +z towards +x: where nothing else is said, the view is from there
+ */
+export function firstView(entry: MenuEntry | undefined, crowd = 1, front = 0): { light: Triple; camera: Triple } {
+	const { light, camera } = parseAddress(entry?.view ?? '').view;
+	const [azimuth, elevation, distance] = DEFAULT_CAMERA;
+	const turned: Triple = [azimuth + MathUtils.radToDeg(front), elevation, distance];
+	return {
+		light: light ?? new Vector3(...DEFAULT_LIGHT).applyAxisAngle(Object3D.DEFAULT_UP, front).toArray(),
+		camera: crowd > 1 ? CROWD_CAMERA : (camera ?? turned),
+	};
 }
 
 /**

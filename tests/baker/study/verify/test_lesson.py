@@ -36,7 +36,9 @@ def test_lamp_and_sky_add_up_and_are_tone_mapped_behind_their_coverage(tmp_path:
     lit, sky = (Traced(light * half[..., None], half, (light, light)) for light in (white, 0 * white))
     picture = shown(lit, sky)
     expected = tone_mapped(np.array(PAGE.lamp) / np.pi)
-    linear = np.where(picture[..., :3] <= 0.04045, picture[..., :3] / 12.92, ((picture[..., :3] + 0.055) / 1.055) ** 2.4)
+    linear = np.where(
+        picture[..., :3] <= 0.04045, picture[..., :3] / 12.92, ((picture[..., :3] + 0.055) / 1.055) ** 2.4
+    )
     np.testing.assert_allclose(linear, np.broadcast_to(expected, linear.shape), atol=0.005)
     np.testing.assert_array_equal(picture[..., 3], half)
     brighter = shown(lit, Traced(0.1 * half[..., None] * np.ones(3), half, (white, white)))
