@@ -28,9 +28,9 @@ from numpy.typing import NDArray
 from furbake.pelt.bent import MIN_FACTOR, MONOMIALS
 from furbake.pelt.curves import lean_direction
 from furbake.pelt.hairs.strands import Coat, Strands
-from furbake.pelt.hairs.volume import SOLID_SLAB, Volume, average_down, coarsen, doubled, fine_shape, pool, voxelise
+from furbake.pelt.hairs.volume import SOLID_SLAB, Volume, coarsen, doubled, fine_shape, pool, voxelise
 from furbake.pelt.light.depth import Depth, passing
-from furbake.pelt.light.fibre import ABOVE, THINNEST, across, around, cylinder, scattered
+from furbake.pelt.light.fibre import ABOVE, THINNEST, across, around, scattered
 from furbake.pelt.light.paths import BODY_RADIUS, thinned
 from furbake.pelt.light.scatter import Slabs, Unscattered, between_hairs, sent
 from furbake.pelt.light.transport import Beam
@@ -128,9 +128,10 @@ def seen_from(
     tangent /= np.linalg.norm(tangent, axis=-1, keepdims=True)
     slabs = Slabs(sigma, stored.thick, tangent)
     filled = np.float32(fine.height * SOLID_SLAB / coat.opacity) * fine.sigma.mean((1, 2)).astype(np.float32)
+    along = [beam.along(light) for light in lights]
     with ThreadPoolExecutor(os.cpu_count()) as workers:
         passed, floor = (np.stack(each) for each in zip(*workers.map(beam.reach, lights), strict=True))
-        caught, reaching = (even(np.stack(each)) for each in zip(*map(beam.caught, passed, lights), strict=True))
+        caught, reaching = (even(np.stack(each)) for each in zip(*map(beam.caught, passed, along), strict=True))
         skin = 0.0 if beta is None else coat.skin
         floor = pool(floor, sigma.shape[-1])
         arriving = between_hairs(slabs, Unscattered(lights, caught, reaching, floor), albedo=coat.albedo, skin=skin)
@@ -139,16 +140,15 @@ def seen_from(
             """M towards an eye, (n, K, N/2, N/2)."""
             return doubled(np.moveaxis(np.maximum(sent(arriving, tangent, eye), 0), 1, 0))
 
-        along = [beam.tangent @ light.astype(np.float32) for light in lights]
         crossed = [across(each) for each in along]
         depths = [-np.log(np.maximum(each, DARK)) for each in passed]
-        single = (clear * cylinder(beam.tangent, light) for clear, light in zip(passed, lights, strict=True))
-        texels = doubled(onwards(ABOVE)) + np.stack([average_down(each, beam.shares, size) for each in single])
+        single = np.stack(list(workers.map(beam.to_eye, passed, lights, along)))
+        texels = doubled(onwards(ABOVE)) + single
 
         def of_eye(eye: Array) -> tuple[Array, Array]:
             clear = beam.reach(eye)[0]
             depth = -np.log(np.maximum(clear, DARK))
-            up = beam.tangent @ eye.astype(np.float32)
+            up = beam.along(eye)
             view = across(up)
             see = clear * beam.breadth * np.maximum(view, THINNEST) * np.float32(beam.slab)
             once = []
