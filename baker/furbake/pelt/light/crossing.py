@@ -65,9 +65,13 @@ class Crossing:
             steps.append(known[offset.tobytes()])
         return cls(passes, per_sine, width, to_eye, [rows for rows, _ in steps], [columns for _, columns in steps])
 
-    def moved(self, light: Single, step: int) -> Single:
-        """Light (B, D, N, N) read where it comes from, on the way to the slab that is met at this step."""
-        return np.asarray(self.rows[step] @ light @ self.columns[step])
+    def move(self, light: Single, step: int, other: Single, out: Single) -> None:
+        """Write into `out` the light (B, D, N, N) from where it comes to the slab that is met at this step.
+
+        other : overwritten; out : may be `light`
+        """
+        np.matmul(self.rows[step], light, out=other)
+        np.matmul(other, self.columns[step], out=out)
 
 
 def hemisphere_rule() -> tuple[Array, Array]:

@@ -110,6 +110,8 @@ class Depth:
         texel = self.height * self.size
         way = light[:2] * (texel / max(float(np.hypot(*light[:2])), 1e-9))
         feet, weights, counts = self._points(rays, start, texel)
+        odd = self.size // (self.size & -self.size)
+        scratch = np.empty(max(BLOCK, total[:, :odd].size), np.complex64)
         for slab in np.flatnonzero(counts.any(0)):
             met = np.flatnonzero(counts[:, slab])
             some, points = slice(met[0], met[-1] + 1), counts[:, slab].max()
@@ -117,7 +119,8 @@ class Depth:
             rows = self._look(at * way[1], self.size).swapaxes(1, 2)
             columns = self._look(at * way[0], self.size // 2 + 1) * weight
             block = in_blocks(len(at), *columns.shape[1:], self.size)
-            kernels = np.empty((len(at), block, columns.shape[2]), np.complex64)
+            shape = len(at), block, columns.shape[2]
+            kernels = scratch[: shape[0] * shape[1] * shape[2]].reshape(shape)
             for first in range(0, self.size, block):
                 part = slice(first, first + block)
                 np.matmul(rows[:, part], columns, out=kernels)

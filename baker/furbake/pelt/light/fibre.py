@@ -34,13 +34,21 @@ class Cylinders(Generic[Real]):
         self.sure: NDArray[Real] = self.sin_view**2 / (self.sin_view**2 + 0.15**2)
         self.unsure: NDArray[Real] = (1 - self.sure) * (4 / np.pi)
 
-    def lit(self, along: NDArray[Real], between: float, some: Any = ...) -> NDArray[Real]:
-        """D under a light whose cosines are `along` (...) with some of the fibres and `between` with the eye."""
+    def around(self, along: NDArray[Real], between: float, some: Any = ...) -> tuple[NDArray[Real], NDArray[Real]]:
+        """Sine between some of the fibres and a light, and cos φ around them; parameters as of `lit`."""
         sin_light = across(along)
         cos_phi = np.multiply(along, self.up[some], out=np.empty_like(along))
         np.subtract(between, cos_phi, out=cos_phi)
         cos_phi /= np.maximum(sin_light * self.sin_view[some], 1e-4)
         np.clip(cos_phi, -1, 1, out=cos_phi)
+        return sin_light, cos_phi
+
+    def lit(self, along: NDArray[Real], between: float, some: Any = ...) -> NDArray[Real]:
+        """D under a light whose cosines are `along` (...) with some of the fibres and `between` with the eye."""
+        return self.scattered(*self.around(along, between, some), some)
+
+    def scattered(self, sin_light: NDArray[Real], cos_phi: NDArray[Real], some: Any = ...) -> NDArray[Real]:
+        """D by what `around` gives."""
         seen = _around_lit(cos_phi)
         seen *= self.sure[some]
         seen += self.unsure[some]
@@ -64,19 +72,6 @@ def across(along: NDArray[Real]) -> NDArray[Real]:
     np.maximum(sine, 0, out=sine)
     np.sqrt(sine, out=sine)
     return sine
-
-
-def around(light: NDArray[Real], eye: NDArray[Real], between: float) -> NDArray[Real]:
-    """cos φ around the fibre, of directions with these cosines with it, and `between` each other."""
-    cosine: NDArray[Real] = np.clip((between - light * eye) / np.maximum(across(light) * across(eye), 1e-4), -1, 1)
-    return cosine
-
-
-def scattered(sin_light: NDArray[Real], sin_view: NDArray[Real], cos_phi: NDArray[Real]) -> NDArray[Real]:
-    """D by the sines between fibre and light, fibre and eye, and by cos φ."""
-    sure: NDArray[Real] = sin_view**2 / (sin_view**2 + 0.15**2)
-    lit: NDArray[Real] = sin_light * (sure * _around_lit(cos_phi) + (1 - sure) * (4 / np.pi))
-    return lit
 
 
 THINNEST = 0.15

@@ -263,10 +263,11 @@ class Medium:
         apart = -(towards * solid_angles[:, None].astype(np.float32)).T
         phi, seen, flux = np.empty_like(even), np.empty_like(even), np.empty_like(perpendicular)
         shape = count, len(ways), size, size
-        light, other, source = np.broadcast_to(light[:, None], shape), *np.empty((2, *shape), np.float32)
+        enters = np.broadcast_to(light[:, None], shape)
+        light, other, source = np.empty((3, *shape), np.float32)
         flat = count, len(ways), size * size
         for step, k in enumerate(range(layers) if upward else range(layers - 1, -1, -1)):
-            light = crossing.moved(light, step)
+            crossing.move(light if step else enters, step, other, light)
             np.multiply(light, crossing.width[k], out=other).sum(1, out=phi[k])
             np.multiply(light, crossing.to_eye[k], out=other).sum(1, out=seen[k])
             flux[:, k] = np.matmul(apart, light.reshape(flat)).reshape(count, 3, size, size).swapaxes(0, 1)
@@ -277,6 +278,6 @@ class Medium:
             light -= source
             light *= crossing.passes[k]
             light += source
-        light = crossing.moved(light, layers)
+        crossing.move(light, layers, other, light)
         floor = (light * np.abs(apart[2])[:, None, None]).sum(1)
         return Arriving(phi, flux, floor), seen
