@@ -57,7 +57,7 @@ class Cache:
             with NamedTemporaryFile(dir=self.folder, suffix=UNFINISHED, delete=False) as file:
                 unfinished = Path(file.name)
                 try:
-                    np.savez(file, **packed(value))
+                    np.savez(file, allow_pickle=False, **packed(value))
                     file.close()
                     unfinished.replace(self.folder / f"{key}{ENTRY}")
                 finally:

@@ -82,8 +82,8 @@ def run_bake(args: SimpleNamespace) -> int:
     start = time.perf_counter()
     with shown(STAGES, args.quiet) as progress:
         result = bake(
-            args.model, out, options, force=args.force or args.if_stale, samples=samples, cache=cache, progress=progress,
-            notify=(lambda notice: None) if args.quiet else (lambda notice: complain(f"note: {notice}")),
+            args.model, out, options, force=args.force or args.if_stale, samples=samples, progress=progress,
+            cache=cache, notify=(lambda notice: None) if args.quiet else (lambda notice: complain(f"note: {notice}")),
         )  # fmt: skip
     if args.json:
         say(json.dumps({"folder": str(out), "baked": True, "seconds": result.seconds, **result.record}))

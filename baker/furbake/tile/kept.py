@@ -62,7 +62,7 @@ class KeptPelts:
 
 
 def pelt_key(options: BakeOptions, height: float) -> str:
-    """SHA-256 of all that decides a pelt: options and height of the tile, the code, its libraries, the kind of machine."""
+    """SHA-256 of all that decides a pelt: options and height of the tile, code, libraries, kind of machine."""
     parts: dict[str, Any] = {
         "code": code_hash(ROOMS),
         "libraries": {name: version(name) for name in ("furbake", *LIBRARIES)},

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +11,13 @@ import pytest
 
 from furbake.options import BakeOptions
 from furbake.options.bake_options import OF_BODY
+from furbake.pelt.hairs.ramp import Ramp
+from furbake.pelt.hairs.strands import Coat
 from furbake.tile import kept
 from furbake.tile.tile import Tile
-from helpers.command import CUBE, TINY, files
+from helpers.command import TINY, files
 
-FUR = (*TINY, "--set", "coat.guard.count=20", "--set", "coat.under.count=20", "--states", "dry,wet", "--dirt")
+FUR = (*TINY, "--set", "coat.guard.count=20", "--set", "coat.under.count=20")
 
 
 @pytest.fixture
@@ -28,24 +29,23 @@ def grown(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     return heights
 
 
-def bake(run: Callable[..., Any], model: object, out: str, *options: str, fur: tuple[str, ...] = FUR) -> dict[str, Any]:
-    done = run("bake", model, "-o", out, *fur, "--json", "--quiet", *options)
+def bake(run: Callable[..., Any], model: object, out: str, *options: str) -> None:
+    done = run("bake", model, "-o", out, *FUR, "--quiet", *options)
     assert done.status == 0, done.err
-    return json.loads(done.out)
 
 
 def test_bytes_are_the_same_with_and_without_the_cache(run: Callable[..., Any], grown: list[float]) -> None:
-    bake(run, "torus:8x12", "without", "--no-cache")
+    states = ("--states", "dry,wet", "--dirt", "--directions")
+    bake(run, "torus:8x12", "without", "--no-cache", *states)
     assert len(grown) == 1
-    bake(run, "torus:8x12", "first", "--cache", "pelts")
+    bake(run, "torus:8x12", "first", "--cache", "pelts", *states)
     assert len(grown) == 2
-    bake(run, "torus:8x12", "second", "--cache", "pelts")
+    bake(run, "torus:8x12", "second", "--cache", "pelts", *states)
     assert len(grown) == 2
     assert files(Path("without")) == files(Path("first")) == files(Path("second"))
 
 
 def test_another_body_of_another_size_takes_the_same_pelt(run: Callable[..., Any], grown: list[float]) -> None:
-    Path("four.obj").write_text(CUBE.replace(" 1", " 0.7301").replace("f 0.7301", "f 1"))
     bake(run, "plane:4x4", "plane", "--cache", "pelts", "--no-fins")
     bake(run, "torus:8x12", "torus", "--cache", "pelts", "--length", "0.2", "--uv", "own")
     assert len(grown) == 2, "the first had no fins"
@@ -55,20 +55,29 @@ def test_another_body_of_another_size_takes_the_same_pelt(run: Callable[..., Any
     assert files(Path("sphere")) == files(Path("alone"))
 
 
+def test_another_fur_is_not_served_this_one(run: Callable[..., Any], grown: list[float]) -> None:
+    bake(run, "torus:8x12", "out", "--cache", "pelts")
+    bake(run, "torus:8x12", "other", "--cache", "pelts", "--seed", "1")
+    bake(run, "torus:8x12", "alone", "--no-cache", "--seed", "1")
+    assert len(grown) == 3
+    assert files(Path("other")) == files(Path("alone"))
+
+
 @pytest.mark.parametrize(
     "other",
     [
-        ("--seed", "1"), ("--height", "0.6"), ("--lights", "9"), ("--layers", "5"), ("--set", "ramp.power=2"),
-        ("--set", "coat.guard.count=21"), ("--curves", "none"), ("--directions",), ("--flat",), ("--states", "dry"),
+        {"layers": 5}, {"size": 16}, {"lights": 9}, {"basis": "eigen"}, {"coefficients": 5}, {"curves": "none"},
+        {"seed": 1}, {"flat": True}, {"coat": Coat(clumps=7)}, {"ramp": Ramp(power=2)}, {"colour_plane": False},
+        {"directions": True}, {"states": ("dry", "wet")}, {"dirt": True},
     ],
+    ids=lambda other: next(iter(other)),
 )  # fmt: skip
-def test_another_fur_is_not_served_this_one(run: Callable[..., Any], grown: list[float], other: tuple[str, ...]) -> None:
-    fur = (*TINY, "--set", "coat.guard.count=20", "--set", "coat.under.count=20", "--states", "dry,wet")
-    bake(run, "torus:8x12", "out", "--cache", "pelts", fur=fur)
-    bake(run, "torus:8x12", "other", "--cache", "pelts", *other, fur=fur)
-    bake(run, "torus:8x12", "alone", "--no-cache", *other, fur=fur)
-    assert len(grown) == 3
-    assert files(Path("other")) == files(Path("alone"))
+def test_all_that_is_the_tile_s_own_counts(other: dict[str, Any]) -> None:
+    keys = {kept.pelt_key(replace(BakeOptions(), **own).of_tile(), 0.5) for own in ({}, other)}
+    assert len(keys) == 2
+    assert kept.pelt_key(BakeOptions().of_tile(), 0.6) not in keys
+    of_body = replace(BakeOptions(), preset="x", length=1.0, guide="down", mask="vertex:red", fins=False, **other)
+    assert kept.pelt_key(of_body.of_tile(), 0.5) in keys
 
 
 def test_other_code_makes_its_own_pelts(

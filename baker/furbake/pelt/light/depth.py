@@ -118,7 +118,7 @@ class Depth:
             at, weight = feet[some, slab, :points], weights[some, slab, :points, None]
             rows = self._look(at * way[1], self.size).swapaxes(1, 2)
             columns = self._look(at * way[0], self.size // 2 + 1) * weight
-            block = in_blocks(len(at), *columns.shape[1:], self.size)
+            block = in_blocks(len(at), points, columns.shape[2], self.size)
             shape = len(at), block, columns.shape[2]
             kernels = scratch[: shape[0] * shape[1] * shape[2]].reshape(shape)
             for first in range(0, self.size, block):

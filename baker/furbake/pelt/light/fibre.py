@@ -30,7 +30,8 @@ class Cylinders(Generic[Real]):
 
     def __init__(self, up: NDArray[Real]) -> None:
         """up : (...) cosines between the fibres and the eye."""
-        self.up, self.sin_view = up, across(up)
+        self.up: NDArray[Real] = up
+        self.sin_view: NDArray[Real] = across(up)
         self.sure: NDArray[Real] = self.sin_view**2 / (self.sin_view**2 + 0.15**2)
         self.unsure: NDArray[Real] = (1 - self.sure) * (4 / np.pi)
 

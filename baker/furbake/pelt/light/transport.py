@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.pelt.hairs.drawn import through_own
-from furbake.pelt.hairs.volume import Volume, average_down, doubled, pool, slab_means
+from furbake.pelt.hairs.volume import Volume, doubled, pool, slab_means
 from furbake.pelt.light.depth import Depth
 from furbake.pelt.light.fibre import ABOVE, Cylinders, shown
 from furbake.pelt.light.paths import BODY_RADIUS, lowest, spread, thinned
@@ -73,10 +73,10 @@ def parted(slabs: Single, count: int) -> Single:
     low = np.clip(np.floor(place).astype(np.intp), 0, max(len(slabs) - 2, 0))
     share = np.clip(place - low, 0, 1).astype(np.float32)
     parts = np.empty((len(place), *slabs.shape[1:]), np.float32)
-    for part, one, other, weight in zip(parts, low, np.minimum(low + 1, len(slabs) - 1), share, strict=True):
-        np.subtract(slabs[other], slabs[one], out=part)
-        part *= weight
-        part += slabs[one]
+    for i, (one, other) in enumerate(zip(low, np.minimum(low + 1, len(slabs) - 1), strict=True)):
+        np.subtract(slabs[other], slabs[one], out=parts[i])
+        parts[i] *= share[i]
+        parts[i] += slabs[one]
     return parts
 
 
@@ -110,8 +110,10 @@ def sample(
     progress: Callable[[float], None] = lambda fraction: None,
 ) -> Single:
     """L of every stored texel under every light, (n, layers, size, size) float32: T·D + M of `sample_apart`."""
-    single, multiple, _ = sample_apart(fine, layers, size, lights, setting, progress=progress)
-    return single + multiple
+    single, multiple, _ = _apart(fine, layers, size, lights, setting, progress=progress)
+    for i, more in enumerate(multiple):
+        single[i] += doubled(more)
+    return single
 
 
 def sample_apart(
@@ -130,6 +132,21 @@ def sample_apart(
     lights : (n, 3) as low as `lowest(beta)`; lower ones reach nothing
     darker : share of albedo and skin, and indices of lights under which M is sampled once more with these
     """
+    single, multiple, less = _apart(fine, layers, size, lights, setting, darker=darker, progress=progress)
+    return single, doubled(multiple), None if less is None else doubled(less)
+
+
+def _apart(
+    fine: Volume,
+    layers: int,
+    size: int,
+    lights: Array,
+    setting: Setting,
+    *,
+    darker: tuple[float, NDArray[np.intp]] | None = None,
+    progress: Callable[[float], None],
+) -> tuple[Single, Single, Single | None]:
+    """As `sample_apart`, M at half the resolution."""
     half = (layers, size // 2, size // 2)
     single = np.empty((len(lights), layers, size, size), np.float32)
     caught, reaching = (np.empty((len(lights), *half), np.float32) for _ in range(2))
@@ -143,8 +160,7 @@ def sample_apart(
     albedo, skin = setting.albedo, 0.0 if setting.flat else setting.skin
 
     def more(share: float, some: slice | NDArray[np.intp]) -> Single:
-        multiple = scatter(slabs, light.of(some), albedo=share * albedo, skin=share * skin, faint=not setting.flat)
-        return doubled(multiple)
+        return scatter(slabs, light.of(some), albedo=share * albedo, skin=share * skin, faint=not setting.flat)
 
     multiple = more(1.0, slice(None))
     progress(1.0)
