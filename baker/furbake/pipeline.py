@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field
+from functools import cached_property
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -17,14 +18,19 @@ from furbake.asset.store import atomic_file, atomic_folder
 from furbake.body import Body, prepare
 from furbake.identity import bake_key, describe_input, library_versions
 from furbake.options import BakeOptions
+from furbake.pelt.hairs.volume import Volume
 from furbake.pelt.pelt import Pelt
 from furbake.surface.place.fins import Fins, build_fins
 from furbake.surface.rig.follow import follow
 from furbake.surface.shapes import is_builtin
-from furbake.tile.lighting import write_samples
+from furbake.tile.kept import KeptPelts
+from furbake.tile.lighting import Sampled, write_samples
 from furbake.tile.tile import Fitted, Tile
 
 STAGES = ("mesh", "strands", "volume", "light", "fit", "fins", "write")
+
+HEIGHT_DIGITS = 12
+"""Digits of a tile's height: bodies of other sizes have the same pelt."""
 
 Progress = Callable[[str, float], None]
 Notify = Callable[[str], None]
@@ -63,12 +69,14 @@ def bake(
     *,
     force: bool = False,
     samples: Path | None = None,
+    cache: Path | None = None,
     progress: Progress = lambda stage, fraction: None,
     notify: Notify = lambda notice: None,
 ) -> BakeResult:
     """Bake `model` (a file or the name of a built-in shape) into the folder `out`, whole or not at all.
 
-    samples : optional file for the physics itself, for others to check
+    samples : optional file for the physics itself, for others to check; the light is then sampled anew
+    cache : optional folder of finished pelts: one of this very fur is taken from there, else kept there
     progress : called with a stage of `STAGES` and the fraction of it that is done
     notify : called with each notice of the result once the mesh is read, before the light is sampled
 
@@ -83,18 +91,12 @@ def bake(
         notices = (*body.skin.notices, *body.notices)
         for notice in notices:
             notify(notice)
-        with clock.stage("strands"):
-            tile = Tile.grow(options, body.length / body.tile)
-        with clock.stage("volume"):
-            dry = tile.dry_volume()
-        with clock.stage("light") as step:
-            sampled = tile.sample(dry, step)
-        with clock.stage("fit") as step:
-            fitted = tile.fit(sampled, step)
+        pelts = _Pelts(clock, options.of_tile(), body.length / body.tile, cache)
+        fitted = pelts.fitted(anew=samples is not None)
         with clock.stage("fins"):
             fins = _fins(body, options, fitted[0][0])
             if fins is not None:
-                fitted = tile.fit_fins(dry, fitted)
+                fitted = pelts.with_fins(fitted)
         with clock.stage("write"):
             record = _record(model, options, body, fitted)
             furry = FurModel(
@@ -112,8 +114,52 @@ def bake(
             record["asset"] = write_gltf(folder, furry)
             (folder / "bake.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
             if archive is not None:
-                write_samples(archive, sampled[0], tile.strands)
+                write_samples(archive, pelts.sampled[0], pelts.tile.strands)
     return BakeResult(out, record, clock.seconds, notices)
+
+
+class _Pelts:
+    """The pelts of a tile, made stage by stage or taken from a cache."""
+
+    def __init__(self, clock: _Clock, options: BakeOptions, height: float, cache: Path | None) -> None:
+        """options : of the tile; height : tile widths, of which the last bits vary from body to body."""
+        self.clock, self.options, self.height = clock, options, float(f"{height:.{HEIGHT_DIGITS}g}")
+        self.kept = None if cache is None else KeptPelts(cache, options, self.height)
+        self.sampled: list[Sampled] = []
+
+    @cached_property
+    def tile(self) -> Tile:
+        return Tile.grow(self.options, self.height)
+
+    @cached_property
+    def dry(self) -> Volume:
+        return self.tile.dry_volume()
+
+    def fitted(self, *, anew: bool) -> Fitted:
+        """Pelts of all states, without fins; anew : whatever the cache has."""
+        found = self.kept.pelts() if self.kept is not None and not anew else None
+        if found is not None:
+            return found
+        with self.clock.stage("strands"):
+            tile = self.tile
+        with self.clock.stage("volume"):
+            dry = self.dry
+        with self.clock.stage("light") as step:
+            self.sampled = tile.sample(dry, step)
+        with self.clock.stage("fit") as step:
+            fitted = tile.fit(self.sampled, step)
+        if self.kept is not None:
+            self.kept.keep_pelts(fitted)
+        return fitted
+
+    def with_fins(self, fitted: Fitted) -> Fitted:
+        """The same pelts with their fins."""
+        found = self.kept.with_fins(fitted) if self.kept is not None else None
+        if found is None:
+            found = self.tile.fit_fins(self.dry, fitted)
+            if self.kept is not None:
+                self.kept.keep_fins(found)
+        return found
 
 
 def _fins(body: Body, options: BakeOptions, dry: Pelt) -> Fins | None:

@@ -13,6 +13,8 @@ from typing import Any
 for library in ("OPENBLAS", "OMP", "MKL"):
     os.environ.setdefault(f"{library}_NUM_THREADS", "1")
 
+os.environ["FURBAKE_CACHE"] = ""  # no test reads or writes the user's cache
+
 import hypothesis  # noqa: E402
 import numpy as np  # noqa: E402
 import pytest  # noqa: E402

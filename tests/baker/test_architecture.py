@@ -35,7 +35,8 @@ FLOORS: dict[str, set[str]] = {
     "identity": {"options", "surface"},
     "size": {"surface", "options"},
     "body": {"asset", "surface", "options", "size"},
-    "tile": {"pelt", "options"},
+    "cache": set(),
+    "tile": {"pelt", "options", "cache"},
     "lazy": set(),
     "page": set(),
     "pipeline": {"asset", "pelt", "surface", "options", "identity", "body", "tile"},
@@ -77,6 +78,7 @@ ONLY_IN = {
     "fast_simplification": "surface/repair/simplify.py",
     "filelock": "asset/store.py",
     "ctypes": "asset/exchange.py",
+    "platformdirs": "cli/caches.py",
     "rich": "cli/progress.py",
     "click": "cli",
 }

@@ -10,6 +10,9 @@ const launch = (...more: string[]) => ({
 	launchOptions: { ...(executablePath ? { executablePath } : {}), args: [...browserArgs, plainPages, ...more] },
 });
 
+/** Bakes of tests keep nothing in the user's cache. */
+process.env.FURBAKE_CACHE = '';
+
 export default defineConfig({
 	testDir: at('.'),
 	outputDir: at('../../node_modules/.cache/furbake/browser-tests'),

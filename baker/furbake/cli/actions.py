@@ -14,6 +14,7 @@ from urllib.parse import quote
 from furbake.asset.inspect import summary
 from furbake.asset.read import AssetError, read_asset
 from furbake.asset.validate import check, validate
+from furbake.cli.caches import pelt_cache
 from furbake.cli.command import INVALID
 from furbake.cli.output import complain, say
 from furbake.cli.progress import shown
@@ -77,12 +78,12 @@ def run_bake(args: SimpleNamespace) -> int:
         elif not args.quiet:
             say(f"{out}: up to date")
         return 0
-    samples = Path(args.samples) if args.samples else None
+    samples, cache = Path(args.samples) if args.samples else None, pelt_cache(args)
     start = time.perf_counter()
     with shown(STAGES, args.quiet) as progress:
         result = bake(
             args.model, out, options, force=args.force or args.if_stale, samples=samples, progress=progress,
-            notify=(lambda notice: None) if args.quiet else (lambda notice: complain(f"note: {notice}")),
+            cache=cache, notify=(lambda notice: None) if args.quiet else (lambda notice: complain(f"note: {notice}")),
         )  # fmt: skip
     if args.json:
         say(json.dumps({"folder": str(out), "baked": True, "seconds": result.seconds, **result.record}))
@@ -194,7 +195,7 @@ def run_swatch(args: SimpleNamespace) -> int:
         args.preset = args.preset or "paper"
         options = in_state(chosen(args), args.state)
         with TemporaryDirectory(prefix="furbake-") as scratch, shown(STAGES, args.quiet) as progress:
-            bake("plane", Path(scratch) / "plane", options, progress=progress)
+            bake("plane", Path(scratch) / "plane", options, cache=pelt_cache(args), progress=progress)
             save(Path(scratch) / "plane", out, **look)
     if not args.quiet:
         say(str(out))

@@ -83,6 +83,8 @@ BAKE = [
     option("--states", metavar="dry..wet|dry,NAME", type=NAMES, help="wet states too: all five, or some"),
     unset_switch("--dirt", "a dirty state too"),
     option("--samples", metavar="FILE.npz", type=PLACE, help="write the sampled physics too, for others to check"),
+    option("--cache", metavar="DIR", type=PLACE, help="where finished pelts are kept (default: the user's cache)"),
+    switch("--no-cache", "neither take a finished pelt nor keep this one"),
     switch("--force", "replace DIR if it is a bake"),
     switch("--if-stale", "only if DIR differs in options, input or versions; implies --force"),
     switch("--json", "print one JSON object with the record and the seconds of every stage"),

@@ -27,6 +27,13 @@ OF_VERTICES = "vertex:"
 LATER = ("directions", "states", "dirt", "auto_length", "pose")
 """Options that early records do not have."""
 
+OF_BODY = (
+    "preset", "length", "tile", "height", "guide", "sweep", "uv", "length_by_thickness", "auto_length", "length_noise",
+    "tip_noise", "belly", "max_faces", "pose", "length_map", "mask", "comb", "features", "fins", "tile_share",
+    "height_share",
+)  # fmt: skip
+"""Options of the body that wears a tile, or by which the tile's height is found; all others are the tile's own."""
+
 
 @dataclass(frozen=True)
 class BakeOptions:
@@ -132,6 +139,10 @@ class BakeOptions:
             raise OptionError("dirt: got 3 coefficients, which leave no room for the share of mud, expected 4 to 6")
         hairs = self.coat.guard.count + self.coat.under.count
         knobs.within("coat.guard.count + coat.under.count", hairs, 1, KNOBS["coat.guard.count"].high)
+
+    def of_tile(self) -> BakeOptions:
+        """The same with the body's own options at their defaults: equal for two bodies in the same fur."""
+        return replace(self, **{name: getattr(BakeOptions, name) for name in OF_BODY})
 
     @property
     def length_given(self) -> bool:

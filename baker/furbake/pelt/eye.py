@@ -28,9 +28,9 @@ from numpy.typing import NDArray
 from furbake.pelt.bent import MIN_FACTOR, MONOMIALS
 from furbake.pelt.curves import lean_direction
 from furbake.pelt.hairs.strands import Coat, Strands
-from furbake.pelt.hairs.volume import SOLID_SLAB, Volume, average_down, coarsen, doubled, fine_shape, pool, voxelise
+from furbake.pelt.hairs.volume import SOLID_SLAB, Volume, coarsen, doubled, fine_shape, pool, voxelise
 from furbake.pelt.light.depth import Depth, passing
-from furbake.pelt.light.fibre import ABOVE, THINNEST, across, around, cylinder, scattered
+from furbake.pelt.light.fibre import ABOVE, THINNEST, Cylinders
 from furbake.pelt.light.paths import BODY_RADIUS, thinned
 from furbake.pelt.light.scatter import Slabs, Unscattered, between_hairs, sent
 from furbake.pelt.light.transport import Beam
@@ -128,9 +128,10 @@ def seen_from(
     tangent /= np.linalg.norm(tangent, axis=-1, keepdims=True)
     slabs = Slabs(sigma, stored.thick, tangent)
     filled = np.float32(fine.height * SOLID_SLAB / coat.opacity) * fine.sigma.mean((1, 2)).astype(np.float32)
+    along = [beam.along(light) for light in lights]
     with ThreadPoolExecutor(os.cpu_count()) as workers:
         passed, floor = (np.stack(each) for each in zip(*workers.map(beam.reach, lights), strict=True))
-        caught, reaching = (even(np.stack(each)) for each in zip(*map(beam.caught, passed, lights), strict=True))
+        caught, reaching = (even(np.stack(each)) for each in zip(*map(beam.caught, passed, along), strict=True))
         skin = 0.0 if beta is None else coat.skin
         floor = pool(floor, sigma.shape[-1])
         arriving = between_hairs(slabs, Unscattered(lights, caught, reaching, floor), albedo=coat.albedo, skin=skin)
@@ -139,23 +140,24 @@ def seen_from(
             """M towards an eye, (n, K, N/2, N/2)."""
             return doubled(np.moveaxis(np.maximum(sent(arriving, tangent, eye), 0), 1, 0))
 
-        along = [beam.tangent @ light.astype(np.float32) for light in lights]
-        crossed = [across(each) for each in along]
         depths = [-np.log(np.maximum(each, DARK)) for each in passed]
-        single = (clear * cylinder(beam.tangent, light) for clear, light in zip(passed, lights, strict=True))
-        texels = doubled(onwards(ABOVE)) + np.stack([average_down(each, beam.shares, size) for each in single])
+        single = np.stack(list(workers.map(beam.to_eye, passed, lights, along)))
+        texels = doubled(onwards(ABOVE)) + single
 
         def of_eye(eye: Array) -> tuple[Array, Array]:
             clear = beam.reach(eye)[0]
             depth = -np.log(np.maximum(clear, DARK))
-            up = beam.tangent @ eye.astype(np.float32)
-            view = across(up)
-            see = clear * beam.breadth * np.maximum(view, THINNEST) * np.float32(beam.slab)
+            hairs = Cylinders(beam.along(eye))
+            see = clear * beam.breadth * np.maximum(hairs.sin_view, THINNEST) * np.float32(beam.slab)
             once = []
-            for i, light in enumerate(lights):
-                turn = around(along[i], up, float(light @ eye))
-                shared = shared_depth(np.maximum(np.minimum(depth, depths[i]), 0), turn, filled)
-                once.append(_sums(see * np.exp(shared - depths[i]) * scattered(crossed[i], view, turn), layers))
+            for light, own, others in zip(lights, along, depths, strict=True):
+                sin_light, turn = hairs.around(own, float(light @ eye))
+                shared = shared_depth(np.maximum(np.minimum(depth, others), 0), turn, filled)
+                shared -= others
+                np.exp(shared, out=shared)
+                shared *= hairs.scattered(sin_light, turn)
+                shared *= see
+                once.append(_sums(shared, layers))
             blocks = pool(see.reshape(layers, -1, *see.shape[1:]).sum(1), size // 2)
             more = (blocks * onwards(eye)).mean((-1, -2))
             return np.stack(once) + more, (visible(page, eye, beta) * texels).mean((-1, -2))
@@ -181,8 +183,11 @@ def shared_depth(depth: Single, cos_phi: Single, filled: Single) -> Single:
     Seen along the hairs these are discs, and the rays part at φ. Two parallel rays x apart that meet discs of radius r
     share 1 − x/2r of them, so that no more than filled/(π·sin(φ/2)) is shared.
     """
-    most = filled[:, None, None] / (np.float32(np.pi) * np.sqrt(np.maximum((1 - cos_phi) / 2, 1e-6)))
-    return np.asarray(np.where(depth < 2 * most, depth * (1 - depth / (4 * most)), most), np.float32)
+    most = np.sqrt(np.maximum((1 - cos_phi) / 2, np.float32(1e-6)))
+    most *= np.float32(np.pi)
+    np.divide(filled[:, None, None], most, out=most)
+    held_depth = np.minimum(depth, 2 * most)
+    return np.asarray(held_depth * (1 - held_depth / (4 * most)), np.float32)
 
 
 def visible(stored: Volume, eye: Array, beta: float | None) -> Single:

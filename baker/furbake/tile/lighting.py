@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import BinaryIO
 
@@ -69,8 +70,10 @@ def light(
     apart = np.arange(len(lights)) >= len(fitted)
     if options.curves == "none" or options.flat:
         return Lighting(lights, apart, under(lights, fine, options, step))
-    samples = under(lights, fine, options, lambda fraction: step(FINE_SHARE * fraction))
-    bodies = measure(fine, options.layers, options.size, options.coat)
+    with ThreadPoolExecutor(1) as beside:  # each of the two has gaps in which a core would wait
+        measured = beside.submit(measure, fine, options.layers, options.size, options.coat)
+        samples = under(lights, fine, options, lambda fraction: step(FINE_SHARE * fraction))
+        bodies = measured.result()
     step(1.0)
     return Lighting(lights, apart, samples, bodies)
 

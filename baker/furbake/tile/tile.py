@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import Any
 
 from furbake.options import BakeOptions
 from furbake.pelt.bent import fit_bends
-from furbake.pelt.eye import fit_eye
+from furbake.pelt.eye import EyeLaw, fit_eye
 from furbake.pelt.hairs.states import Fur, chosen, in_state
 from furbake.pelt.hairs.strands import Strands, grow
 from furbake.pelt.hairs.volume import Volume
@@ -57,15 +58,21 @@ class Tile:
 
     def fit(self, samples: Sequence[Sampled], step: Step) -> Fitted:
         """Pelts of all states; the first has the laws of bent hairs and of light and eye."""
-        options = self.options
-        (pelt, figures), *others = fit_pelts(samples, options)
-        if not options.flat:
-            pelt = replace(pelt, bent=fit_bends(pelt, self.strands, options.coat, step))
-        if options.curves != "none":
-            eye = fit_eye(self.strands, self.height, options.layers, options.size, options.coat, flat=options.flat)
-            if eye is not None:
-                pelt = replace(pelt, eye=eye.weights, surge=eye.surge)
+        with ThreadPoolExecutor(1) as beside:
+            law = beside.submit(self._eye)
+            (pelt, figures), *others = fit_pelts(samples, self.options)
+            if not self.options.flat:
+                pelt = replace(pelt, bent=fit_bends(pelt, self.strands, self.options.coat, step))
+            eye = law.result()
+        if eye is not None:
+            pelt = replace(pelt, eye=eye.weights, surge=eye.surge)
         return [(pelt, figures), *others]
+
+    def _eye(self) -> EyeLaw | None:
+        options = self.options
+        if options.curves == "none":
+            return None
+        return fit_eye(self.strands, self.height, options.layers, options.size, options.coat, flat=options.flat)
 
     def fit_fins(self, dry: Volume, fitted: Fitted) -> Fitted:
         """The same pelts with their fins."""

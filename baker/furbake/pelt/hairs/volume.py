@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
+import scipy.sparse
 from numpy.typing import NDArray
 
 from furbake.pelt.hairs.drawn import MIN_RADIUS, extinction
@@ -73,7 +74,7 @@ def fine_shape(layers: int, size: int, height: float) -> tuple[int, int]:
     return layers * max(FINER, min(even, -(-FINE_SLABS // layers))), size * FINER
 
 
-# Long: one pass over the planes fills eight sums of the same crossings.
+# Long: one pass over the planes fills all sums of the same crossings.
 def voxelise(
     strands: Strands, height: float, layers: int, size: int, opacity: float, aside: Array | None = None
 ) -> Volume:
@@ -90,9 +91,8 @@ def voxelise(
     direction = step / np.maximum(np.linalg.norm(step, axis=-1, keepdims=True), 1e-12)
 
     solid = np.zeros((layers, size * size))
-    weight, breadth = np.zeros((2, layers, size * size))
     widths = np.zeros((layers, 2))
-    sums = np.zeros((layers, 5, size * size))  # tangent x, y, z, tint, hue
+    sums = np.zeros((layers, size * size, 7))  # of coverage times tangent x, y, z, tint, hue, 1; breadth
     drift = np.zeros((layers, 3))
     beside = np.zeros((layers, 2)) if aside is None else aside
 
@@ -113,20 +113,20 @@ def voxelise(
         np.maximum.at(here, voxel.ravel(), cover.ravel())
         solid[slab] += here / PLANES
         colour = [part[hair, segment] * (1 - t) + part[hair, segment + 1] * t for part in (strands.tint, strands.hue)]
-        values = np.concatenate([along, np.stack(colour, 1)], 1)
-        weight[slab] += np.bincount(voxel.ravel(), cover.ravel(), size * size)
-        wide = cover * (2 / (np.pi * PLANES * np.maximum(thick, MIN_RADIUS)))[:, None]
-        breadth[slab] += np.bincount(voxel.ravel(), wide.ravel(), size * size)
+        wide = 2 / (np.pi * PLANES * np.maximum(thick, MIN_RADIUS))
+        values = np.column_stack([along, *colour, np.ones_like(thick), wide])
+        starts = np.arange(len(hair) + 1) * cover.shape[1]
+        drawn = scipy.sparse.csr_array((cover.ravel(), voxel.ravel(), starts), (len(hair), size * size))
+        sums[slab] += drawn.T @ values
         widths[slab] += (thick * thick).sum(), thick.sum()
-        for channel in range(5):
-            sums[slab, channel] += np.bincount(voxel.ravel(), (cover * values[:, channel, None]).ravel(), size * size)
         moved = centre - points[hair, 0, :2]
         drift[slab] += np.append((thick[:, None] * moved).sum(0), thick.sum())
 
     shape = (layers, size, size)
+    weight, breadth = (np.ascontiguousarray(sums[..., channel]) for channel in (5, 6))
     empty = (weight < 1e-6).reshape(shape)
-    means = (sums / np.maximum(weight, 1e-6)[:, None]).reshape(layers, 5, size, size)
-    tangent = np.moveaxis(means[:, :3], 1, -1)
+    means = (sums[..., :5] / np.maximum(weight, 1e-6)[..., None]).reshape(*shape, 5)
+    tangent = means[..., :3]
     tangent = np.where(empty[..., None], [0.0, 0.0, 1.0], tangent)
     tangent /= np.maximum(np.linalg.norm(tangent, axis=-1, keepdims=True), 1e-9)
     return Volume(
@@ -134,8 +134,8 @@ def voxelise(
         breadth=breadth.reshape(shape),
         radius=widths[:, 0] / np.maximum(widths[:, 1], 1e-12),
         tangent=tangent,
-        tint=np.where(empty, strands.tint.mean(), means[:, 3]),
-        hue=np.where(empty, strands.hue.mean(), means[:, 4]),
+        tint=np.where(empty, strands.tint.mean(), means[..., 3]),
+        hue=np.where(empty, strands.hue.mean(), means[..., 4]),
         drift=drift[:, :2] / np.maximum(drift[:, 2:], 1e-12) + beside,
         height=height,
         aside=aside,
@@ -165,7 +165,12 @@ def cross_sections(centre: Array, thick: Array, along: Array, size: int) -> tupl
 def pool(fine: NDArray[Real], size: int) -> NDArray[Real]:
     """Means over squares of voxels: (..., N, N) → (..., size, size)."""
     *rest, rows, columns = fine.shape
-    mean: NDArray[Real] = fine.reshape(*rest, size, rows // size, size, columns // size).mean((-3, -1))
+    tall, wide = rows // size, columns // size
+    sums: NDArray[Real] = fine.reshape(*rest, size, tall, columns).sum(-2)
+    mean = sums[..., ::wide].copy()  # columns by slices: NumPy is slow in sums over few neighbours
+    for column in range(1, wide):
+        mean += sums[..., column::wide]
+    mean /= tall * wide
     return mean
 
 

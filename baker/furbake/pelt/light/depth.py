@@ -20,17 +20,20 @@ Spectrum = NDArray[np.complexfloating]
 OWN_POINTS, OWN_POINTS_PER_TEXEL = 8, 8
 """Points of a ray through a voxel's own slab, at least, and per texel that it moves aside there."""
 
-POINTS_PER_TEXEL, MIN_POINTS, MAX_PIECE = 2, 2, 8
-"""Points of a bent ray per texel that it moves aside, in a piece of it at least, and texels of the longest piece."""
+POINTS_PER_TEXEL, MIN_POINTS = 2, 2
+"""Points of a bent ray per texel that it moves aside, and in a slab at least."""
 
 STRIP, DARK = 8, 1e-5
 """Slabs whose rays are followed together, from the tips down, and the mean T below which all deeper ones are black."""
 
-BATCH = 2**17
-"""Numbers in the kernels of pieces that are made together: they fit into a core's cache."""
+TOGETHER = 2**17
+"""Numbers in the spectra of a strip, at most: with them a core's cache holds what is added up."""
+
+BLOCK = 2**14
+"""Numbers of the kernels that are made together: they stay in the cache until they have been used."""
 
 MAX_WORK = 2**15
-"""Multiplications of one matrix product."""
+"""Multiplications of one matrix product: BLAS starts no threads for it, which other lights use."""
 
 
 class Depth:
@@ -62,8 +65,9 @@ class Depth:
         """Transmittance between the light and the voxels, (K, N, N), and the skin, (N, N). 0 behind the body."""
         clear = np.zeros((self.layers, self.size, self.size), np.float32)
         middle, lz = (np.arange(self.layers) + 0.5) / self.layers, float(light[2])
-        for top in range(self.layers, 0, -STRIP):
-            strip = slice(max(top - STRIP, 0), top)
+        count = min(max(TOGETHER // self.spectrum[0].size, 1), STRIP)
+        for top in range(self.layers, 0, -count):
+            strip = slice(max(top - count, 0), top)
             rays = Rays(middle[strip], lz, self.beta)
             spectrum = self._depths(rays, 0.5 / self.layers, light)
             if self.back is not None:
@@ -105,26 +109,48 @@ class Depth:
         total = np.zeros((len(rays.height), *self.spectrum.shape[1:]), np.complex64)
         texel = self.height * self.size
         way = light[:2] * (texel / max(float(np.hypot(*light[:2])), 1e-9))
-        ray, slab, spans = rays.pieces(self.layers, start, MAX_PIECE / texel)
-        length = np.diff(spans)
-        moved = (rays.feet(spans[:, 1], ray) - rays.feet(spans[:, 0], ray)) * texel
-        rounds = np.maximum(np.ceil(moved * (POINTS_PER_TEXEL / MIN_POINTS)), 1).astype(np.intp)
-        batch = max(BATCH // total[0].size, 1)
-        for count in np.unique(rounds):
-            alike = np.flatnonzero(rounds == count)
-            points = int(count) * MIN_POINTS
-            share = (np.arange(points) + 0.5) / points
-            for first in range(0, len(alike), batch):
-                some = alike[first : first + batch]
-                t, of = spans[some, :1] + length[some] * share, ray[some, None]
-                feet = rays.feet(t, of)
-                weight = length[some] * (self.height / points) * thinned(rays.heights(t, of), self.beta)
-                rows = self._look(feet * way[1], self.size)
-                columns = self._look(feet * way[0], self.size // 2 + 1) * weight[..., None].astype(np.float32)
-                kernels = np.matmul(*in_blocks(rows, columns)).reshape(-1, *total.shape[1:])
-                for k, j, kernel in zip(ray[some], slab[some], kernels, strict=True):
-                    total[k] += np.multiply(kernel, self.spectrum[j], out=kernel)
+        feet, weights, counts = self._points(rays, start, texel)
+        odd = self.size // (self.size & -self.size)
+        scratch = np.empty(max(BLOCK, total[:, :odd].size), np.complex64)
+        for slab in np.flatnonzero(counts.any(0)):
+            met = np.flatnonzero(counts[:, slab])
+            some, points = slice(met[0], met[-1] + 1), counts[:, slab].max()
+            at, weight = feet[some, slab, :points], weights[some, slab, :points, None]
+            rows = self._look(at * way[1], self.size).swapaxes(1, 2)
+            columns = self._look(at * way[0], self.size // 2 + 1) * weight
+            block = in_blocks(len(at), points, columns.shape[2], self.size)
+            shape = len(at), block, columns.shape[2]
+            kernels = scratch[: shape[0] * shape[1] * shape[2]].reshape(shape)
+            for first in range(0, self.size, block):
+                part = slice(first, first + block)
+                np.matmul(rows[:, part], columns, out=kernels)
+                kernels *= self.spectrum[slab, part]
+                total[some, part] += kernels
         return total
+
+    def _points(self, rays: Rays, start: float, texel: float) -> tuple[Array, Single, NDArray[np.intp]]:
+        """Points along n rays, P at most in each of K slabs: feet and weights, (n, K, P), and their number, (n, K)."""
+        ray, slab, spans = rays.pieces(self.layers, start)
+        length = spans[:, 1] - spans[:, 0]
+        moved = (rays.feet(spans[:, 1], ray) - rays.feet(spans[:, 0], ray)) * texel
+        points = MIN_POINTS * np.maximum(np.ceil(moved * (POINTS_PER_TEXEL / MIN_POINTS)), 1).astype(np.intp)
+        counts = np.zeros((len(rays.height), self.layers), np.intp)
+        np.add.at(counts, (ray, slab), points)
+        piece = np.repeat(np.arange(len(points)), points)
+        share = (np.arange(len(piece)) - np.repeat(np.cumsum(points) - points, points) + 0.5) / points[piece]
+        t, of = spans[piece, 0] + length[piece] * share, ray[piece]
+        # A ray below the horizon meets slabs twice: the points of both times stand one after the other.
+        cell = of * self.layers + slab[piece]
+        order = np.argsort(cell, kind="stable")
+        before = np.cumsum(counts) - counts.ravel()
+        number = np.arange(len(cell)) - before[cell[order]]
+        shape = *counts.shape, int(counts.max(initial=1))
+        feet, weights = np.zeros(shape), np.zeros(shape, np.float32)
+        where = *np.divmod(cell[order], self.layers), number
+        feet[where] = rays.feet(t, of)[order]
+        weight = length[piece] * (self.height / points[piece]) * thinned(rays.heights(t, of), self.beta)
+        weights[where] = weight[order]
+        return feet, weights, counts
 
     def _look(self, at: Array, frequencies: int) -> NDArray[np.complex64]:
         """Spectra of linear look-up `at` texels (n, P) from the voxel, (n, P, `frequencies`)."""
@@ -137,16 +163,12 @@ class Depth:
         return np.maximum(scipy.fft.irfft2(spectrum, s=(self.size, self.size)), 0)
 
 
-def in_blocks(rows: Spectrum, columns: Spectrum) -> tuple[Spectrum, Spectrum]:
-    """Factors of rowsᵀ·columns, (n, P, N) and (n, P, M): (n, N/b, b, P) and (n, 1, P, M) in blocks of b rows.
-
-    Each product is so small that BLAS starts no threads for it: they are busy with other lights.
-    """
-    count, points, size = rows.shape
+def in_blocks(rays: int, points: int, columns: int, size: int) -> int:
+    """Rows of the kernels (rays, size, columns) that are made together by products over so many points."""
     block = size
-    while block % 2 == 0 and block * points * columns.shape[2] > MAX_WORK:
+    while block % 2 == 0 and block * max(rays * columns / BLOCK, points * columns / MAX_WORK) > 1:
         block //= 2
-    return rows.reshape(count, points, -1, block).transpose(0, 2, 3, 1), columns[:, None]
+    return block
 
 
 def passing(depth: Single) -> Single:

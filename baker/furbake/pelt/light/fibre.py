@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TypeVar
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,28 +22,57 @@ def cylinder(tangent: NDArray[Real], light: Array, eye: Array = ABOVE) -> NDArra
     points at the eye φ has no meaning and its mean, (4/π)·sinθ, holds.
     """
     up, along = (tangent @ way.astype(tangent.dtype) for way in (eye, light))
-    return scattered(across(along), across(up), around(along, up, float(light @ eye)))
+    return Cylinders(up).lit(along, float(light @ eye))
+
+
+class Cylinders(Generic[Real]):
+    """`cylinder` of fibres seen from one eye under many lights: what no light changes is worked out once."""
+
+    def __init__(self, up: NDArray[Real]) -> None:
+        """up : (...) cosines between the fibres and the eye."""
+        self.up: NDArray[Real] = up
+        self.sin_view: NDArray[Real] = across(up)
+        self.sure: NDArray[Real] = self.sin_view**2 / (self.sin_view**2 + 0.15**2)
+        self.unsure: NDArray[Real] = (1 - self.sure) * (4 / np.pi)
+
+    def around(self, along: NDArray[Real], between: float, some: Any = ...) -> tuple[NDArray[Real], NDArray[Real]]:
+        """Sine between some of the fibres and a light, and cos φ around them; parameters as of `lit`."""
+        sin_light = across(along)
+        cos_phi = np.multiply(along, self.up[some], out=np.empty_like(along))
+        np.subtract(between, cos_phi, out=cos_phi)
+        cos_phi /= np.maximum(sin_light * self.sin_view[some], 1e-4)
+        np.clip(cos_phi, -1, 1, out=cos_phi)
+        return sin_light, cos_phi
+
+    def lit(self, along: NDArray[Real], between: float, some: Any = ...) -> NDArray[Real]:
+        """D under a light whose cosines are `along` (...) with some of the fibres and `between` with the eye."""
+        return self.scattered(*self.around(along, between, some), some)
+
+    def scattered(self, sin_light: NDArray[Real], cos_phi: NDArray[Real], some: Any = ...) -> NDArray[Real]:
+        """D by what `around` gives."""
+        seen = _around_lit(cos_phi)
+        seen *= self.sure[some]
+        seen += self.unsure[some]
+        seen *= sin_light
+        return seen
+
+
+def _around_lit(cos_phi: NDArray[Real]) -> NDArray[Real]:
+    """sin φ + (π − φ)·cos φ."""
+    seen: NDArray[Real] = np.arccos(cos_phi, out=np.empty_like(cos_phi))
+    np.subtract(np.pi, seen, out=seen)
+    seen *= cos_phi
+    seen += across(cos_phi)
+    return seen
 
 
 def across(along: NDArray[Real]) -> NDArray[Real]:
     """Sine of the angle whose cosine is `along`."""
-    sine: NDArray[Real] = np.sqrt(np.maximum(1 - along * along, 0))
+    sine = np.multiply(along, along, out=np.empty_like(along))
+    np.subtract(1, sine, out=sine)
+    np.maximum(sine, 0, out=sine)
+    np.sqrt(sine, out=sine)
     return sine
-
-
-def around(light: NDArray[Real], eye: NDArray[Real], between: float) -> NDArray[Real]:
-    """cos φ around the fibre, of directions with these cosines with it, and `between` each other."""
-    cosine: NDArray[Real] = np.clip((between - light * eye) / np.maximum(across(light) * across(eye), 1e-4), -1, 1)
-    return cosine
-
-
-def scattered(sin_light: NDArray[Real], sin_view: NDArray[Real], cos_phi: NDArray[Real]) -> NDArray[Real]:
-    """D by the sines between fibre and light, fibre and eye, and by cos φ."""
-    phi: NDArray[Real] = np.arccos(cos_phi)
-    seen = np.sin(phi) + (np.pi - phi) * cos_phi
-    sure: NDArray[Real] = sin_view**2 / (sin_view**2 + 0.15**2)
-    lit: NDArray[Real] = sin_light * (sure * seen + (1 - sure) * (4 / np.pi))
-    return lit
 
 
 THINNEST = 0.15
@@ -52,6 +81,13 @@ THINNEST = 0.15
 
 def sine(tangent: NDArray[Real], direction: Array) -> NDArray[Real]:
     """Sine between fibre (..., 3) and direction, at least `THINNEST`: the share of its width that the fibre shows."""
-    along = tangent @ direction.astype(tangent.dtype)
-    across: NDArray[Real] = np.sqrt(np.maximum(1 - along * along, THINNEST**2))
-    return across
+    return shown(tangent @ direction.astype(tangent.dtype))
+
+
+def shown(along: NDArray[Real]) -> NDArray[Real]:
+    """`sine` by the cosines between fibres and a direction, (...)."""
+    width = np.multiply(along, along, out=np.empty_like(along))
+    np.subtract(1, width, out=width)
+    np.maximum(width, THINNEST**2, out=width)
+    np.sqrt(width, out=width)
+    return width

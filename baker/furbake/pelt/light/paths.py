@@ -93,11 +93,11 @@ class Rays:
         """β·ψ(t)."""
         return np.asarray(self.beta * np.arctan2(t * self.across, self.radius[ray] + t * self.lz))
 
-    def pieces(self, slabs: int, start: float, longest: float) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
+    def pieces(self, slabs: int, start: float) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
         """The rays from t = `start` to the end of the fur, cut where they pass from one of the equal slabs to another.
 
-        Pieces whose feet are more than `longest` apart are cut again. Returns each piece's ray and slab, (m,), and the
-        distances where it starts and ends, (m, 2). A ray that is blocked has none.
+        Returns each piece's ray and slab, (m,), and the distances where it starts and ends, (m, 2). A ray that is
+        blocked has none.
         """
         r = self.radius[:, None]
         square = (self.beta + np.arange(slabs + 1) / slabs) ** 2 - (r * self.across) ** 2
@@ -106,11 +106,5 @@ class Rays:
         edges = np.maximum(np.concatenate([-root[:, ::-1], root], 1) - r * self.lz, start)
         ray, edge = np.nonzero((np.diff(edges) > STEP) & ~self.blocked[:, None])
         spans = np.stack([edges[ray, edge], edges[ray, edge + 1]], 1)
-        moved = self.feet(spans[:, 1], ray) - self.feet(spans[:, 0], ray)
-        parts = np.maximum(np.ceil(moved / longest), 1).astype(np.intp)
-        piece = np.repeat(np.arange(len(parts)), parts)
-        part = np.arange(len(piece)) - np.repeat(np.cumsum(parts) - parts, parts)
-        share = (part[:, None] + np.array([0.0, 1.0])) / parts[piece, None]
-        ray, spans = ray[piece], spans[piece, :1] + np.diff(spans)[piece] * share
         slab = np.floor(self.heights(spans.mean(1), ray) * slabs).astype(np.intp)
         return ray, np.clip(slab, 0, slabs - 1), spans

@@ -16,12 +16,12 @@ import os
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.pelt.light.fibre import cylinder, sine
+from furbake.pelt.light.crossing import Crossing, hemisphere_rule
+from furbake.pelt.light.fibre import sine
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
@@ -30,8 +30,8 @@ MAX_ORDERS = 40
 SPENT = 0.03
 """The order that adds less than this share to all before it is the last; those after it are a geometric series."""
 
-ELEVATIONS, AZIMUTHS = 3, 8
-"""Directions per hemisphere: Gauss–Legendre in the cosine, even in azimuth."""
+TOGETHER = 6
+"""Directions that cross the slabs together; their sums are the same whichever thread adds them up."""
 
 LOST = 0.01
 """Share of the sources' energy, over all lights, that may be left out: what varies so fast is evened out anyhow."""
@@ -176,6 +176,7 @@ class Medium:
         layers, size = slabs.sigma.shape[:2]
         self.aside = np.zeros((layers, 2)) if slabs.aside is None else slabs.aside * size
         self.directions, self.solid_angles = hemisphere_rule()
+        self.crossings = dict[bytes, Crossing]()
 
     def escape(self) -> Single:
         """Share of what a voxel's hairs scatter evenly that leaves its slab, (K, N, N).
@@ -223,78 +224,60 @@ class Medium:
 
         A voxel's own light does not count: how a hair lights itself is in D already.
         """
-        phi, flux = np.zeros_like(arriving.phi), np.zeros_like(arriving.flux)
-        to_eye = np.zeros_like(arriving.phi)
-        floor = np.zeros_like(arriving.floor)
-        irradiance = arriving.floor.copy()
-        perpendicular = _perpendicular(arriving.flux, self.tangent)
+        share = np.float32(albedo / (4 * np.pi))
+        even = arriving.phi * (share * np.float32(4 / np.pi))
+        perpendicular = _perpendicular(arriving.flux, self.tangent) * (share * np.float32(np.pi / 2))
+        found = Arriving(np.zeros_like(arriving.phi), np.zeros_like(arriving.flux), np.zeros_like(arriving.floor))
+        to_eye, irradiance = np.zeros_like(arriving.phi), arriving.floor.copy()
         with ThreadPoolExecutor(os.cpu_count()) as pool:
             for travel in (-self.directions, self.directions):
                 upward = travel[0, 2] > 0
-                enters = irradiance * np.float32(self.skin / np.pi) if upward else floor
-                sweep = partial(self.sweep, arriving.phi, perpendicular, np.float32(albedo / (4 * np.pi)), enters)
-                for (light, end), way, solid_angle in zip(
-                    pool.map(sweep, travel), travel, self.solid_angles, strict=True
-                ):
-                    light *= np.float32(solid_angle)  # noqa: PLW2901 — in place, it is large
-                    phi += light * sine(self.tangent, way)[:, None]
-                    to_eye += light * cylinder(self.tangent, -way)[:, None]
-                    for axis in range(3):
-                        flux[axis] -= light * np.float32(way[axis])
+                enters = irradiance * np.float32(self.skin / np.pi) if upward else found.floor
+                groups = [slice(first, first + TOGETHER) for first in range(0, len(travel), TOGETHER)]
+
+                def sweep(some: slice, ways: Array = travel, enters: Single = enters) -> tuple[Arriving, Single]:
+                    return self.sweep(even, perpendicular, enters, ways[some], self.solid_angles[some])
+
+                for part, seen in pool.map(sweep, groups):
+                    found.phi[...] += part.phi
+                    found.flux[...] += part.flux
+                    to_eye += seen
                     if not upward:
-                        irradiance += np.float32(solid_angle * -way[2]) * end
-        return Arriving(phi, flux, floor), to_eye
+                        irradiance += part.floor
+        return found, to_eye
 
     def sweep(
-        self, phi: Single, perpendicular: Single, share: np.float32, light: Single, way: Array
-    ) -> tuple[Single, Single]:
-        """Radiance that arrives at the slabs, (K, B, N, N), and at the end, (B, N, N), of light that travels one way.
+        self, even: Single, perpendicular: Single, light: Single, ways: Array, solid_angles: Array
+    ) -> tuple[Arriving, Single]:
+        """What D directions of travel bring to the slabs, with the irradiance of the end, and to the eye, (K, B, N, N).
 
-        `light` enters below when it goes up, above when it goes down.
+        even, perpendicular : (K, B, N, N) and (3, K, B, N, N), φ and F⊥ times what hairs send on of them
+        light : (B, N, N) enters below where the directions go up, above where they go down
         """
-        layers, size = self.sigma.shape[0], self.sigma.shape[1]
-        width = sine(self.tangent, way)
-        source = _sent(phi, perpendicular, width, way) * share
-        passes: Single = np.exp(self.sigma * width * np.float32(-self.thick / abs(way[2])))
-        # The light at x comes from x + shift in the slab before; half of it at the skin and above all slabs.
-        shift = -way[:2] / abs(way[2]) * self.thick * size
-        arriving = np.empty_like(source)
-        upward = way[2] > 0
-        before = np.zeros(2) if upward else self.aside[-1]
+        layers, count, size = even.shape[:3]
+        crossing = self.crossings.get(ways.tobytes())
+        if crossing is None:
+            crossing = Crossing.of(self.sigma, self.thick, self.tangent, self.aside, ways, solid_angles)
+            self.crossings[ways.tobytes()] = crossing
+        upward, towards = ways[0, 2] > 0, ways.astype(np.float32)
+        apart = -(towards * solid_angles[:, None].astype(np.float32)).T
+        phi, seen, flux = np.empty_like(even), np.empty_like(even), np.empty_like(perpendicular)
+        shape = count, len(ways), size, size
+        enters = np.broadcast_to(light[:, None], shape)
+        light, other, source = np.empty((3, *shape), np.float32)
+        flat = count, len(ways), size * size
         for step, k in enumerate(range(layers) if upward else range(layers - 1, -1, -1)):
-            light = _shifted(light, shift * (1.0 if step else 0.5) + self.aside[k] - before)
-            before = self.aside[k]
-            arriving[k] = light
-            light = source[k] + (light - source[k]) * passes[k]
-        return arriving, _shifted(light, shift / 2 if upward else shift / 2 - before)
-
-
-def hemisphere_rule() -> tuple[Array, Array]:
-    """Unit directions of the upper hemisphere, (m, 3), and their solid angles, (m,), which sum to 2π.
-
-    Every ring is turned against the one before it.
-    """
-    node, weight = np.polynomial.legendre.leggauss(ELEVATIONS)
-    z = np.repeat((node + 1) / 2, AZIMUTHS)
-    turn = np.repeat(np.arange(ELEVATIONS) / ELEVATIONS, AZIMUTHS)
-    azimuth = 2 * np.pi * (np.tile(np.arange(AZIMUTHS), ELEVATIONS) + turn) / AZIMUTHS
-    across = np.sqrt(1 - z * z)
-    directions = np.stack([across * np.cos(azimuth), across * np.sin(azimuth), z], -1)
-    return directions, np.repeat(weight, AZIMUTHS) * np.pi / AZIMUTHS
-
-
-def _shifted(light: Single, shift: Array) -> Single:
-    """Periodic fields (..., N, N) read at x + shift."""
-    columns, rows = (_shift_matrix(part, light.shape[-1]) for part in shift)
-    return np.asarray(rows @ light @ columns.T)
-
-
-def _shift_matrix(shift: float, size: int) -> Single:
-    """The matrix, (size, size), that reads a periodic row of texels at x + shift, linearly between two."""
-    whole = int(np.floor(shift))
-    part = np.float32(shift - whole)
-    texel = np.arange(size)
-    matrix = np.zeros((size, size), np.float32)
-    matrix[texel, (texel + whole) % size] = 1 - part
-    matrix[texel, (texel + whole + 1) % size] += part
-    return matrix
+            crossing.move(light if step else enters, step, other, light)
+            np.multiply(light, crossing.width[k], out=other).sum(1, out=phi[k])
+            np.multiply(light, crossing.to_eye[k], out=other).sum(1, out=seen[k])
+            flux[:, k] = np.matmul(apart, light.reshape(flat)).reshape(count, 3, size, size).swapaxes(0, 1)
+            across = perpendicular[:, k].reshape(3, count, -1).swapaxes(0, 1)
+            np.matmul(towards, across, out=source.reshape(flat))
+            source *= crossing.per_sine[k]
+            source += even[k][:, None]
+            light -= source
+            light *= crossing.passes[k]
+            light += source
+        crossing.move(light, layers, other, light)
+        floor = (light * np.abs(apart[2])[:, None, None]).sum(1)
+        return Arriving(phi, flux, floor), seen

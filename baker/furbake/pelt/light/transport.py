@@ -12,7 +12,7 @@ slabs with the hairs as thin and as long as on the body.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
@@ -20,9 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.pelt.hairs.drawn import through_own
-from furbake.pelt.hairs.volume import Volume, average_down, doubled, pool, slab_means
+from furbake.pelt.hairs.volume import Volume, doubled, pool, slab_means
 from furbake.pelt.light.depth import Depth
-from furbake.pelt.light.fibre import cylinder, sine
+from furbake.pelt.light.fibre import ABOVE, Cylinders, shown
 from furbake.pelt.light.paths import BODY_RADIUS, lowest, spread, thinned
 from furbake.pelt.light.scatter import Slabs, Unscattered, scatter
 
@@ -43,6 +43,9 @@ HIDDEN = 0.02
 
 MERGED = 2
 """Fine slabs that a bent ray crosses as one where a stored slab has twice as many or more: T changes little between."""
+
+CHUNK = 2**16
+"""Voxels that are worked on together: a core's cache holds what is between."""
 
 SINGLE_SHARE = 0.8
 """Share of the time that single scattering takes, for the progress."""
@@ -68,8 +71,13 @@ def parted(slabs: Single, count: int) -> Single:
         return slabs
     place = (np.arange(len(slabs) * count) + 0.5) / count - 0.5
     low = np.clip(np.floor(place).astype(np.intp), 0, max(len(slabs) - 2, 0))
-    share = np.clip(place - low, 0, 1).astype(np.float32)[:, None, None]
-    return np.asarray(slabs[low] * (1 - share) + slabs[np.minimum(low + 1, len(slabs) - 1)] * share)
+    share = np.clip(place - low, 0, 1).astype(np.float32)
+    parts = np.empty((len(place), *slabs.shape[1:]), np.float32)
+    for i, (one, other) in enumerate(zip(low, np.minimum(low + 1, len(slabs) - 1), strict=True)):
+        np.subtract(slabs[other], slabs[one], out=parts[i])
+        parts[i] *= share[i]
+        parts[i] += slabs[one]
+    return parts
 
 
 @dataclass(frozen=True)
@@ -102,8 +110,10 @@ def sample(
     progress: Callable[[float], None] = lambda fraction: None,
 ) -> Single:
     """L of every stored texel under every light, (n, layers, size, size) float32: T·D + M of `sample_apart`."""
-    single, multiple, _ = sample_apart(fine, layers, size, lights, setting, progress=progress)
-    return single + multiple
+    single, multiple, _ = _apart(fine, layers, size, lights, setting, progress=progress)
+    for i, more in enumerate(multiple):
+        single[i] += doubled(more)
+    return single
 
 
 def sample_apart(
@@ -122,6 +132,21 @@ def sample_apart(
     lights : (n, 3) as low as `lowest(beta)`; lower ones reach nothing
     darker : share of albedo and skin, and indices of lights under which M is sampled once more with these
     """
+    single, multiple, less = _apart(fine, layers, size, lights, setting, darker=darker, progress=progress)
+    return single, doubled(multiple), None if less is None else doubled(less)
+
+
+def _apart(
+    fine: Volume,
+    layers: int,
+    size: int,
+    lights: Array,
+    setting: Setting,
+    *,
+    darker: tuple[float, NDArray[np.intp]] | None = None,
+    progress: Callable[[float], None],
+) -> tuple[Single, Single, Single | None]:
+    """As `sample_apart`, M at half the resolution."""
     half = (layers, size // 2, size // 2)
     single = np.empty((len(lights), layers, size, size), np.float32)
     caught, reaching = (np.empty((len(lights), *half), np.float32) for _ in range(2))
@@ -135,8 +160,7 @@ def sample_apart(
     albedo, skin = setting.albedo, 0.0 if setting.flat else setting.skin
 
     def more(share: float, some: slice | NDArray[np.intp]) -> Single:
-        multiple = scatter(slabs, light.of(some), albedo=share * albedo, skin=share * skin, faint=not setting.flat)
-        return doubled(multiple)
+        return scatter(slabs, light.of(some), albedo=share * albedo, skin=share * skin, faint=not setting.flat)
 
     multiple = more(1.0, slice(None))
     progress(1.0)
@@ -172,9 +196,12 @@ def transmitted(
     caught = sigma * width
     slabs = len(caught) // merged
     depth = Depth(joined(caught, merged), slab * merged, beta, None if aside is None else slab_means(aside, slabs))
-    clear, floor = depth.through(light)
     own = through_own(radius, caught.shape[-1], slab * merged / 2, mean_share(caught, sigma))
-    return parted(clear, merged) / own.astype(np.float32)[:, None, None], floor * np.float32(max(light[2], 0))
+    del caught
+    clear, floor = depth.through(light)
+    clear = parted(clear, merged)
+    clear /= own.astype(np.float32)[:, None, None]
+    return clear, floor * np.float32(max(light[2], 0))
 
 
 def mean_direction(parts: list[Single]) -> Single:
@@ -196,15 +223,17 @@ class Beam:
         clear = np.cumprod(1 - coverage[::-1], axis=0, dtype=np.float32)[::-1]
         above = np.concatenate([clear[1:], np.ones_like(clear[:1])])
         # Hairs that the eye sees through all that lies above count most in their texel.
-        shares = (coverage * (above + HIDDEN)).astype(np.float32)
-        self.shares = shares.reshape(layers, -1, *coverage.shape[1:])
+        self.shares = np.maximum(coverage * (above + HIDDEN), np.float32(1e-6), dtype=np.float32)
         self.breadth, self.sigma = fine.breadth.astype(np.float32), fine.extinction.astype(np.float32)
-        self.tangent = fine.tangent.astype(np.float32)
+        tangent = fine.tangent.astype(np.float32)
         if beta is not None:
             middle = (np.arange(len(self.sigma)) + 0.5) / len(self.sigma)
-            self.tangent, longer = spread(self.tangent, middle, beta)
+            tangent, longer = spread(tangent, middle, beta)
             self.breadth *= longer
             self.sigma *= longer
+        self.axes = np.ascontiguousarray(np.moveaxis(tangent, -1, 0))
+        self.from_above = Cylinders(self.along(ABOVE))
+        self.seen = self._pooled(self.shares, self.size)
         self.hair: Single = np.maximum(self.stored(self.breadth), np.float32(1e-6))
         per_slab = len(self.sigma) // layers
         self.merged = MERGED if per_slab >= 2 * MERGED and per_slab % MERGED == 0 else 1
@@ -216,25 +245,46 @@ class Beam:
         A hair that the light runs along catches less of it and shades less: its σ counts times the sine between the
         two.
         """
-        passed, skin = self.reach(light)
-        single = average_down(passed * cylinder(self.tangent, light), self.shares, self.size)
-        return single, *self.caught(passed, light), pool(skin, self.half)
+        along = self.along(light)
+        passed, skin = self._reach(light, along)
+        return self.to_eye(passed, light, along), *self.caught(passed, along), pool(skin, self.half)
 
-    def caught(self, passed: Single, light: Array) -> tuple[Single, Single]:
-        """T·sin θ and T on average over the hairs, (K, N/2, N/2); passed : T of the fine voxels."""
-        lit = passed * self.breadth
-        return self.stored(lit * sine(self.tangent, light)) / self.hair, self.stored(lit) / self.hair
+    def along(self, way: Array) -> Single:
+        """Cosines between the hairs and a direction, (K, N, N)."""
+        return np.asarray(np.tensordot(way.astype(np.float32), self.axes, 1))
+
+    def to_eye(self, passed: Single, light: Array, along: Single) -> Single:
+        """T·D averaged down, (layers, N, N); passed : T of the fine voxels; along : of the light."""
+        single = np.empty((self.layers, self.size, self.size), np.float32)
+        for some, fine in self._chunks():
+            lit = self.from_above.lit(along[fine], float(light[2]), fine)
+            lit *= passed[fine]
+            lit *= self.shares[fine]
+            np.divide(self._pooled(lit, self.size), self.seen[some], out=single[some])
+        return single
+
+    def caught(self, passed: Single, along: Single) -> tuple[Single, Single]:
+        """T·sin θ and T on average over the hairs, (layers, N/2, N/2); parameters as of `to_eye`."""
+        caught, reaching = np.empty((2, *self.hair.shape), np.float32)
+        for some, fine in self._chunks():
+            lit = passed[fine] * self.breadth[fine]
+            np.divide(self.stored(lit), self.hair[some], out=reaching[some])
+            lit *= shown(along[fine])
+            np.divide(self.stored(lit), self.hair[some], out=caught[some])
+        return caught, reaching
 
     def reach(self, light: Array) -> tuple[Single, Single]:
         """T of the fine voxels, (K, N, N), and the skin's irradiance, (N, N)."""
-        width = sine(self.tangent, light)
+        return self._reach(light, self.along(light))
+
+    def _reach(self, light: Array, along: Single) -> tuple[Single, Single]:
         return transmitted(
-            self.sigma, width, self.radius, self.slab, light, self.beta, aside=self.aside, merged=self.merged
+            self.sigma, shown(along), self.radius, self.slab, light, self.beta, aside=self.aside, merged=self.merged
         )
 
     def slabs(self) -> Slabs:
         """The stored slabs at half the resolution, as thin as hair is on the body, for `scatter`."""
-        tangent = mean_direction([self.stored(self.breadth * self.tangent[..., axis]) for axis in range(3)])
+        tangent = mean_direction([self.stored(self.breadth * axis) for axis in self.axes])
         sigma = self.stored(self.breadth)
         if self.beta is not None:
             sigma *= thinned((np.arange(self.layers) + 0.5) / self.layers, self.beta).astype(np.float32)[:, None, None]
@@ -242,6 +292,17 @@ class Beam:
         return Slabs(sigma, self.height / self.layers, tangent, aside)
 
     def stored(self, fine: Single) -> Single:
-        """Means over blocks of fine voxels, to stored slabs at half the stored resolution."""
-        mean: Single = pool(fine.reshape(self.layers, -1, *fine.shape[1:]).mean(1), self.half)
-        return mean
+        """Means over blocks of the fine voxels of whole stored slabs, at half the stored resolution."""
+        return self._pooled(fine, self.half)
+
+    def _pooled(self, fine: Single, size: int) -> Single:
+        per_slab = len(self.sigma) // self.layers
+        return pool(fine.reshape(-1, per_slab, *fine.shape[1:]).mean(1), size)
+
+    def _chunks(self) -> Iterator[tuple[slice, slice]]:
+        """Some stored slabs after the other, and the fine slabs that they are made of."""
+        per_slab = len(self.sigma) // self.layers
+        count = max(CHUNK // (per_slab * self.sigma[0].size), 1)
+        for first in range(0, self.layers, count):
+            last = min(first + count, self.layers)
+            yield slice(first, last), slice(first * per_slab, last * per_slab)

@@ -3,10 +3,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from furbake.pelt.light import crossing
 from furbake.pelt.light import scatter as module
+from furbake.pelt.light.crossing import hemisphere_rule
 from furbake.pelt.light.depth import passing
 from furbake.pelt.light.fibre import cylinder, sine
-from furbake.pelt.light.scatter import Arriving, Medium, Slabs, Unscattered, hemisphere_rule, scatter
+from furbake.pelt.light.scatter import Arriving, Medium, Slabs, Unscattered, scatter
 
 UPRIGHT = np.array([0.0, 0.0, 1.0], np.float32)
 RNG = np.random.default_rng(0)
@@ -24,7 +26,7 @@ def dust(sigma: np.ndarray, slab: float, reaching: np.ndarray, albedo: float) ->
     nothing, floor = np.zeros((3, *field.shape), np.float32), np.zeros((1, *sigma.shape[1:]), np.float32)
     total = np.zeros_like(field)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(module, "sine", lambda tangent, way: np.ones(tangent.shape[:-1], np.float32))
+        patch.setattr(crossing, "sine", lambda tangent, way: np.ones(tangent.shape[:-1], np.float32))
         for _ in range(60):
             field = medium.scattered(Arriving(field, nothing, floor), albedo * np.pi / 4)[0].phi
             total += field
@@ -71,9 +73,10 @@ def test_white_hairs_lose_no_light() -> None:
     perpendicular = flux - across * (flux * across).sum(0)
     leaves = 0.0
     directions, solid_angles = hemisphere_rule()
-    for way, solid_angle in zip([*directions, *-directions], [*solid_angles, *solid_angles], strict=True):
-        _, end = medium.sweep(arriving.phi, perpendicular, np.float32(1 / (4 * np.pi)), floor, way)
-        leaves += solid_angle * abs(way[2]) * end.mean()
+    even, across_hairs = arriving.phi / np.pi**2, perpendicular / 8  # what white hairs send on of φ and F⊥
+    for ways in (directions, -directions):
+        part, _ = medium.sweep(even, across_hairs, floor, ways, solid_angles)
+        leaves += part.floor.mean()
     again, _ = medium.scattered(arriving, albedo=1.0)
 
     def caught(phi: np.ndarray) -> float:
