@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.asset.buffer import Buffer, numbers
+from furbake.asset.buffer import MESHOPT, Buffer, numbers
 from furbake.asset.planes import pack, pack_fin, write_png
 from furbake.asset.rig.bind import Return
 from furbake.asset.rig.motion import Motion
@@ -80,8 +80,11 @@ class FurModel:
     motion: Motion | None = None
 
 
-def write_gltf(folder: Path, model: FurModel) -> Record:
-    """Write model.gltf, model.bin and all images into `folder`; counts and file sizes for the record."""
+def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
+    """Write model.gltf, model.bin and all images into `folder`; counts and file sizes for the record.
+
+    compress : meshes by `EXT_meshopt_compression`
+    """
     features = placed(model.skin, model.features)
     laid, model = model.skin, _bound(model)
     surface, charts, fins, fur, pelts, motion = (
@@ -90,7 +93,7 @@ def write_gltf(folder: Path, model: FurModel) -> Record:
     pelt = pelts[0]
     looks = Looks(folder, [name for each in pelts for name in _write_planes(folder, each, _prefix(each, pelt))])
     planes = list(looks.images)
-    buffer = Buffer()
+    buffer = Buffer(compress)
     ground = model.ground or surface
     place = grid(surface.vertices, ground.vertices)
     body = Stand(surface, *place, motion, None if motion is None else motion.skin)
@@ -117,19 +120,18 @@ def write_gltf(folder: Path, model: FurModel) -> Record:
     nodes = [{"name": name, "mesh": i, **undone} for i, name in enumerate(names)]
     nodes += feature_nodes(features, buffer, looks, meshes)
     roots, moving = rigged(nodes, features, motion, laid, place, buffer)
+    needed = [QUANTIZATION, *([MESHOPT] if buffer.unpacked else [])]
     document = {
         "asset": {"version": "2.0", "generator": f"furbake {version('furbake')}"},
-        "extensionsUsed": [EXTENSION, QUANTIZATION],
-        "extensionsRequired": [QUANTIZATION],
+        "extensionsUsed": [EXTENSION, *needed],
+        "extensionsRequired": needed,
         "scene": 0,
         "scenes": [{"nodes": [0, *roots]}],
         "nodes": nodes,
         "meshes": meshes,
         **moving,
         **looks.records,
-        "accessors": buffer.accessors,
-        "bufferViews": buffer.views,
-        "buffers": [{"uri": "model.bin", "byteLength": len(buffer.data)}],
+        **buffer.records("model.bin"),
         "extensions": {EXTENSION: extension(pelts, model.length, tiles, planes, names, motion is not None)},
     }
     (folder / "model.bin").write_bytes(bytes(buffer.data))

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from jsonschema import Draft202012Validator
 
+from furbake.asset.buffer import MESHOPT
 from furbake.asset.gltf import EXTENSION, QUANTIZATION
 from furbake.asset.planes import PlaneError
 from furbake.asset.read import Asset, AssetError, inside, read_asset
@@ -108,8 +109,9 @@ def _document(asset: Asset) -> Iterator[str]:
     for name, listed in ((EXTENSION, used), (QUANTIZATION, used), (QUANTIZATION, required)):
         if name not in listed:
             yield f"model.gltf: {name} is not in {'extensionsUsed' if listed is used else 'extensionsRequired'}"
-    if len(document["buffers"]) != 1:
-        yield f"model.gltf: {len(document['buffers'])} buffers, expected 1"
+    spare = [buffer for buffer in document["buffers"][1:] if "uri" not in buffer and MESHOPT in required]
+    if len(document["buffers"]) != 1 + len(spare) or len(spare) > 1:
+        yield f"model.gltf: {len(document['buffers'])} buffers, expected 1, and one without data where some are packed"
     size = document["buffers"][0]["byteLength"]
     if size != len(asset.data):
         yield f"{document['buffers'][0]['uri']}: {len(asset.data)} bytes, expected {size}"

@@ -89,6 +89,8 @@ class BakeOptions:
     """JSON file of eyes, a nose and the like."""
     fins: bool = True
     """Quads on the edges that show the fur from the side, where shells are seen edge-on."""
+    meshopt: bool = True
+    """Compress meshes by `EXT_meshopt_compression`, where that makes them smaller."""
     coat: Coat = field(default_factory=Coat)
     ramp: Ramp = field(default_factory=Ramp)
     colour_plane: bool = True
@@ -173,7 +175,7 @@ class BakeOptions:
         Raises OptionError for anything else.
         """
         try:
-            options = build({"curves": "none", "bits": 8, **record})
+            options = build({"curves": "none", "bits": 8, "meshopt": False, **record})
             options.check()
         except (TypeError, ValueError, AttributeError, KeyError) as error:
             raise OptionError(

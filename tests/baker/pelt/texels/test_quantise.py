@@ -76,7 +76,7 @@ def test_fewer_bits_are_multiples_of_a_step_within_a_byte(bits: int, step: int) 
     scale, bias = byte_range(coefficients, np.ones((1, 32, 32)), 256 - step)
     codes = quantise(coefficients, scale, bias, np.eye(6), 256 - step, step)
     assert codes.dtype == np.uint8
-    assert len(np.unique(codes)) == 2**bits
+    assert 0.6 * 2**bits < len(np.unique(codes)) <= 2**bits
     assert not (codes % step).any()
     low, high = (dequantise(np.uint8([code] * 6), scale, bias) for code in (0, 256 - step))
     lost = dequantise(codes, scale, bias) - np.clip(coefficients, low, high)
