@@ -19,6 +19,7 @@ import { type Fin, FUR_EXTENSION, FUR_VERSION, type FurAsset, type Pelt, parseFu
 import type { FurTextures } from './light/texels.ts';
 import { checkLimits, type FurLimits } from './planes/furLimits.ts';
 import { GltfFiles } from './planes/GltfFiles.ts';
+import { isPacked, meshDecoder } from './planes/meshopt.ts';
 import { decodePlanes, type Layout, type PlaneFile, type Role } from './planes/mipLevels.ts';
 import { type Cut, PeltStates } from './planes/PeltStates.ts';
 import { textureArray } from './planes/planes.ts';
@@ -80,6 +81,10 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		if (!this.#extension) return;
 		checkGltf(parser.json);
 		checkRig(parser.json, this.#extension);
+		if (!isPacked(parser.json)) return;
+		parser.options.meshoptDecoder ??= meshDecoder();
+		// Of compressed views the loader fetches the buffer itself: it has to arrive whole, too.
+		parser.loadBuffer = (index) => this.#files.buffer(index);
 	}
 
 	get #extension() {

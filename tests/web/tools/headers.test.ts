@@ -44,7 +44,7 @@ describe("the site's own rules", () => {
 			}),
 		);
 		expect(policy.get('default-src')).toEqual(["'self'"]);
-		expect(policy.get('script-src')).toEqual(["'self'"]);
+		expect(policy.get('script-src')).toEqual(["'self'", "'wasm-unsafe-eval'"]);
 		expect(policy.get('style-src')).toEqual(["'self'"]);
 		expect(policy.get('object-src')).toEqual(["'none'"]);
 		for (const name of ['base-uri', 'form-action', 'frame-ancestors']) expect(policy.get(name)).toEqual(["'self'"]);
