@@ -11,6 +11,7 @@ import {
 } from 'three';
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 import { checkGeometry } from './body/checkGeometry.ts';
+import { finQuads } from './body/finQuads.ts';
 import { Skin } from './body/Skin.ts';
 import { Fur } from './Fur.ts';
 import { checkGltf } from './format/gltf.ts';
@@ -78,13 +79,13 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		this.#parser = parser;
 		this.#options = options;
 		this.#files = new GltfFiles(parser);
+		const packed = isPacked(parser.json);
+		if (packed) parser.options.meshoptDecoder ??= meshDecoder();
 		if (!this.#extension) return;
 		checkGltf(parser.json);
 		checkRig(parser.json, this.#extension);
-		if (!isPacked(parser.json)) return;
-		parser.options.meshoptDecoder ??= meshDecoder();
 		// Of compressed views the loader fetches the buffer itself: it has to arrive whole, too.
-		parser.loadBuffer = (index) => this.#files.buffer(index);
+		if (packed) parser.loadBuffer = (index) => this.#files.buffer(index);
 	}
 
 	get #extension() {
@@ -113,11 +114,11 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 
 	async #grow(asset: FurAsset, scene: Object3D): Promise<Fur> {
 		const pelt = asset.pelts[0] as Pelt;
-		const withFins = asset.fins !== undefined && pelt.fin;
+		const withFins = (asset.fins ?? asset.edges) !== undefined && pelt.fin;
 		const [{ skin, surface, colour }, shells, quads, fins] = await Promise.all([
 			this.#body(asset, scene),
 			this.#shellCut(asset, pelt),
-			withFins ? this.#mesh(asset.fins as number, 'fins') : undefined,
+			withFins ? this.#quads(asset) : undefined,
 			withFins ? this.#finCut(asset, withFins) : undefined,
 		]);
 		const ground = {
@@ -147,6 +148,28 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		const skin = new Skin(object, pieces, together ? surface.geometry : undefined);
 		this.#options.skin?.(scene);
 		return { skin, surface, colour };
+	}
+
+	/** The fins' mesh: that of their node, or made from edges of the shells. */
+	async #quads(asset: FurAsset): Promise<Mesh> {
+		const { fins, edges, shells, length, height, drift, tiles = 1 } = asset;
+		if (!edges || fins !== undefined) return this.#mesh(fins as number, 'fins');
+		const [surface, pairs] = await Promise.all([
+			this.#mesh(shells, 'shells'),
+			this.#parser.json.accessors?.[edges.accessor] && this.#parser.getDependency('accessor', edges.accessor),
+		]);
+		if (pairs?.itemSize !== 1) throw new Error(`${FUR_EXTENSION}/edges: accessor ${edges.accessor} has no vertices`);
+		const tile = length / height / surface.scale.x;
+		const places = { start: edges.start, tile, lean: drift.at(-1)?.[1] ?? 0, tiles };
+		try {
+			const quads = new Mesh(finQuads(surface.geometry, pairs.array, places));
+			quads.position.copy(surface.position);
+			quads.quaternion.copy(surface.quaternion);
+			quads.scale.copy(surface.scale);
+			return quads;
+		} catch (error) {
+			throw new Error(`${FUR_EXTENSION}/edges: ${(error as Error).message}`);
+		}
 	}
 
 	/** The node's mesh, checked for the attributes that shells or fins need. */

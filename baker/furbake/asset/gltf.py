@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.asset.buffer import MESHOPT, Buffer, numbers
+from furbake.asset.edges import edges_of
 from furbake.asset.planes import pack, pack_fin, write_png
 from furbake.asset.rig.bind import Return
 from furbake.asset.rig.motion import Motion
@@ -41,8 +42,8 @@ Record = dict[str, Any]
 Floats = NDArray[np.float64]
 
 EXTENSION = "FUR_ptm_shells"
-VERSION, VERSION_STATES, VERSION_CURVES, VERSION_MOTION = "1.0", "1.1", "2.0", "2.1"
-"""Format versions: one pelt, several states of it, mean curves, bodies that move."""
+VERSION, VERSION_STATES, VERSION_CURVES, VERSION_MOTION, VERSION_EDGES = "1.0", "1.1", "2.0", "2.1", "2.2"
+"""Format versions: one pelt, several states of it, mean curves, bodies that move, fins as edges."""
 
 QUANTIZATION = "KHR_mesh_quantization"
 
@@ -83,7 +84,7 @@ class FurModel:
 def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     """Write model.gltf, model.bin and all images into `folder`; counts and file sizes for the record.
 
-    compress : meshes by `EXT_meshopt_compression`
+    compress : meshes by `EXT_meshopt_compression`, and the fins of a still body as edges of the shells
     """
     features = placed(model.skin, model.features)
     laid, model = model.skin, _bound(model)
@@ -110,10 +111,12 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
         {"name": "skin", "primitives": skin},
         {"name": "shells", "primitives": [shells | below.shell_targets(buffer, charts)]},
     ]
-    if fins is not None:
+    compact = edges_of(charts, fins) if compress and fins is not None and motion is None and pelt.curves else None
+    edges = None if compact is None else buffer.edges(*compact, len(charts.source))
+    if fins is not None and edges is None:
         stood = fin_vertices(ground, fins, fur, below.positions, tiles) | below.joints(fins.source)
-        edges = buffer.primitive(stood, fins.faces)
-        meshes.append({"name": "fins", "primitives": [edges | below.fin_targets(buffer, fins)]})
+        quads = buffer.primitive(stood, fins.faces)
+        meshes.append({"name": "fins", "primitives": [quads | below.fin_targets(buffer, fins)]})
     names = [mesh["name"] for mesh in meshes]
     meshes = [mesh | morphs(motion) for mesh in meshes]
     undone = {"translation": numbers(place[0]), "scale": numbers(np.full(3, place[1]))}
@@ -132,7 +135,7 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
         **moving,
         **looks.records,
         **buffer.records("model.bin"),
-        "extensions": {EXTENSION: extension(pelts, model.length, tiles, planes, names, motion is not None)},
+        "extensions": {EXTENSION: extension(pelts, model.length, tiles, planes, names, motion is not None, edges)},
     }
     (folder / "model.bin").write_bytes(bytes(buffer.data))
     (folder / "model.gltf").write_text(dump(document), "utf-8", newline="\n")
@@ -172,13 +175,20 @@ def _counts(model: FurModel) -> Record:
 
 
 def extension(
-    pelts: Sequence[Pelt], length: float, tiles: float, images: list[str], nodes: list[str], moves: bool = False
+    pelts: Sequence[Pelt],
+    length: float,
+    tiles: float,
+    images: list[str],
+    nodes: list[str],
+    moves: bool = False,
+    edges: Record | None = None,
 ) -> Record:
     """The JSON object of the extension, for nodes (skin, shells and perhaps fins) and images in the order of writing.
 
     pelts : the dry fur and further states of it, all with its basis, λ and Ω
     length : longest fur, model units; tiles : how many of them a texture coordinate of 1 stands for
     moves : whether the body has joints, clips or morph targets
+    edges : of the fins, where they are no node
     """
     pelt = pelts[0]
     basis: Record = {"kind": pelt.basis.kind}
@@ -190,11 +200,12 @@ def extension(
     version = VERSION if len(pelts) == 1 else VERSION_STATES
     lit: Record = {"environment": [numbers(row) for row in environment(pelt.basis)]}
     if pelt.curves is not None:
-        version = VERSION_MOTION if moves else VERSION_CURVES
+        version = VERSION_EDGES if edges else VERSION_MOTION if moves else VERSION_CURVES
         lit = {"curves": {"even": _tables(pelt.curves.even), "along": _tables(pelt.curves.along)}}
     return {
         "version": version,
         **{name: i for i, name in enumerate(nodes)},
+        **({} if edges is None else {"edges": edges}),
         "layers": pelt.layers,
         "size": pelt.size,
         "coefficients": pelt.coefficients,

@@ -50,6 +50,7 @@ def _summary(asset: Asset) -> dict[str, Any]:
         "skin": _mesh(asset, "skin"),
         "shells": _mesh(asset, "shells"),
         **({"fins": _mesh(asset, "fins")} if "fins" in fur else {}),
+        **({"fins": _edges(asset)} if "edges" in fur else {}),
         **_motion(asset),
         "fit": record.get("fit", {}),
         **({"states": fits} if fits else {}),
@@ -65,6 +66,12 @@ def _mesh(asset: Asset, name: str) -> dict[str, Any]:
         "faces": sum(accessors[primitive["indices"]]["count"] // 3 for primitive in primitives),
         "attributes": list(dict.fromkeys(name for primitive in primitives for name in primitive["attributes"])),
     }
+
+
+def _edges(asset: Asset) -> dict[str, Any]:
+    """What a reader makes of the edges."""
+    count = asset.document["accessors"][asset.fur["edges"]["accessor"]]["count"] // 2
+    return {"vertices": 4 * count, "faces": 2 * count, "attributes": ["edges"]}
 
 
 def _motion(asset: Asset) -> dict[str, Any]:

@@ -164,12 +164,36 @@ def _shells(asset: Asset) -> Iterator[str]:
 
 
 def _fins(asset: Asset) -> Iterator[str]:
-    drawn = "fins" in asset.fur
+    drawn = "fins" in asset.fur or "edges" in asset.fur
     for i, pelt in enumerate(asset.fur["pelts"]):
         if ("fin" in pelt) != drawn:
             yield f"{EXTENSION}: pelts[{i}] has {'no ' if drawn else 'a '}fin, expected one where there are fins"
-    if drawn:
+    if "fins" in asset.fur:
         yield from _furry(asset, "fins")
+    if "edges" in asset.fur:
+        yield from _edges(asset)
+
+
+def _edges(asset: Asset) -> Iterator[str]:
+    """Problems of the pairs: each is an edge of a face of the shells, and there once."""
+    index = asset.fur["edges"]["accessor"]
+    primitive = asset.primitive(asset.fur["shells"])
+    count = asset.document["accessors"][primitive["attributes"]["POSITION"]]["count"]
+    values = asset.accessor(index)
+    if values.ndim != 1 or values.dtype.kind != "u" or len(values) % 2:
+        yield f"edges: {values.shape} numbers {values.dtype}, expected pairs of vertices of the shells"
+        return
+    pairs, faces = values.reshape(-1, 2).astype(np.int64), asset.accessor(primitive["indices"]).reshape(-1, 3)
+    if pairs.max() >= count:
+        yield f"edges: vertex {pairs.max()}, expected less than {count} as of the shells"
+        return
+    base = np.array([count, 1])
+    ends = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], -1).reshape(-1, 2).astype(np.int64), axis=1)
+    keys = np.sort(pairs, axis=1) @ base
+    if strange := int((~np.isin(keys, ends @ base)).sum()):
+        yield f"edges: {strange} pairs of vertices are no edge of a face, expected edges of the shells"
+    if twice := len(keys) - len(np.unique(keys)):
+        yield f"edges: {twice} pairs are there twice, expected each once"
 
 
 def _furry(asset: Asset, name: str) -> Iterator[str]:
