@@ -154,15 +154,15 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 	async #quads(asset: FurAsset): Promise<Mesh> {
 		const { fins, edges, shells, length, height, drift, tiles = 1 } = asset;
 		if (!edges || fins !== undefined) return this.#mesh(fins as number, 'fins');
-		const [surface, pairs] = await Promise.all([
+		const [surface, mask] = await Promise.all([
 			this.#mesh(shells, 'shells'),
-			this.#parser.json.accessors?.[edges.accessor] && this.#parser.getDependency('accessor', edges.accessor),
+			this.#parser.json.accessors?.[edges.mask] && this.#parser.getDependency('accessor', edges.mask),
 		]);
-		if (pairs?.itemSize !== 1) throw new Error(`${FUR_EXTENSION}/edges: accessor ${edges.accessor} has no vertices`);
+		if (!(mask?.array instanceof Uint8Array)) throw new Error(`${FUR_EXTENSION}/edges: accessor ${edges.mask} has no bytes`);
 		const tile = length / height / surface.scale.x;
 		const places = { start: edges.start, tile, lean: drift.at(-1)?.[1] ?? 0, tiles };
 		try {
-			const quads = new Mesh(finQuads(surface.geometry, pairs.array, places));
+			const quads = new Mesh(finQuads(surface.geometry, mask.array, places));
 			quads.position.copy(surface.position);
 			quads.quaternion.copy(surface.quaternion);
 			quads.scale.copy(surface.scale);

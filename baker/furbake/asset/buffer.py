@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 Ints = NDArray[np.int64]
 Record = dict[str, Any]
-Mode = Literal["ATTRIBUTES", "TRIANGLES", "INDICES"]
+Mode = Literal["ATTRIBUTES", "TRIANGLES"]
 
 MESHOPT = "EXT_meshopt_compression"
 
@@ -106,13 +106,10 @@ class Buffer:
         component = UNSIGNED_SHORT if short else UNSIGNED_INT
         return self._append({"bufferView": view, "componentType": component, "count": faces.size, "type": "SCALAR"})
 
-    def edges(self, pairs: Ints, start: float, vertices: int) -> Record:
-        """The extension's object of fins on the edges (E, 2) of a mesh of so many vertices, in 16 bits where they fit."""
-        short = vertices <= 65535
-        view = self._packed(pairs.reshape(-1).astype("<u2" if short else "<u4"), "INDICES")
-        component = UNSIGNED_SHORT if short else UNSIGNED_INT
-        record = {"bufferView": view, "componentType": component, "count": pairs.size, "type": "SCALAR"}
-        return {"accessor": self._append(record), "start": numbers(np.array([start]))[0]}
+    def bits(self, values: NDArray[np.uint8]) -> int:
+        """Index of a new accessor of bytes that are no vertices."""
+        accessor = {"bufferView": self._view(values.tobytes()), "componentType": COMPONENTS[values.dtype]}
+        return self._append(accessor | {"count": len(values), "type": "SCALAR"})
 
     def records(self, uri: str) -> Record:
         """Members of the document: accessors, views, and buffers, the first of which is the file `uri`."""
@@ -122,7 +119,7 @@ class Buffer:
         return {"accessors": self.accessors, "bufferViews": self.views, "buffers": buffers}
 
     def _packed(self, values: NDArray[Any], mode: Mode, **properties: int) -> int:
-        """Index of a new view with a row of bytes per vertex, with corners of faces, or with other vertices' numbers.
+        """Index of a new view with a row of bytes per vertex, or with the corners of faces.
 
         Copies of vertices have equal bytes, which gzip finds and the codec does not: the smaller of the two is kept.
         """
@@ -161,11 +158,9 @@ def _described(values: NDArray[Any], bounds: bool, normalised: bool = True) -> R
 
 
 def _encoded(values: NDArray[Any], mode: Mode) -> bytes:
-    """The stream of rows of bytes, of the corners of faces, or of vertices' numbers."""
+    """The stream of rows of bytes, or of the corners of faces."""
     if mode == "TRIANGLES":
         return bytes(meshopt.encode_index_buffer(values.astype(np.uint32)))
-    if mode == "INDICES":
-        return bytes(meshopt.encode_index_sequence(values.astype(np.uint32)))
     return bytes(meshopt.encode_vertex_buffer_level(values, LEVEL, STREAM))
 
 

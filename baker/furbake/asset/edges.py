@@ -1,29 +1,47 @@
-"""Fins as pairs of the shells' vertices, from which a reader makes their quads."""
+"""Fins as edges of the shells, from which a reader makes their quads: a bit for each edge, in an order both know."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.surface.charts import Charts
 from furbake.surface.place.fins import Fins
 
 Ints = NDArray[np.int64]
+Bytes = NDArray[np.uint8]
 
 
-def edges_of(charts: Charts, fins: Fins) -> tuple[Ints, float] | None:
-    """(E, 2) vertices of the charts at the roots of each fin, ends of an edge of one face, first end first; the
-    texture coordinate at which the first begins, a share of a tile. None where an edge is in no chart.
+def shell_edges(faces: NDArray[Any], positions: NDArray[Any]) -> tuple[Ints, Ints]:
+    """Edges of the shells' surface, each once, in the order in which faces bring them: (E, 2) vertices, and (E,) keys
+    that say which points an edge joins.
+
+    faces : (F', 3); each is gone round from its lowest vertex
+    positions : (M, 3) as stored: copies of a point are equal
     """
-    following = np.roll(charts.faces, -1, axis=1)
-    ways = np.concatenate([np.stack([charts.faces, following], -1), np.stack([following, charts.faces], -1)])
-    pairs = ways.reshape(-1, 2)
-    pairs = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
-    base = int(charts.source.max()) + 1
-    known, first = np.unique(charts.source[pairs] @ np.array([base, 1]), return_index=True)
-    wanted = fins.source.reshape(-1, 4)[:, :2] @ np.array([base, 1])
-    place = np.minimum(np.searchsorted(known, wanted), len(known) - 1)
-    if (known[place] != wanted).any():
+    corners = np.asarray(faces, dtype=np.int64).reshape(-1, 3)
+    turn = (np.argmin(corners, axis=1)[:, None] + np.arange(3)) % 3
+    corners = np.take_along_axis(corners, turn, axis=1)
+    ends = np.stack([corners, np.roll(corners, -1, axis=1)], axis=-1).reshape(-1, 2)
+    _, point = np.unique(positions, axis=0, return_inverse=True)
+    joined = np.sort(point.reshape(-1)[ends], axis=1) @ np.array([len(positions), 1])
+    _, first = np.unique(joined, return_index=True)
+    order = np.sort(first)
+    return ends[order], joined[order]
+
+
+def fin_mask(faces: Ints, positions: NDArray[Any], source: Ints, fins: Fins) -> Bytes | None:
+    """Bits of the edges that have a fin, lowest first, in bytes; None where a fin stands on no edge of the shells.
+
+    faces, positions : as of `shell_edges`; source : (M,) vertices of the surface of which the shells' are copies
+    """
+    _, joined = shell_edges(faces, positions)
+    _, point = np.unique(positions, axis=0, return_inverse=True)
+    points = np.full(int(max(source.max(), fins.source.max())) + 1, -1, dtype=np.int64)
+    points[source] = point.reshape(-1)
+    ends = np.sort(points[fins.source.reshape(-1, 4)[:, :2]], axis=1)
+    wanted = ends @ np.array([len(positions), 1])
+    if (ends < 0).any() or not np.isin(wanted, joined).all():
         return None
-    found = pairs[first[place]]
-    return found[np.lexsort((found[:, 1], found[:, 0]))].astype(np.int64), float(fins.uv[0, 0] % 1.0)
+    return np.packbits(np.isin(joined, wanted), bitorder="little")

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.asset.buffer import MESHOPT, Buffer, numbers
-from furbake.asset.edges import edges_of
+from furbake.asset.edges import fin_mask
 from furbake.asset.planes import pack, pack_fin, write_png
 from furbake.asset.rig.bind import Return
 from furbake.asset.rig.motion import Motion
@@ -111,8 +111,9 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
         {"name": "skin", "primitives": skin},
         {"name": "shells", "primitives": [shells | below.shell_targets(buffer, charts)]},
     ]
-    compact = edges_of(charts, fins) if compress and fins is not None and motion is None and pelt.curves else None
-    edges = None if compact is None else buffer.edges(*compact, len(charts.source))
+    edges: Record | None = None
+    if compress and fins is not None and motion is None and pelt.curves is not None:
+        edges = _edges(charts, stood["POSITION"], fins, buffer)
     if fins is not None and edges is None:
         stood = fin_vertices(ground, fins, fur, below.positions, tiles) | below.joints(fins.source)
         quads = buffer.primitive(stood, fins.faces)
@@ -141,6 +142,14 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     (folder / "model.gltf").write_text(dump(document), "utf-8", newline="\n")
     files = ("model.gltf", "model.bin", *looks.images)
     return _counts(model) | {"bytes": {name: (folder / name).stat().st_size for name in files}}
+
+
+def _edges(charts: Charts, positions: NDArray[Any], fins: Fins, buffer: Buffer) -> Record | None:
+    """The extension's object of fins on edges of the shells; None where they stand elsewhere."""
+    mask = fin_mask(charts.faces, positions, charts.source, fins)
+    if mask is None:
+        return None
+    return {"mask": buffer.bits(mask), "start": numbers(np.array([fins.uv[0, 0] % 1.0]))[0]}
 
 
 def _bound(model: FurModel) -> FurModel:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from furbake.asset.read import Asset, AssetError
 
 
@@ -70,7 +72,7 @@ def _mesh(asset: Asset, name: str) -> dict[str, Any]:
 
 def _edges(asset: Asset) -> dict[str, Any]:
     """What a reader makes of the edges."""
-    count = asset.document["accessors"][asset.fur["edges"]["accessor"]]["count"] // 2
+    count = int(np.unpackbits(asset.accessor(asset.fur["edges"]["mask"])).sum())
     return {"vertices": 4 * count, "faces": 2 * count, "attributes": ["edges"]}
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from jsonschema import Draft202012Validator
 
 from furbake.asset.buffer import MESHOPT
+from furbake.asset.edges import shell_edges
 from furbake.asset.gltf import EXTENSION, QUANTIZATION
 from furbake.asset.planes import PlaneError
 from furbake.asset.read import Asset, AssetError, inside, read_asset
@@ -175,25 +176,15 @@ def _fins(asset: Asset) -> Iterator[str]:
 
 
 def _edges(asset: Asset) -> Iterator[str]:
-    """Problems of the pairs: each is an edge of a face of the shells, and there once."""
-    index = asset.fur["edges"]["accessor"]
+    """The mask has a bit for every edge of the shells."""
     primitive = asset.primitive(asset.fur["shells"])
-    count = asset.document["accessors"][primitive["attributes"]["POSITION"]]["count"]
-    values = asset.accessor(index)
-    if values.ndim != 1 or values.dtype.kind != "u" or len(values) % 2:
-        yield f"edges: {values.shape} numbers {values.dtype}, expected pairs of vertices of the shells"
-        return
-    pairs, faces = values.reshape(-1, 2).astype(np.int64), asset.accessor(primitive["indices"]).reshape(-1, 3)
-    if pairs.max() >= count:
-        yield f"edges: vertex {pairs.max()}, expected less than {count} as of the shells"
-        return
-    base = np.array([count, 1])
-    ends = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], -1).reshape(-1, 2).astype(np.int64), axis=1)
-    keys = np.sort(pairs, axis=1) @ base
-    if strange := int((~np.isin(keys, ends @ base)).sum()):
-        yield f"edges: {strange} pairs of vertices are no edge of a face, expected edges of the shells"
-    if twice := len(keys) - len(np.unique(keys)):
-        yield f"edges: {twice} pairs are there twice, expected each once"
+    faces, positions = (asset.accessor(i) for i in (primitive["indices"], primitive["attributes"]["POSITION"]))
+    count = len(shell_edges(faces, positions)[0])
+    mask = asset.accessor(asset.fur["edges"]["mask"])
+    if mask.dtype != np.uint8 or mask.shape != (-(-count // 8),):
+        yield f"edges: a mask of {mask.shape} {mask.dtype}, expected {-(-count // 8)} bytes for {count} edges"
+    elif np.unpackbits(mask, bitorder="little")[count:].any():
+        yield f"edges: the mask has bits beyond the {count} edges of the shells, expected 0 there"
 
 
 def _furry(asset: Asset, name: str) -> Iterator[str]:

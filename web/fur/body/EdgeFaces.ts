@@ -2,7 +2,10 @@ import { type BufferAttribute, type BufferGeometry, type InterleavedBufferAttrib
 
 /** Faces on both sides of an edge of a surface, whichever copies of its ends they have. */
 interface Sides {
-	/** First corner of a face. */
+	/** Vertices at its ends, as the first of its faces goes round it. */
+	from: number;
+	to: number;
+	/** First corner of that face. */
 	one: number;
 	/** The same of the other face; of the first where there is none. */
 	two: number;
@@ -30,29 +33,38 @@ export class EdgeFaces {
 			return point;
 		});
 		this.#corners = surface.index?.array ?? this.#points.map((_, i) => i);
-		for (let face = 0; face + 2 < this.#corners.length; face += 3) for (let c = 0; c < 3; c++) this.#add(face, c);
+		for (let face = 0; face + 2 < this.#corners.length; face += 3) this.#add(face);
 	}
 
-	/** Takes the edge from corner `c` of a face to the next. */
-	#add(face: number, c: number): void {
-		const key = this.#key(this.#vertex(face + c), this.#vertex(face + ((c + 1) % 3)));
-		const apex = this.#points[this.#vertex(face + ((c + 2) % 3))] as number;
-		const known = this.#sides.get(key);
-		if (!known) this.#sides.set(key, { one: face, two: face, apex });
-		// A face with the same third point is a copy in another patch.
-		else if (known.two === known.one && known.apex !== apex) known.two = face;
+	/** Edges, each once, in the order in which faces bring them: a face is gone round from its lowest vertex. */
+	get edges(): Iterable<Readonly<Sides>> {
+		return this.#sides.values();
 	}
 
-	/**
-	 * Puts the unit normals into `one` and `two`: the same on both sides of a border.
-	 *
-	 * @throws Error where no face has this edge
-	 */
-	normals(from: number, to: number, one: Vector3, two: Vector3): void {
-		const sides = this.#sides.get(this.#key(from, to));
-		if (!sides) throw new Error(`got vertices ${from} and ${to}, expected an edge of a face`);
-		this.#normal(sides.one, one);
-		this.#normal(sides.two, two);
+	/** Number of edges. */
+	get count(): number {
+		return this.#sides.size;
+	}
+
+	/** Takes the three edges of a face. */
+	#add(face: number): void {
+		const corners = [this.#vertex(face), this.#vertex(face + 1), this.#vertex(face + 2)];
+		const lowest = corners.indexOf(Math.min(...corners));
+		for (let c = lowest; c < lowest + 3; c++) {
+			const [from, to, third] = [corners[c % 3], corners[(c + 1) % 3], corners[(c + 2) % 3]] as [number, number, number];
+			const key = this.#key(from, to);
+			const apex = this.#points[third] as number;
+			const known = this.#sides.get(key);
+			if (!known) this.#sides.set(key, { from, to, one: face, two: face, apex });
+			// A face with the same third point is a copy in another patch.
+			else if (known.two === known.one && known.apex !== apex) known.two = face;
+		}
+	}
+
+	/** Puts the unit normals of an edge's faces into `one` and `two`: the same on both sides of a border. */
+	normals(edge: Readonly<Sides>, one: Vector3, two: Vector3): void {
+		this.#normal(edge.one, one);
+		this.#normal(edge.two, two);
 	}
 
 	#vertex(corner: number): number {

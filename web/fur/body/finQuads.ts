@@ -22,41 +22,42 @@ export interface FinPlaces {
 const SIZES = { position: 3, normal: 3, tangent: 4, uv: 2, _fur: 4, _edge: 4, color: 3 };
 
 /**
- * Four vertices per edge: root, root, tip, tip, first end before second.
+ * Four vertices per edge: root, root, tip, tip, first end before second. Fins run the way in which the fur is laid.
  *
  * @param surface the shells' geometry
- * @param pairs vertices of it, two per edge
- * @throws Error where a pair is no edge of a face
+ * @param mask a bit for each edge of it, lowest first
+ * @throws Error for a mask of another number of edges
  */
-export function finQuads(surface: BufferGeometry, pairs: ArrayLike<number>, places: FinPlaces): BufferGeometry {
+export function finQuads(surface: BufferGeometry, mask: Uint8Array, places: FinPlaces): BufferGeometry {
 	const { start, tile, lean, tiles } = places;
-	const [position, count] = [surface.getAttribute('position'), pairs.length / 2];
-	const known = Array.prototype.every.call(pairs, (vertex: number) => vertex < position.count);
-	if (count % 1 || !known) throw new Error(`got ${pairs.length} vertices, expected pairs of less than ${position.count}`);
+	const faces = new EdgeFaces(surface);
+	if (mask.length !== Math.ceil(faces.count / 8))
+		throw new Error(`got a mask of ${mask.length} bytes, expected ${Math.ceil(faces.count / 8)} for ${faces.count} edges`);
+	const edges = [...faces.edges].filter((_, i) => (mask[i >> 3] as number) & (1 << (i & 7)));
+	const count = edges.length;
 	const quads = new BufferGeometry();
 	for (const [name, size] of Object.entries(SIZES)) {
 		if (name !== 'color' || surface.hasAttribute(name))
 			quads.setAttribute(name, new Float32BufferAttribute(count * 4 * size, size));
 	}
-	const faces = new EdgeFaces(surface);
 	const roots = [new Root(surface, quads), new Root(surface, quads)] as const;
 	const [along, laid, one, two] = [new Vector3(), new Vector3(), new Vector3(), new Vector3()];
-	for (let edge = 0; edge < count; edge++) {
-		const ends = [pairs[edge * 2] as number, pairs[edge * 2 + 1] as number] as const;
-		const [first, second] = roots;
-		first.read(ends[0]);
-		second.read(ends[1]);
-		along.subVectors(second.place, first.place);
+	for (const [i, edge] of edges.entries()) {
+		const [from, to] = roots;
+		from.read(edge.from);
+		to.read(edge.to);
+		along.subVectors(to.place, from.place);
 		const length = along.length() / tile;
-		along.normalize();
-		laid.addVectors(first.across, second.across).normalize();
-		const sheared = lean * (1 - Math.abs(along.dot(laid)));
-		const begin = (start + GOLDEN * edge) % 1;
-		faces.normals(...ends, one, two);
-		for (const [end, root] of roots.entries()) {
+		laid.addVectors(from.across, to.across).normalize();
+		const cosine = along.normalize().dot(laid);
+		const sheared = lean * (1 - Math.abs(cosine));
+		const begin = (start + GOLDEN * i) % 1;
+		if (cosine < 0) along.negate();
+		faces.normals(edge, one, two);
+		for (const [end, root] of (cosine < 0 ? [to, from] : roots).entries()) {
 			const u = begin + end * length;
-			root.write(4 * edge + end, along, one, two, u / tiles, 0);
-			root.write(4 * edge + end + 2, along, one, two, (u + sheared) / tiles, 1 / tiles);
+			root.write(4 * i + end, along, one, two, u / tiles, 0);
+			root.write(4 * i + end + 2, along, one, two, (u + sheared) / tiles, 1 / tiles);
 		}
 	}
 	quads.setIndex(Array.from({ length: 6 * count }, (_, i) => 4 * Math.floor(i / 6) + ([0, 1, 3, 0, 3, 2][i % 6] as number)));

@@ -115,8 +115,8 @@ export interface FurAsset {
 	shells: number;
 	/** Index of the fins' node: quads on the edges. */
 	fins?: number;
-	/** In place of that node: accessor with pairs of the shells' vertices, and where the first fin begins in its tile; 2.2. */
-	edges?: { accessor: number; start: number };
+	/** In place of that node: accessor with a bit for each edge of the shells, and where the first fin begins; 2.2. */
+	edges?: { mask: number; start: number };
 	/** Factor from TEXCOORD_0 to tiles; 1 where absent. */
 	tiles?: number;
 	/** Slabs of the tile. */
