@@ -28,7 +28,8 @@ DRACO = "KHR_draco_mesh_compression"
 BROKEN = (ValueError, LookupError, TypeError, AttributeError, OverflowError, OSError)
 """Errors of a broken file. A MeshError is one of them: it must be let through."""
 
-COMPRESSED = ("MESHOPT_compression",)
+COMPRESSED = (*EXTENSIONS, "MESHOPT_compression")
+"""Extensions of a primitive that nothing decodes."""
 
 
 class UndecodableError(ValueError):
@@ -110,9 +111,8 @@ class GltfData:
     def view(self, index: Any) -> memoryview:
         """Bytes of a buffer view. Raises UndecodableError where they are compressed."""
         record = self.item("bufferViews", index)
-        for name in COMPRESSED:
-            if name in record.get("extensions", {}):
-                raise UndecodableError(name)
+        if COMPRESSED[-1] in record.get("extensions", {}):
+            raise UndecodableError(COMPRESSED[-1])
         packed = compression(record)
         if packed is None:
             return self._part(record, f"buffer view {index}")
