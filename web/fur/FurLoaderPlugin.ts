@@ -11,9 +11,9 @@ import {
 } from 'three';
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 import { checkGeometry } from './body/checkGeometry.ts';
-import { finQuads } from './body/finQuads.ts';
 import { Skin } from './body/Skin.ts';
 import { Fur } from './Fur.ts';
+import { finQuads } from './fins/finQuads.ts';
 import { checkGltf } from './format/gltf.ts';
 import { checkRig } from './format/rig.ts';
 import { type Fin, FUR_EXTENSION, FUR_VERSION, type FurAsset, type Pelt, parseFur } from './format.ts';
@@ -84,7 +84,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		if (!this.#extension) return;
 		checkGltf(parser.json);
 		checkRig(parser.json, this.#extension);
-		// Of compressed views the loader fetches the buffer itself: it has to arrive whole, too.
+		// The loader itself fetches the buffer of compressed views: it has to arrive whole, too.
 		if (packed) parser.loadBuffer = (index) => this.#files.buffer(index);
 	}
 
@@ -158,7 +158,8 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 			this.#mesh(shells, 'shells'),
 			this.#parser.json.accessors?.[edges.mask] && this.#parser.getDependency('accessor', edges.mask),
 		]);
-		if (!(mask?.array instanceof Uint8Array)) throw new Error(`${FUR_EXTENSION}/edges: accessor ${edges.mask} has no bytes`);
+		if (!(mask?.array instanceof Uint8Array))
+			throw new Error(`${FUR_EXTENSION}/edges: accessor ${edges.mask} has no bytes`);
 		const tile = length / height / surface.scale.x;
 		const places = { start: edges.start, tile, lean: drift.at(-1)?.[1] ?? 0, tiles };
 		try {

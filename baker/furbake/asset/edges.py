@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from furbake.asset.buffer import Buffer, numbers
+from furbake.surface.charts import Charts
 from furbake.surface.place.fins import Fins
 
 Ints = NDArray[np.int64]
@@ -45,3 +47,14 @@ def fin_mask(faces: Ints, positions: NDArray[Any], source: Ints, fins: Fins) -> 
     if (ends < 0).any() or not np.isin(wanted, joined).all():
         return None
     return np.packbits(np.isin(joined, wanted), bitorder="little")
+
+
+def edges_record(charts: Charts, positions: NDArray[Any], fins: Fins, buffer: Buffer) -> dict[str, Any] | None:
+    """The extension's object of fins on edges of the shells; None where they stand elsewhere.
+
+    positions : (M, 3) of the shells, as stored; buffer : that takes the bits
+    """
+    mask = fin_mask(charts.faces, positions, charts.source, fins)
+    if mask is None:
+        return None
+    return {"mask": buffer.bits(mask), "start": numbers(np.array([fins.uv[0, 0] % 1.0]))[0]}

@@ -14,14 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.asset.buffer import MESHOPT, Buffer, numbers
-from furbake.asset.edges import fin_mask
-from furbake.asset.planes import pack, pack_fin, write_png
+from furbake.asset.edges import edges_record
+from furbake.asset.planes import write_planes
 from furbake.asset.rig.bind import Return
 from furbake.asset.rig.motion import Motion
 from furbake.asset.rig.nodes import morphs, rigged
 from furbake.asset.rig.stand import Stand
 from furbake.asset.skin import Looks, bare_colour, feature_nodes, fur_colour, skin_primitives
 from furbake.asset.vertices import (
+    coarse_uv,
     fin_vertices,
     grid,
     shell_vertices,
@@ -92,7 +93,7 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
         model.skin, model.charts, model.fins, model.fur, model.pelts, model.motion
     )  # fmt: skip
     pelt = pelts[0]
-    looks = Looks(folder, [name for each in pelts for name in _write_planes(folder, each, _prefix(each, pelt))])
+    looks = Looks(folder, [name for each in pelts for name in write_planes(folder, each, _prefix(each, pelt))])
     planes = list(looks.images)
     buffer = Buffer(compress)
     ground = model.ground or surface
@@ -106,6 +107,8 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     uv = shifted_by_tiles(charts)
     tiles = tiles_across(uv, *([] if fins is None else [fins.uv]))
     stood = shell_vertices(ground, charts, fur, below.positions, uv, tiles) | below.joints(charts.source)
+    if compress:
+        stood["TEXCOORD_0"] = coarse_uv(stood["TEXCOORD_0"], tiles, pelt.size)
     shells = buffer.primitive(stood, charts.faces)
     meshes: list[Record] = [
         {"name": "skin", "primitives": skin},
@@ -113,7 +116,7 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     ]
     edges: Record | None = None
     if compress and fins is not None and motion is None and pelt.curves is not None:
-        edges = _edges(charts, stood["POSITION"], fins, buffer)
+        edges = edges_record(charts, stood["POSITION"], fins, buffer)
     if fins is not None and edges is None:
         stood = fin_vertices(ground, fins, fur, below.positions, tiles) | below.joints(fins.source)
         quads = buffer.primitive(stood, fins.faces)
@@ -142,14 +145,6 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     (folder / "model.gltf").write_text(dump(document), "utf-8", newline="\n")
     files = ("model.gltf", "model.bin", *looks.images)
     return _counts(model) | {"bytes": {name: (folder / name).stat().st_size for name in files}}
-
-
-def _edges(charts: Charts, positions: NDArray[Any], fins: Fins, buffer: Buffer) -> Record | None:
-    """The extension's object of fins on edges of the shells; None where they stand elsewhere."""
-    mask = fin_mask(charts.faces, positions, charts.source, fins)
-    if mask is None:
-        return None
-    return {"mask": buffer.bits(mask), "start": numbers(np.array([fins.uv[0, 0] % 1.0]))[0]}
 
 
 def _bound(model: FurModel) -> FurModel:
@@ -296,23 +291,3 @@ def dump(document: Any) -> str:
     """JSON with one line per object member and flat lists in one line."""
     text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
     return re.sub(r"\[\s*([^\[\]{}]*?)\s*\]", lambda match: f"[{' '.join(match[1].split())}]", text) + "\n"
-
-
-def _write_planes(folder: Path, pelt: Pelt, prefix: str = "") -> list[str]:
-    """Write the images of a pelt, whose names begin with `prefix`; their names in the order of `images`."""
-    written: list[str] = []
-    for part, planes in (("", pack(pelt)), ("fin-", None if pelt.fin is None else pack_fin(pelt.fin))):
-        if planes is None:
-            continue
-        stem = "fin" if part else "plane"
-        images = {f"{prefix}{stem}{i}.png": pixels for i, pixels in enumerate(planes.coefficients)}
-        for name, pixels in images.items():
-            write_png(folder / name, pixels)
-        written += images
-        if planes.colour is not None:
-            written.append(f"{prefix}{part}colour.png")
-            write_png(folder / written[-1], planes.colour, srgb=True)
-        if planes.direction is not None:
-            written.append(f"{prefix}{part}direction.png")
-            write_png(folder / written[-1], planes.direction)
-    return written

@@ -32,10 +32,10 @@ SLOTS = ((0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (0, 3))
 STANDARD_ERROR = 2
 
 FILTERS = 0x08 | 0x10 | 0x20 | 0x80
-"""Row filters of libpng: none, sub, up, Paeth. The mean of two neighbours, rounded down, leaves the grid of the codes."""
+"""Row filters of libpng: none, sub, up, Paeth. A mean of two neighbours, rounded down, leaves the grid of the codes."""
 
 STRATEGIES = ("filtered", "huffman")
-"""Of zlib: numbers of fur have few matches. The smaller file of the two is kept, 1 % less; zlib's default is 8 % more."""
+"""Of zlib: numbers of fur have few matches. The smaller file of the two is kept; zlib's default is 8 % larger."""
 
 
 class PlaneError(ValueError):
@@ -143,6 +143,26 @@ def _write_png(
             raise PlaneError(f"{path}: {output.geterror() or 'cannot be written'}")
     finally:
         output.close()
+
+
+def write_planes(folder: Path, pelt: Pelt, prefix: str = "") -> list[str]:
+    """Write the images of a pelt, whose names begin with `prefix`; their names in the order of `images`."""
+    written: list[str] = []
+    for part, planes in (("", pack(pelt)), ("fin-", None if pelt.fin is None else pack_fin(pelt.fin))):
+        if planes is None:
+            continue
+        stem = "fin" if part else "plane"
+        images = {f"{prefix}{stem}{i}.png": pixels for i, pixels in enumerate(planes.coefficients)}
+        for name, pixels in images.items():
+            write_png(folder / name, pixels)
+        written += images
+        if planes.colour is not None:
+            written.append(f"{prefix}{part}colour.png")
+            write_png(folder / written[-1], planes.colour, srgb=True)
+        if planes.direction is not None:
+            written.append(f"{prefix}{part}direction.png")
+            write_png(folder / written[-1], planes.direction)
+    return written
 
 
 def read_png(path: Path) -> Bytes:

@@ -79,7 +79,9 @@ BAKE = [
     ),
     unset_switch("--no-length-by-thickness", "the same length everywhere", dest="length_by_thickness", value=False),
     unset_switch("--no-fins", "no quads on the edges", dest="fins", value=False),
-    unset_switch("--no-meshopt", "meshes as they are, for readers without EXT_meshopt_compression", dest="meshopt", value=False),
+    unset_switch(
+        "--no-meshopt", "meshes as they are, for readers without EXT_meshopt_compression", dest="meshopt", value=False
+    ),
     unset_switch("--directions", "store the hairs' directions too, for other shaders"),
     unset_switch("--flat", "a flat patch under a point at infinity, for checks"),
     option("--states", metavar="dry..wet|dry,NAME", type=NAMES, help="wet states too: all five, or some"),

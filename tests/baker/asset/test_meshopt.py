@@ -16,7 +16,7 @@ import pytest
 from furbake import BakeOptions, bake
 from furbake.asset.edges import fin_mask, shell_edges
 from furbake.asset.inspect import summary
-from furbake.asset.read import Asset, AssetError, read_asset
+from furbake.asset.read import Asset, read_asset
 from furbake.asset.validate import validate
 from furbake.surface.read.reading import read
 from helpers import khronos
@@ -71,7 +71,9 @@ def test_vertices_and_faces_are_the_same(both: tuple[Path, Path]) -> None:
     assert EXTENSION not in plain.document["extensionsUsed"]
     for name in ("skin", "shells"):
         for key, values in attributes(plain, name).items():
-            np.testing.assert_array_equal(attributes(packed, name)[key], values)
+            # Texture coordinates may lose a 16th of a texel.
+            lost = 65535 / (plain.fur["tiles"] * OPTIONS["size"] * 16) if key == "TEXCOORD_0" else 0
+            assert np.abs(attributes(packed, name)[key].astype(int) - values.astype(int)).max() <= lost
         np.testing.assert_array_equal(faces(packed, name), faces(plain, name))
     assert len(packed.data) < 0.5 * len(plain.data)
     assert [validate(folder) for folder in both] == [[], []]
@@ -83,7 +85,7 @@ def test_threes_decoder_reads_the_same(both: tuple[Path, Path]) -> None:
     if node is None or not (khronos.ROOT / "node_modules" / "three").is_dir():
         pytest.skip("the web wing is not installed")
     command = [node, "--input-type=module", "-e", THREE, "--", str(both[0])]
-    found = subprocess.run(command, capture_output=True, text=True, check=True, cwd=khronos.ROOT, timeout=60)  # noqa: S603
+    found = subprocess.run(command, capture_output=True, text=True, check=True, cwd=khronos.ROOT, timeout=60)
     asset = read_asset(both[0])
     views = [asset.view(i) for i in range(len(asset.document["bufferViews"]))]
     assert [view.hex() if view is not None else None for view in views] == json.loads(found.stdout)
@@ -99,7 +101,9 @@ def test_bits_say_which_edges_have_the_stored_fins(both: tuple[Path, Path]) -> N
     ends, _ = shell_edges(indices, positions)
     kept = np.unpackbits(packed.accessor(packed.fur["edges"]["mask"]), bitorder="little")[: len(ends)] == 1
     roots = attributes(plain, "fins")["POSITION"].reshape(-1, 4, 3)[:, :2]
-    stored, made = ({tuple(sorted(map(tuple, pair.tolist()))) for pair in found} for found in (roots, positions[ends[kept]]))
+    stored, made = (
+        {tuple(sorted(map(tuple, pair.tolist()))) for pair in found} for found in (roots, positions[ends[kept]])
+    )
     assert made == stored
     assert 0 < len(stored) == kept.sum()
     assert [summary(asset)["fins"]["faces"] for asset in (packed, plain)] == [2 * len(stored)] * 2
@@ -120,7 +124,10 @@ def test_a_model_with_compressed_meshes_is_read(both: tuple[Path, Path]) -> None
 
 
 def spoil(folder: Path, change: Callable[[dict[str, Any], bytearray], None]) -> Path:
-    document, data = json.loads((folder / "model.gltf").read_text("utf-8")), bytearray((folder / "model.bin").read_bytes())
+    document, data = (
+        json.loads((folder / "model.gltf").read_text("utf-8")),
+        bytearray((folder / "model.bin").read_bytes()),
+    )
     change(document, data)
     (folder / "model.gltf").write_text(json.dumps(document), "utf-8")
     (folder / "model.bin").write_bytes(data)

@@ -60,7 +60,12 @@ export function checkGltf(json: object): void {
 	checkTree(nodes);
 	bufferViews.forEach((view, i) => {
 		const inBuffer = ({ buffer, byteOffset = 0, byteLength }: Place) =>
-			expectAtMost(`bufferViews/${i}`, byteOffset + byteLength, buffers[buffer]?.byteLength as number, `in buffer ${buffer}`);
+			expectAtMost(
+				`bufferViews/${i}`,
+				byteOffset + byteLength,
+				buffers[buffer]?.byteLength as number,
+				`in buffer ${buffer}`,
+			);
 		inBuffer(view);
 		for (const packed of PACKED.flatMap((name) => view.extensions?.[name] ?? [])) {
 			inBuffer(packed);

@@ -115,8 +115,13 @@ export interface FurAsset {
 	shells: number;
 	/** Index of the fins' node: quads on the edges. */
 	fins?: number;
-	/** In place of that node: accessor with a bit for each edge of the shells, and where the first fin begins; 2.2. */
-	edges?: { mask: number; start: number };
+	/** Fins in place of that node; format 2.2. */
+	edges?: {
+		/** Index of an accessor: a bit for each edge of the shells. */
+		mask: number;
+		/** Where the first fin begins, a share of a tile. */
+		start: number;
+	};
 	/** Factor from TEXCOORD_0 to tiles; 1 where absent. */
 	tiles?: number;
 	/** Slabs of the tile. */

@@ -3,10 +3,17 @@
 /** Methods that three's loader calls on `MeshoptDecoder`. */
 export interface MeshDecoder {
 	supported: boolean;
-	decodeGltfBufferAsync(count: number, size: number, source: Uint8Array, mode: string, filter?: string): Promise<Uint8Array>;
+	decodeGltfBufferAsync(
+		count: number,
+		size: number,
+		source: Uint8Array,
+		mode: string,
+		filter?: string,
+	): Promise<Uint8Array>;
 }
 
-const fetchDecoder = async () => (await import('three/addons/libs/meshopt_decoder.module.js')).MeshoptDecoder as MeshDecoder;
+const fetchDecoder = async () =>
+	(await import('three/addons/libs/meshopt_decoder.module.js')).MeshoptDecoder as MeshDecoder;
 
 /** Names of the extensions of a buffer view that is compressed. */
 const EXTENSIONS = ['EXT_meshopt_compression', 'KHR_meshopt_compression'];

@@ -28,7 +28,5 @@ def decoded(stream: bytes | memoryview, extension: Mapping[str, Any], take: Call
     if any(isinstance(number, bool) or not isinstance(number, int) or number < 1 for number in (count, stride)):
         raise ValueError(f"{count!r} elements of {stride!r} bytes")
     take(count * stride)
-    found = meshopt.decode_gltf_buffer(
-        bytes(stream), count, stride, extension["mode"], extension.get("filter", "NONE")
-    )
+    found = meshopt.decode_gltf_buffer(bytes(stream), count, stride, extension["mode"], extension.get("filter", "NONE"))
     return bytes(found.tobytes())

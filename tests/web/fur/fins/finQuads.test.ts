@@ -1,8 +1,8 @@
 import { readFileSync } from 'node:fs';
 import type { BufferAttribute, BufferGeometry } from 'three';
 import { expect, it } from 'vitest';
-import { EdgeFaces } from '../../../../web/fur/body/EdgeFaces.ts';
-import { finQuads } from '../../../../web/fur/body/finQuads.ts';
+import { EdgeFaces } from '../../../../web/fur/fins/EdgeFaces.ts';
+import { finQuads } from '../../../../web/fur/fins/finQuads.ts';
 import { load } from '../furs.ts';
 
 /** Stored by the baker as a mesh. */

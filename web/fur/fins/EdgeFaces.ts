@@ -51,7 +51,11 @@ export class EdgeFaces {
 		const corners = [this.#vertex(face), this.#vertex(face + 1), this.#vertex(face + 2)];
 		const lowest = corners.indexOf(Math.min(...corners));
 		for (let c = lowest; c < lowest + 3; c++) {
-			const [from, to, third] = [corners[c % 3], corners[(c + 1) % 3], corners[(c + 2) % 3]] as [number, number, number];
+			const [from, to, third] = [corners[c % 3], corners[(c + 1) % 3], corners[(c + 2) % 3]] as [
+				number,
+				number,
+				number,
+			];
 			const key = this.#key(from, to);
 			const apex = this.#points[third] as number;
 			const known = this.#sides.get(key);
@@ -80,6 +84,10 @@ export class EdgeFaces {
 		const [side, origin] = this.#spare;
 		origin.fromBufferAttribute(this.#position, this.#vertex(face));
 		side.fromBufferAttribute(this.#position, this.#vertex(face + 2)).sub(origin);
-		normal.fromBufferAttribute(this.#position, this.#vertex(face + 1)).sub(origin).cross(side).normalize();
+		normal
+			.fromBufferAttribute(this.#position, this.#vertex(face + 1))
+			.sub(origin)
+			.cross(side)
+			.normalize();
 	}
 }

@@ -32,7 +32,9 @@ export function finQuads(surface: BufferGeometry, mask: Uint8Array, places: FinP
 	const { start, tile, lean, tiles } = places;
 	const faces = new EdgeFaces(surface);
 	if (mask.length !== Math.ceil(faces.count / 8))
-		throw new Error(`got a mask of ${mask.length} bytes, expected ${Math.ceil(faces.count / 8)} for ${faces.count} edges`);
+		throw new Error(
+			`got a mask of ${mask.length} bytes, expected ${Math.ceil(faces.count / 8)} for ${faces.count} edges`,
+		);
 	const edges = [...faces.edges].filter((_, i) => (mask[i >> 3] as number) & (1 << (i & 7)));
 	const count = edges.length;
 	const quads = new BufferGeometry();
@@ -60,7 +62,9 @@ export function finQuads(surface: BufferGeometry, mask: Uint8Array, places: FinP
 			root.write(4 * i + end + 2, along, one, two, (u + sheared) / tiles, 1 / tiles);
 		}
 	}
-	quads.setIndex(Array.from({ length: 6 * count }, (_, i) => 4 * Math.floor(i / 6) + ([0, 1, 3, 0, 3, 2][i % 6] as number)));
+	quads.setIndex(
+		Array.from({ length: 6 * count }, (_, i) => 4 * Math.floor(i / 6) + ([0, 1, 3, 0, 3, 2][i % 6] as number)),
+	);
 	return quads;
 }
 
