@@ -41,6 +41,7 @@ export default defineConfig({
 			'stats-gl',
 			'three',
 			'three/addons/controls/OrbitControls.js',
+			'three/addons/libs/meshopt_decoder.module.js',
 			'three/addons/loaders/EXRLoader.js',
 			'three/addons/lines/Line2.js',
 			'three/addons/lines/LineGeometry.js',

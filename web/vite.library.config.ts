@@ -2,6 +2,7 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
 import { licencesPlugin } from './tools/site/licences.mjs';
+import { shaderPlugin } from './tools/site/plugins.mjs';
 
 const at = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 
@@ -9,7 +10,7 @@ export default defineConfig({
 	root: at('.'),
 	publicDir: false,
 	cacheDir: at('../node_modules/.vite'),
-	plugins: [licencesPlugin()],
+	plugins: [shaderPlugin(), licencesPlugin()],
 	build: {
 		outDir: at('../lib'),
 		emptyOutDir: true,

@@ -17,7 +17,17 @@ from furbake.surface.mesh import Surface
 from furbake.surface.read.companions import companions
 from furbake.surface.shapes import is_builtin
 
-LIBRARIES = ("numpy", "scipy", "OpenImageIO", "trimesh", "embreex", "DracoPy", "fast-simplification", "Pillow")
+LIBRARIES = (
+    "numpy",
+    "scipy",
+    "OpenImageIO",
+    "trimesh",
+    "embreex",
+    "DracoPy",
+    "fast-simplification",
+    "meshopt",
+    "Pillow",
+)
 
 
 def library_versions() -> dict[str, str]:

@@ -111,7 +111,7 @@ def bake(
                 bare=None if is_builtin(model) else options.ramp.root,
                 motion=_motion(body),
             )
-            record["asset"] = write_gltf(folder, furry)
+            record["asset"] = write_gltf(folder, furry, options.meshopt)
             (folder / "bake.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
             if archive is not None:
                 write_samples(archive, pelts.sampled[0], pelts.tile.strands)

@@ -82,7 +82,7 @@ def test_without_curves_assets_are_of_version_1(tmp_path: Path) -> None:
     folders = [bake("plane", tmp_path / curves, replace(SMALLER, curves=curves)).folder for curves in ("none", "slab")]
     plain, curved = (read_asset(folder) for folder in folders)
     assert [validate(folder) for folder in folders] == [[], []]
-    assert (plain.fur["version"], curved.fur["version"]) == ("1.0", "2.0")
+    assert (plain.fur["version"], curved.fur["version"]) == ("1.0", "2.2")
     assert set(plain.fur) - set(curved.fur) == {"environment"}
     assert set(curved.fur) - set(plain.fur) == {"curves", "eye", "surge"}
     assert set(curved.fur["pelts"][0]) - set(plain.fur["pelts"][0]) == {"weights", "multiple"}
@@ -168,7 +168,7 @@ def living(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_states_share_their_numbers_and_differ_in_their_texels(living: Path) -> None:
     assert validate(living) == []
     asset = read_asset(living)
-    assert asset.fur["version"] == "2.0"
+    assert asset.fur["version"] == "2.2"
     pelts = [read_pelt(asset, i) for i in range(6)]
     for pelt, state in zip(pelts, states_of(tuple(WETNESS), True), strict=True):
         assert (pelt.state.name, pelt.state.mud) == (state.name, state.mud)
@@ -213,7 +213,7 @@ def test_dry_fur_is_the_same_hairs_with_and_without_states(living: Path, tmp_pat
     one, other = (read_pelt(read_asset(folder)) for folder in (tmp_path / "out", living))
     np.testing.assert_array_equal(one.alpha, other.alpha)
     np.testing.assert_array_equal(one.tint, other.tint)
-    assert read_asset(tmp_path / "out").fur["version"] == "2.0"
+    assert read_asset(tmp_path / "out").fur["version"] == "2.2"
     assert one.state == other.state
     # The mean curves suit all states, so that the two pelts differ in their numbers; what they say is the same light.
     light = [pelt.light(hemisphere(9, turn=0.5))[:, one.alpha > 25] for pelt in (one, other)]

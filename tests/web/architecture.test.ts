@@ -11,7 +11,7 @@ const web = fileURLToPath(new URL('../../web/', import.meta.url));
 /** Rooms and files of the library from the ground up; those of one floor do not import each other. */
 const floors = [
 	['format'],
-	['light', 'body'],
+	['light', 'body', 'fins'],
 	['planes'],
 	['weather', 'motion'],
 	['shells'],

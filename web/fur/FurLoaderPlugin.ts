@@ -13,12 +13,14 @@ import type { GLTF, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GL
 import { checkGeometry } from './body/checkGeometry.ts';
 import { Skin } from './body/Skin.ts';
 import { Fur } from './Fur.ts';
+import { finQuads } from './fins/finQuads.ts';
 import { checkGltf } from './format/gltf.ts';
 import { checkRig } from './format/rig.ts';
 import { type Fin, FUR_EXTENSION, FUR_VERSION, type FurAsset, type Pelt, parseFur } from './format.ts';
 import type { FurTextures } from './light/texels.ts';
 import { checkLimits, type FurLimits } from './planes/furLimits.ts';
 import { GltfFiles } from './planes/GltfFiles.ts';
+import { isPacked, meshDecoder } from './planes/meshopt.ts';
 import { decodePlanes, type Layout, type PlaneFile, type Role } from './planes/mipLevels.ts';
 import { type Cut, PeltStates } from './planes/PeltStates.ts';
 import { textureArray } from './planes/planes.ts';
@@ -77,9 +79,13 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		this.#parser = parser;
 		this.#options = options;
 		this.#files = new GltfFiles(parser);
+		const packed = isPacked(parser.json);
+		if (packed) parser.options.meshoptDecoder ??= meshDecoder();
 		if (!this.#extension) return;
 		checkGltf(parser.json);
 		checkRig(parser.json, this.#extension);
+		// The loader itself fetches the buffer of compressed views: it has to arrive whole, too.
+		if (packed) parser.loadBuffer = (index) => this.#files.buffer(index);
 	}
 
 	get #extension() {
@@ -108,11 +114,11 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 
 	async #grow(asset: FurAsset, scene: Object3D): Promise<Fur> {
 		const pelt = asset.pelts[0] as Pelt;
-		const withFins = asset.fins !== undefined && pelt.fin;
+		const withFins = (asset.fins ?? asset.edges) !== undefined && pelt.fin;
 		const [{ skin, surface, colour }, shells, quads, fins] = await Promise.all([
 			this.#body(asset, scene),
 			this.#shellCut(asset, pelt),
-			withFins ? this.#mesh(asset.fins as number, 'fins') : undefined,
+			withFins ? this.#quads(asset) : undefined,
 			withFins ? this.#finCut(asset, withFins) : undefined,
 		]);
 		const ground = {
@@ -142,6 +148,29 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		const skin = new Skin(object, pieces, together ? surface.geometry : undefined);
 		this.#options.skin?.(scene);
 		return { skin, surface, colour };
+	}
+
+	/** The fins' mesh: that of their node, or made from edges of the shells. */
+	async #quads(asset: FurAsset): Promise<Mesh> {
+		const { fins, edges, shells, length, height, drift, tiles = 1 } = asset;
+		if (!edges || fins !== undefined) return this.#mesh(fins as number, 'fins');
+		const [surface, mask] = await Promise.all([
+			this.#mesh(shells, 'shells'),
+			this.#parser.json.accessors?.[edges.mask] && this.#parser.getDependency('accessor', edges.mask),
+		]);
+		if (!(mask?.array instanceof Uint8Array))
+			throw new Error(`${FUR_EXTENSION}/edges: accessor ${edges.mask} has no bytes`);
+		const tile = length / height / surface.scale.x;
+		const places = { start: edges.start, tile, lean: drift.at(-1)?.[1] ?? 0, tiles };
+		try {
+			const quads = new Mesh(finQuads(surface.geometry, mask.array, places));
+			quads.position.copy(surface.position);
+			quads.quaternion.copy(surface.quaternion);
+			quads.scale.copy(surface.scale);
+			return quads;
+		} catch (error) {
+			throw new Error(`${FUR_EXTENSION}/edges: ${(error as Error).message}`);
+		}
 	}
 
 	/** The node's mesh, checked for the attributes that shells or fins need. */

@@ -1,15 +1,20 @@
-"""model.bin as it grows, with its views and accessors."""
+"""model.bin as it grows, with its views and accessors; views are compressed by `EXT_meshopt_compression`."""
 
 from __future__ import annotations
 
+import zlib
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Literal
 
+import meshopt
 import numpy as np
 from numpy.typing import NDArray
 
 Ints = NDArray[np.int64]
 Record = dict[str, Any]
+Mode = Literal["ATTRIBUTES", "TRIANGLES"]
+
+MESHOPT = "EXT_meshopt_compression"
 
 UNSIGNED_SHORT, UNSIGNED_INT, FLOAT = 5123, 5125, 5126
 COMPONENTS = {
@@ -19,13 +24,25 @@ COMPONENTS = {
     np.dtype(np.uint16): UNSIGNED_SHORT,
     np.dtype(np.float32): FLOAT,
 }
+GZIP = 6
+"""Level of zlib at which sizes are compared: that of most hosts."""
+
+LEVEL, STREAM = 3, 0
+"""Of the codec: the smallest streams, of the version that the extension allows."""
+
 ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
 
 
 @dataclass
 class Buffer:
-    """The bytes of one glTF buffer, with its views and accessors."""
+    """The bytes of one glTF buffer, with its views and accessors.
 
+    compress : compress vertices and faces where that makes them smaller as a host sends them, through gzip
+    unpacked : bytes of the second buffer, which is not stored: where compressed views lie once they are decoded
+    """
+
+    compress: bool = False
+    unpacked: int = 0
     data: bytearray = field(default_factory=bytearray)
     views: list[Record] = field(default_factory=list)
     accessors: list[Record] = field(default_factory=list)
@@ -47,7 +64,7 @@ class Buffer:
         stride = -(-width * values.itemsize // 4) * 4
         padded = np.zeros((count, stride), dtype=np.uint8)
         padded[:, : width * values.itemsize] = _little(values).view(np.uint8).reshape(count, -1)
-        view = self._view(padded.tobytes(), target=ARRAY_BUFFER, byteStride=stride)
+        view = self._packed(padded, "ATTRIBUTES", target=ARRAY_BUFFER, byteStride=stride)
         return self._append({"bufferView": view} | _described(values, bounds, normalised))
 
     def displacements(self, values: NDArray[Any], bounds: bool = False) -> int:
@@ -84,9 +101,39 @@ class Buffer:
     def indices(self, faces: Ints, vertices: int) -> int:
         """Index of a new accessor with the corners of the faces, in 16 bits where they fit (65535 is reserved)."""
         short = vertices <= 65535
-        view = self._view(faces.astype("<u2" if short else "<u4").tobytes(), target=ELEMENT_ARRAY_BUFFER)
+        corners = faces.reshape(-1).astype("<u2" if short else "<u4")
+        view = self._packed(corners, "TRIANGLES", target=ELEMENT_ARRAY_BUFFER)
         component = UNSIGNED_SHORT if short else UNSIGNED_INT
         return self._append({"bufferView": view, "componentType": component, "count": faces.size, "type": "SCALAR"})
+
+    def bits(self, values: NDArray[np.uint8]) -> int:
+        """Index of a new accessor of bytes that are no vertices."""
+        accessor = {"bufferView": self._view(values.tobytes()), "componentType": COMPONENTS[values.dtype]}
+        return self._append(accessor | {"count": len(values), "type": "SCALAR"})
+
+    def records(self, uri: str) -> Record:
+        """Members of the document: accessors, views, and buffers, the first of which is the file `uri`."""
+        buffers: list[Record] = [{"uri": uri, "byteLength": len(self.data)}]
+        if self.unpacked:
+            buffers.append({"byteLength": self.unpacked, "extensions": {MESHOPT: {"fallback": True}}})
+        return {"accessors": self.accessors, "bufferViews": self.views, "buffers": buffers}
+
+    def _packed(self, values: NDArray[Any], mode: Mode, **properties: int) -> int:
+        """Index of a new view with a row of bytes per vertex, or with the corners of faces.
+
+        Copies of vertices have equal bytes, which gzip finds and the codec does not: the smaller of the two is kept.
+        """
+        plain = values.tobytes()
+        stream = _encoded(values, mode) if self.compress else plain
+        if not self.compress or len(zlib.compress(stream, GZIP)) >= len(zlib.compress(plain, GZIP)):
+            return self._view(plain, **properties)
+        packed = self.views[self._view(stream)]
+        count = len(values)
+        packed |= {"byteStride": len(plain) // count, "count": count, "mode": mode}
+        place = {"buffer": 1, "byteOffset": self.unpacked, "byteLength": len(plain), **properties}
+        self.unpacked += len(plain) + -len(plain) % 4
+        self.views[-1] = place | {"extensions": {MESHOPT: packed}}
+        return len(self.views) - 1
 
     def _view(self, data: bytes, **properties: int) -> int:
         self.data.extend(bytes(-len(self.data) % 4))
@@ -108,6 +155,13 @@ def _described(values: NDArray[Any], bounds: bool, normalised: bool = True) -> R
     if bounds:
         accessor |= {"min": values.min(axis=0).tolist(), "max": values.max(axis=0).tolist()}
     return accessor
+
+
+def _encoded(values: NDArray[Any], mode: Mode) -> bytes:
+    """The stream of rows of bytes, or of the corners of faces."""
+    if mode == "TRIANGLES":
+        return bytes(meshopt.encode_index_buffer(values.astype(np.uint32)))
+    return bytes(meshopt.encode_vertex_buffer_level(values, LEVEL, STREAM))
 
 
 def _little(values: NDArray[Any]) -> NDArray[Any]:

@@ -13,14 +13,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.asset.buffer import Buffer, numbers
-from furbake.asset.planes import pack, pack_fin, write_png
+from furbake.asset.buffer import MESHOPT, Buffer, numbers
+from furbake.asset.edges import edges_record
+from furbake.asset.planes import write_planes
 from furbake.asset.rig.bind import Return
 from furbake.asset.rig.motion import Motion
 from furbake.asset.rig.nodes import morphs, rigged
 from furbake.asset.rig.stand import Stand
 from furbake.asset.skin import Looks, bare_colour, feature_nodes, fur_colour, skin_primitives
 from furbake.asset.vertices import (
+    coarse_uv,
     fin_vertices,
     grid,
     shell_vertices,
@@ -41,8 +43,8 @@ Record = dict[str, Any]
 Floats = NDArray[np.float64]
 
 EXTENSION = "FUR_ptm_shells"
-VERSION, VERSION_STATES, VERSION_CURVES, VERSION_MOTION = "1.0", "1.1", "2.0", "2.1"
-"""Format versions: one pelt, several states of it, mean curves, bodies that move."""
+VERSION, VERSION_STATES, VERSION_CURVES, VERSION_MOTION, VERSION_EDGES = "1.0", "1.1", "2.0", "2.1", "2.2"
+"""Format versions: one pelt, several states of it, mean curves, bodies that move, fins as edges."""
 
 QUANTIZATION = "KHR_mesh_quantization"
 
@@ -80,17 +82,20 @@ class FurModel:
     motion: Motion | None = None
 
 
-def write_gltf(folder: Path, model: FurModel) -> Record:
-    """Write model.gltf, model.bin and all images into `folder`; counts and file sizes for the record."""
+def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
+    """Write model.gltf, model.bin and all images into `folder`; counts and file sizes for the record.
+
+    compress : meshes by `EXT_meshopt_compression`, and the fins of a still body as edges of the shells
+    """
     features = placed(model.skin, model.features)
     laid, model = model.skin, _bound(model)
     surface, charts, fins, fur, pelts, motion = (
         model.skin, model.charts, model.fins, model.fur, model.pelts, model.motion
     )  # fmt: skip
     pelt = pelts[0]
-    looks = Looks(folder, [name for each in pelts for name in _write_planes(folder, each, _prefix(each, pelt))])
+    looks = Looks(folder, [name for each in pelts for name in write_planes(folder, each, _prefix(each, pelt))])
     planes = list(looks.images)
-    buffer = Buffer()
+    buffer = Buffer(compress)
     ground = model.ground or surface
     place = grid(surface.vertices, ground.vertices)
     body = Stand(surface, *place, motion, None if motion is None else motion.skin)
@@ -102,35 +107,39 @@ def write_gltf(folder: Path, model: FurModel) -> Record:
     uv = shifted_by_tiles(charts)
     tiles = tiles_across(uv, *([] if fins is None else [fins.uv]))
     stood = shell_vertices(ground, charts, fur, below.positions, uv, tiles) | below.joints(charts.source)
+    if compress:
+        stood["TEXCOORD_0"] = coarse_uv(stood["TEXCOORD_0"], tiles, pelt.size)
     shells = buffer.primitive(stood, charts.faces)
     meshes: list[Record] = [
         {"name": "skin", "primitives": skin},
         {"name": "shells", "primitives": [shells | below.shell_targets(buffer, charts)]},
     ]
-    if fins is not None:
+    edges: Record | None = None
+    if compress and fins is not None and motion is None and pelt.curves is not None:
+        edges = edges_record(charts, stood["POSITION"], fins, buffer)
+    if fins is not None and edges is None:
         stood = fin_vertices(ground, fins, fur, below.positions, tiles) | below.joints(fins.source)
-        edges = buffer.primitive(stood, fins.faces)
-        meshes.append({"name": "fins", "primitives": [edges | below.fin_targets(buffer, fins)]})
+        quads = buffer.primitive(stood, fins.faces)
+        meshes.append({"name": "fins", "primitives": [quads | below.fin_targets(buffer, fins)]})
     names = [mesh["name"] for mesh in meshes]
     meshes = [mesh | morphs(motion) for mesh in meshes]
     undone = {"translation": numbers(place[0]), "scale": numbers(np.full(3, place[1]))}
     nodes = [{"name": name, "mesh": i, **undone} for i, name in enumerate(names)]
     nodes += feature_nodes(features, buffer, looks, meshes)
     roots, moving = rigged(nodes, features, motion, laid, place, buffer)
+    needed = [QUANTIZATION, *([MESHOPT] if buffer.unpacked else [])]
     document = {
         "asset": {"version": "2.0", "generator": f"furbake {version('furbake')}"},
-        "extensionsUsed": [EXTENSION, QUANTIZATION],
-        "extensionsRequired": [QUANTIZATION],
+        "extensionsUsed": [EXTENSION, *needed],
+        "extensionsRequired": needed,
         "scene": 0,
         "scenes": [{"nodes": [0, *roots]}],
         "nodes": nodes,
         "meshes": meshes,
         **moving,
         **looks.records,
-        "accessors": buffer.accessors,
-        "bufferViews": buffer.views,
-        "buffers": [{"uri": "model.bin", "byteLength": len(buffer.data)}],
-        "extensions": {EXTENSION: extension(pelts, model.length, tiles, planes, names, motion is not None)},
+        **buffer.records("model.bin"),
+        "extensions": {EXTENSION: extension(pelts, model.length, tiles, planes, names, motion is not None, edges)},
     }
     (folder / "model.bin").write_bytes(bytes(buffer.data))
     (folder / "model.gltf").write_text(dump(document), "utf-8", newline="\n")
@@ -170,13 +179,20 @@ def _counts(model: FurModel) -> Record:
 
 
 def extension(
-    pelts: Sequence[Pelt], length: float, tiles: float, images: list[str], nodes: list[str], moves: bool = False
+    pelts: Sequence[Pelt],
+    length: float,
+    tiles: float,
+    images: list[str],
+    nodes: list[str],
+    moves: bool = False,
+    edges: Record | None = None,
 ) -> Record:
     """The JSON object of the extension, for nodes (skin, shells and perhaps fins) and images in the order of writing.
 
     pelts : the dry fur and further states of it, all with its basis, λ and Ω
     length : longest fur, model units; tiles : how many of them a texture coordinate of 1 stands for
     moves : whether the body has joints, clips or morph targets
+    edges : of the fins, where they are no node
     """
     pelt = pelts[0]
     basis: Record = {"kind": pelt.basis.kind}
@@ -188,11 +204,12 @@ def extension(
     version = VERSION if len(pelts) == 1 else VERSION_STATES
     lit: Record = {"environment": [numbers(row) for row in environment(pelt.basis)]}
     if pelt.curves is not None:
-        version = VERSION_MOTION if moves else VERSION_CURVES
+        version = VERSION_EDGES if edges else VERSION_MOTION if moves else VERSION_CURVES
         lit = {"curves": {"even": _tables(pelt.curves.even), "along": _tables(pelt.curves.along)}}
     return {
         "version": version,
         **{name: i for i, name in enumerate(nodes)},
+        **({} if edges is None else {"edges": edges}),
         "layers": pelt.layers,
         "size": pelt.size,
         "coefficients": pelt.coefficients,
@@ -274,23 +291,3 @@ def dump(document: Any) -> str:
     """JSON with one line per object member and flat lists in one line."""
     text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
     return re.sub(r"\[\s*([^\[\]{}]*?)\s*\]", lambda match: f"[{' '.join(match[1].split())}]", text) + "\n"
-
-
-def _write_planes(folder: Path, pelt: Pelt, prefix: str = "") -> list[str]:
-    """Write the images of a pelt, whose names begin with `prefix`; their names in the order of `images`."""
-    written: list[str] = []
-    for part, planes in (("", pack(pelt)), ("fin-", None if pelt.fin is None else pack_fin(pelt.fin))):
-        if planes is None:
-            continue
-        stem = "fin" if part else "plane"
-        images = {f"{prefix}{stem}{i}.png": pixels for i, pixels in enumerate(planes.coefficients)}
-        for name, pixels in images.items():
-            write_png(folder / name, pixels)
-        written += images
-        if planes.colour is not None:
-            written.append(f"{prefix}{part}colour.png")
-            write_png(folder / written[-1], planes.colour, srgb=True)
-        if planes.direction is not None:
-            written.append(f"{prefix}{part}direction.png")
-            write_png(folder / written[-1], planes.direction)
-    return written

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from furbake.asset.read import Asset, AssetError
 
 
@@ -50,6 +52,7 @@ def _summary(asset: Asset) -> dict[str, Any]:
         "skin": _mesh(asset, "skin"),
         "shells": _mesh(asset, "shells"),
         **({"fins": _mesh(asset, "fins")} if "fins" in fur else {}),
+        **({"fins": _edges(asset)} if "edges" in fur else {}),
         **_motion(asset),
         "fit": record.get("fit", {}),
         **({"states": fits} if fits else {}),
@@ -65,6 +68,12 @@ def _mesh(asset: Asset, name: str) -> dict[str, Any]:
         "faces": sum(accessors[primitive["indices"]]["count"] // 3 for primitive in primitives),
         "attributes": list(dict.fromkeys(name for primitive in primitives for name in primitive["attributes"])),
     }
+
+
+def _edges(asset: Asset) -> dict[str, Any]:
+    """What a reader makes of the edges."""
+    count = int(np.unpackbits(asset.accessor(asset.fur["edges"]["mask"])).sum())
+    return {"vertices": 4 * count, "faces": 2 * count, "attributes": ["edges"]}
 
 
 def _motion(asset: Asset) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,7 @@ from furbake.asset.planes import Bytes, read_png
 from furbake.surface.files import read_regular
 from furbake.surface.limits import Budget, limits
 from furbake.surface.read.accessors import TYPES, WIDTHS, elements
+from furbake.surface.read.meshopt import compression, decoded
 
 
 class AssetError(ValueError):
@@ -32,6 +33,7 @@ class Asset:
     document: dict[str, Any]
     record: dict[str, Any]
     data: bytes
+    _views: dict[int, memoryview] = field(default_factory=dict, repr=False, compare=False)
 
     @property
     def fur(self) -> dict[str, Any]:
@@ -78,15 +80,37 @@ class Asset:
 
     def _elements(self, index: int, place: dict[str, Any], kind: np.dtype[Any], width: int, count: int) -> NDArray[Any]:
         """(count, width) elements at the `bufferView` and `byteOffset` of a place in accessor `index`."""
-        view = self.document["bufferViews"][_index(place["bufferView"])]
+        where = _index(place["bufferView"])
+        view = self.document["bufferViews"][where]
         inner, stride = _index(place.get("byteOffset", 0)), _index(view.get("byteStride", 0))
-        start, length = _index(view.get("byteOffset", 0)), _index(view["byteLength"])
-        if count < 1 or start + length > len(self.data):
+        found = self.view(where)
+        if count < 1 or found is None:
             raise AssetError(f"model.gltf: accessor {index} leaves its buffer, expected 1 or more elements in it")
         try:
-            return elements(memoryview(self.data)[start : start + length], inner, count, width, kind, stride)
+            return elements(found, inner, count, width, kind, stride)
         except ValueError as error:
             raise AssetError(f"model.gltf: accessor {index} leaves its buffer ({error}), expected it inside") from error
+
+    def view(self, index: int) -> memoryview | None:
+        """Bytes of a buffer view, decoded; None where it leaves the data. Raises AssetError for a broken stream."""
+        if index in self._views:
+            return self._views[index]
+        view = self.document["bufferViews"][index]
+        packed = compression(view)
+        place = view if packed is None else packed
+        start, length = _index(place.get("byteOffset", 0)), _index(place["byteLength"])
+        if start + length > len(self.data) or _index(place["buffer"]) != 0:
+            return None
+        found = memoryview(self.data)[start : start + length]
+        if packed is not None:
+            try:
+                found = memoryview(decoded(found, packed, Budget(f"buffer view {index}", "bytes").take))
+            except (ValueError, RuntimeError, LookupError, TypeError) as error:
+                raise AssetError(f"model.gltf: buffer view {index} cannot be decoded ({error})") from error
+            if len(found) != _index(view["byteLength"]):
+                raise AssetError(f"model.gltf: buffer view {index} has {len(found)} bytes, not {view['byteLength']}")
+        self._views[index] = found
+        return found
 
     def image(self, index: int) -> Bytes:
         """(height, width, channels) bytes of an image. Raises AssetError or PlaneError."""

@@ -13,6 +13,8 @@ from typing import Any
 import numpy as np
 from jsonschema import Draft202012Validator
 
+from furbake.asset.buffer import MESHOPT
+from furbake.asset.edges import shell_edges
 from furbake.asset.gltf import EXTENSION, QUANTIZATION
 from furbake.asset.planes import PlaneError
 from furbake.asset.read import Asset, AssetError, inside, read_asset
@@ -108,8 +110,9 @@ def _document(asset: Asset) -> Iterator[str]:
     for name, listed in ((EXTENSION, used), (QUANTIZATION, used), (QUANTIZATION, required)):
         if name not in listed:
             yield f"model.gltf: {name} is not in {'extensionsUsed' if listed is used else 'extensionsRequired'}"
-    if len(document["buffers"]) != 1:
-        yield f"model.gltf: {len(document['buffers'])} buffers, expected 1"
+    spare = [buffer for buffer in document["buffers"][1:] if "uri" not in buffer and MESHOPT in required]
+    if len(document["buffers"]) != 1 + len(spare) or len(spare) > 1:
+        yield f"model.gltf: {len(document['buffers'])} buffers, expected 1, and one without data where some are packed"
     size = document["buffers"][0]["byteLength"]
     if size != len(asset.data):
         yield f"{document['buffers'][0]['uri']}: {len(asset.data)} bytes, expected {size}"
@@ -162,12 +165,26 @@ def _shells(asset: Asset) -> Iterator[str]:
 
 
 def _fins(asset: Asset) -> Iterator[str]:
-    drawn = "fins" in asset.fur
+    drawn = "fins" in asset.fur or "edges" in asset.fur
     for i, pelt in enumerate(asset.fur["pelts"]):
         if ("fin" in pelt) != drawn:
             yield f"{EXTENSION}: pelts[{i}] has {'no ' if drawn else 'a '}fin, expected one where there are fins"
-    if drawn:
+    if "fins" in asset.fur:
         yield from _furry(asset, "fins")
+    if "edges" in asset.fur:
+        yield from _edges(asset)
+
+
+def _edges(asset: Asset) -> Iterator[str]:
+    """The mask has a bit for every edge of the shells."""
+    primitive = asset.primitive(asset.fur["shells"])
+    faces, positions = (asset.accessor(i) for i in (primitive["indices"], primitive["attributes"]["POSITION"]))
+    count = len(shell_edges(faces, positions)[0])
+    mask = asset.accessor(asset.fur["edges"]["mask"])
+    if mask.dtype != np.uint8 or mask.shape != (-(-count // 8),):
+        yield f"edges: a mask of {mask.shape} {mask.dtype}, expected {-(-count // 8)} bytes for {count} edges"
+    elif np.unpackbits(mask, bitorder="little")[count:].any():
+        yield f"edges: the mask has bits beyond the {count} edges of the shells, expected 0 there"
 
 
 def _furry(asset: Asset, name: str) -> Iterator[str]:

@@ -36,6 +36,9 @@ Shorts = NDArray[np.uint16]
 Attributes = dict[str, NDArray[Any]]
 
 SHORT = 65535
+TEXEL_SHARES = 8
+"""Steps of a rounded texture coordinate in a texel, at least: half of one is lost."""
+
 FULL_FUR = (255, 255, 255, 0)
 """Default of _FUR: the whole weight and length, open, of the first tip colour."""
 
@@ -117,6 +120,14 @@ def tiles_across(*parts: Floats) -> float:
 def quantise_uv(uv: Floats, tiles: float) -> Shorts:
     """(n, 2) texture coordinates 0..tiles as 16-bit shares of `tiles`."""
     return np.rint(np.clip(uv / tiles, 0.0, 1.0) * SHORT).astype(np.uint16)
+
+
+def coarse_uv(codes: Shorts, tiles: float, size: int) -> Shorts:
+    """(n, 2) texture coordinates of `quantise_uv`, rounded so that fewer of their bits differ, yet a 16th of a texel at
+    most is lost on tiles of `size` texels.
+    """
+    step = 2 ** max(0, int(np.floor(np.log2(SHORT / (tiles * size * TEXEL_SHARES)))))
+    return np.asarray(np.minimum((codes.astype(np.int64) + step // 2) // step * step, SHORT), dtype=np.uint16)
 
 
 def quantise_weights(weights: Floats, group: Ints) -> Bytes:

@@ -6,7 +6,7 @@ import click
 
 from furbake.cli.parsing import Argument, Command, action, option, switch, unset_switch
 from furbake.cli.values import DIRECTION, GUIDE, NAMES, NUMBER, PLACE, SETTING, WHOLE
-from furbake.options.knobs import KNOBS, MAX_FACES
+from furbake.options.knobs import BITS, KNOBS, MAX_FACES
 
 QUIET = "no progress, no summary"
 
@@ -50,6 +50,7 @@ BAKE = [
         "--coefficients", metavar="C", type=WHOLE,
         help=f"numbers per texel: 6, with eigen {KNOBS['coefficients'].range}",
     ),
+    option("--bits", metavar="B", type=WHOLE, help=f"of a stored number, {BITS.range} (default: 6)"),
     option(
         "--curves", metavar="slab|none",
         help="mean light of each slab beside its numbers (default), or none: version 1 of the format",
@@ -78,6 +79,9 @@ BAKE = [
     ),
     unset_switch("--no-length-by-thickness", "the same length everywhere", dest="length_by_thickness", value=False),
     unset_switch("--no-fins", "no quads on the edges", dest="fins", value=False),
+    unset_switch(
+        "--no-meshopt", "meshes as they are, for readers without EXT_meshopt_compression", dest="meshopt", value=False
+    ),
     unset_switch("--directions", "store the hairs' directions too, for other shaders"),
     unset_switch("--flat", "a flat patch under a point at infinity, for checks"),
     option("--states", metavar="dry..wet|dry,NAME", type=NAMES, help="wet states too: all five, or some"),

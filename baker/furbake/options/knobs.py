@@ -161,6 +161,9 @@ LENGTH = _number(1e-30, 1e30)
 MAX_FACES = _whole(4, 2_000_000)
 """Faces of a model that is not simplified."""
 
+BITS = _whole(4, 8)
+"""Bits of a stored number."""
+
 
 def plain(value: float) -> str:
     """A number as people write it: 20000, not 2e+04."""

@@ -241,23 +241,25 @@ def fit_fins(
     lights: Array,
     colours: Sequence[Array | None],
     means: Sequence[Array | None] | None = None,
+    step: int = 1,
 ) -> list[FinPelt]:
     """The texels' polynomials in (l·t, l·n) as bytes, of all states of a fur with one λ and Ω.
 
     lights : (n, 3) of the views, in the tile's frame; colours : (H, W, 3) linear original colours, or None
     means : (n, H) of `row_means`, by which the polynomials are multiplied, or None
+    step : of which codes and tints are multiples
     """
     means = means or [None] * len(views)
     filled = [
         fill_fin(fit(view.light, polynomial, lights, mean), view.alpha) for view, mean in zip(views, means, strict=True)
     ]
-    scale, bias = byte_range(np.stack(filled), np.stack([view.alpha for view in views]))
+    scale, bias = byte_range(np.stack(filled), np.stack([view.alpha for view in views]), 256 - step)
     phi = polynomial(lights)
     return [
         FinPelt(
-            codes=quantise(coefficients, scale, bias, gram(phi, mean)),
+            codes=quantise(coefficients, scale, bias, gram(phi, mean), 256 - step, step),
             alpha=unit_bytes(view.alpha),
-            tint=unit_bytes(fill_fin(view.tint[..., None], view.alpha)[..., 0]),
+            tint=unit_bytes(fill_fin(view.tint[..., None], view.alpha)[..., 0], step),
             colour=None if colour is None else srgb_bytes(fill_fin(colour, view.alpha)),
             scale=scale,
             bias=bias,

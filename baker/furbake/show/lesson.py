@@ -98,7 +98,7 @@ def write(
     Its polynomials are the paper's, without mean curves. The same options and version give the same bytes. Raises
     OptionError or StoreError, each with one sentence.
     """
-    options = replace(options, curves="none")
+    options = replace(options, curves="none", bits=8)
     options.check()
     if options.basis != "ptm":
         raise OptionError(f"basis: got {options.basis}, expected ptm: the lesson puts others beside it")
@@ -161,7 +161,7 @@ def fresh(out: Path, options: BakeOptions) -> dict[str, Any] | None:
 
 def lesson_key(options: BakeOptions) -> str:
     """SHA-256 of everything that decides the folder."""
-    record = replace(options, curves="none").as_record()
+    record = replace(options, curves="none", bits=8).as_record()
     parts = {"furbake": version("furbake"), "options": record, "layout": LAYOUT}
     return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()
 

@@ -20,7 +20,7 @@ from furbake.pelt.texels.basis import PTM, Basis
 from furbake.pelt.texels.eigen import eigen, eigen_of_slabs
 from furbake.pelt.texels.fill import fill, fill_directions
 from furbake.pelt.texels.fit import Judge, fit, relight
-from furbake.pelt.texels.quantise import byte_range, gram, quantise, signed_bytes, srgb_bytes, unit_bytes
+from furbake.pelt.texels.quantise import byte_range, gram, quantise, signed_bytes, srgb_bytes, step_of, unit_bytes
 from furbake.tile.lighting import Lighting, Sampled
 
 Floats = NDArray[np.float64]
@@ -49,19 +49,20 @@ def fit_pelts(states: Sequence[Sampled], options: BakeOptions) -> list[tuple[Pel
     basis = choose_basis(joined, alphas, seen, options, of_all)
     coefficients = [fit(part, basis, seen, mean) for part, mean in zip(samples, means, strict=True)]
     filled = [fill(part, state.volume.coverage) for part, state in zip(coefficients, states, strict=True)]
-    scale, bias = byte_range(np.concatenate(filled), alphas)
+    step = step_of(options.bits)
+    scale, bias = byte_range(np.concatenate(filled), alphas, 256 - step)
     found = []
     for state, fitted, stored, own, mean, multiple in zip(
         states, coefficients, filled, weights, means, multiples, strict=True
     ):
         volume, alpha = state.volume, state.volume.coverage
         dirty = state.state.dirt > 0
-        codes = quantise(stored, scale, bias, gram(basis(seen), mean))
+        codes = quantise(stored, scale, bias, gram(basis(seen), mean), 256 - step, step)
         colour = options.ramp.colour(volume.tint, volume.hue) if options.colour_plane and not dirty else None
         pelt = Pelt(
             codes=codes,
             alpha=unit_bytes(alpha),
-            tint=unit_bytes(fill(volume.tint[..., None], alpha)[..., 0]),
+            tint=unit_bytes(fill(volume.tint[..., None], alpha)[..., 0], step),
             colour=None if colour is None else srgb_bytes(fill(colour, alpha)),
             scale=scale,
             bias=bias,

@@ -15,6 +15,7 @@ from furbake.pelt.hairs.volume import Volume
 from furbake.pelt.light.transport import hemisphere
 from furbake.pelt.pelt import FinPelt, Pelt
 from furbake.pelt.texels.fit import Judge, relight
+from furbake.pelt.texels.quantise import step_of
 
 Floats = NDArray[np.float64]
 
@@ -45,7 +46,8 @@ def fit_sides(
     count = len(fitted)
     rows = len(views[0].alpha)
     means = [row_means(pelt, rows, fitted) for pelt in pelts]
-    fins = fit_fins([replace(view, light=view.light[:count]) for view in views], fitted, colours, means)
+    seen = [replace(view, light=view.light[:count]) for view in views]
+    fins = fit_fins(seen, fitted, colours, means, step_of(options.bits))
     found = []
     for view, fin, pelt in zip(views, fins, pelts, strict=True):
         judge = Judge(view.light[count:, :, None].astype(np.float32), view.alpha[:, None], view.tint[:, None])

@@ -3,7 +3,8 @@ import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writ
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { promisify } from 'node:util';
-import { build } from 'vite';
+import { gzipSync } from 'node:zlib';
+import { build, type Rolldown } from 'vite';
 import { root } from '../../../web/tools/process.mjs';
 import { difference, expect, type Picture, picture, test } from '../harness.ts';
 import { type Host, serveFolder } from '../host.ts';
@@ -14,6 +15,9 @@ const npm = (...args: string[]) =>
 	process.env.npm_execpath
 		? run(process.execPath, [process.env.npm_execpath, ...args], { cwd: root })
 		: run('npm', args, { cwd: root, shell: process.platform === 'win32' });
+
+/** Bytes of the loader in an app, minified, through gzip. */
+const LOADER = 58e3;
 
 /** A folder of someone else's, in which the package is installed as it would be from a registry. */
 let app = '';
@@ -88,6 +92,27 @@ export function grow(fur: Fur, pelt: Fur): () => boolean {
 const basis: Basis = { kind: 'ptm' };
 export const moments: number[] = lightMoments(basis, [0.6, 0, 0.8], 0.5);
 `;
+
+test('an app that loads fur and no more has few bytes of the library', async () => {
+	const entry = join(app, 'loader.js');
+	writeFileSync(entry, "export { FurLoaderPlugin } from 'furbake';");
+	const built = (await build({
+		root: app,
+		configFile: false,
+		logLevel: 'error',
+		build: {
+			write: false,
+			modulePreload: false,
+			rolldownOptions: { input: entry, preserveEntrySignatures: 'strict', external: /^three(\/|$)/ },
+		},
+	})) as Rolldown.RolldownOutput;
+	const code = built.output.map((file) => (file.type === 'chunk' ? file.code : '')).join('');
+	const bytes = gzipSync(code).length;
+	process.stdout.write(`     FurLoaderPlugin alone: ${(bytes / 1e3).toFixed(1)} kB\n`);
+	expect(bytes).toBeLessThan(LOADER);
+	// Shaders come without their comments.
+	expect(/\/\/ \w/.test(code)).toBe(false);
+});
 
 test('example and uses compile strictly against the packed types', async () => {
 	writeFileSync(join(app, 'example', 'uses.ts'), USES);

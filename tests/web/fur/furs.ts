@@ -39,13 +39,13 @@ export function bodyOf(geometry: BufferGeometry, length: number, scale = 1, shel
 	return { fur: fur as unknown as Fur, place };
 }
 
-/** A body of public/models. */
-export function load(name: string): Body {
+/** A body of public/models whose meshes are stored as they are. @param part whose mesh */
+export function load(name: string, part: 'shells' | 'fins' = 'shells'): Body {
 	const at = (file: string) => new URL(`../../../public/models/${name}/${file}`, import.meta.url);
 	const gltf = JSON.parse(readFileSync(at('model.gltf'), 'utf8'));
 	const { buffer, byteOffset } = readFileSync(at('model.bin'));
 	const asset = gltf.extensions.FUR_ptm_shells;
-	const node = gltf.nodes[asset.shells];
+	const node = gltf.nodes[asset[part]];
 	const attribute = (index: number) => {
 		const { bufferView, byteOffset: own = 0, componentType, count, type, normalized } = gltf.accessors[index];
 		const view = gltf.bufferViews[bufferView];

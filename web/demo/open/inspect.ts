@@ -24,7 +24,7 @@ const DRACO = 'KHR_draco_mesh_compression';
 
 /** Extensions that three's loader reads without a decoder. */
 const SUPPORTED =
-	/^(FUR_ptm_shells|KHR_mesh_quantization|KHR_texture_transform|KHR_lights_punctual|KHR_materials_(?!variants)\w+|EXT_materials_bump|EXT_texture_(webp|avif)|EXT_mesh_gpu_instancing)$/;
+	/^(FUR_ptm_shells|KHR_mesh_quantization|KHR_texture_transform|EXT_meshopt_compression|KHR_meshopt_compression|KHR_lights_punctual|KHR_materials_(?!variants)\w+|EXT_materials_bump|EXT_texture_(webp|avif)|EXT_mesh_gpu_instancing)$/;
 
 /**
  * Checks everything on which the loader would fail late, or complain on the console.

@@ -1,33 +1,13 @@
 /** Overlay of figures: a line of frame rate, time and shells; graphs and what frames draw on demand. */
 
-import Stats from 'stats-gl';
+import type { Graph } from '../say/graphs.ts';
 import type { Words } from '../words/index.ts';
 import type { Stage } from './stage.ts';
 import type { GpuTimer } from './timer.ts';
 
 const READING_INTERVAL = 250; // milliseconds between two readings
 
-/** A figure with its graph. */
-class Meter {
-	readonly #panel: InstanceType<typeof Stats.Panel>;
-	readonly #digits: number;
-	#longest = 0;
-
-	constructor(parent: HTMLElement, name: string, colour: string, dark: string, digits: number) {
-		this.#panel = new Stats.Panel(name, colour, dark);
-		this.#digits = digits;
-		parent.append(this.#panel.canvas as HTMLCanvasElement);
-	}
-
-	show(value: number): void {
-		if (!Number.isFinite(value)) return;
-		this.#longest = Math.max(this.#longest, value);
-		this.#panel.update(value, this.#longest, this.#digits);
-		this.#panel.updateGraph(value, this.#longest);
-	}
-}
-
-/** Panels of stats-gl with a loop of its own: that of stats-gl makes objects and a GPU query per frame. */
+/** Figures, with graphs of stats-gl and a loop of its own: that of stats-gl makes objects and a GPU query per frame. */
 export class Overlay {
 	/** Shells of the single body; undefined for a crowd, or no fur. */
 	shells: { shellCount: number } | undefined;
@@ -40,9 +20,12 @@ export class Overlay {
 	readonly #more = document.createElement('div');
 	readonly #counts = document.createElement('div');
 	readonly #switch = document.createElement('button');
-	readonly #fps: Meter;
-	readonly #cpu: Meter;
-	readonly #gpu: Meter | undefined;
+	readonly #graphs = document.createElement('div');
+	/** Frames per second, time on the CPU and on the GPU, once they have been asked for. */
+	#meters: Promise<void> | undefined;
+	#fps: Graph | undefined;
+	#cpu: Graph | undefined;
+	#gpu: Graph | undefined;
 	readonly #whole: Intl.NumberFormat;
 	#read = Number.NEGATIVE_INFINITY;
 	#frames = 0;
@@ -63,15 +46,11 @@ export class Overlay {
 		this.#timer = timer;
 		this.#words = words;
 		this.#whole = new Intl.NumberFormat(language, { maximumFractionDigits: 0 });
-		const graphs = document.createElement('div');
-		graphs.className = 'graphs';
-		graphs.setAttribute('aria-hidden', 'true');
-		this.#fps = new Meter(graphs, 'FPS', '#0ff', '#002', 0);
-		this.#cpu = new Meter(graphs, 'CPU', '#0f0', '#020', 1);
-		if (timer.works) this.#gpu = new Meter(graphs, 'GPU', '#ff0', '#220', 1);
+		this.#graphs.className = 'graphs';
+		this.#graphs.setAttribute('aria-hidden', 'true');
 		this.#more.className = 'more';
 		this.#more.id = 'figures';
-		this.#more.append(graphs, this.#counts);
+		this.#more.append(this.#graphs, this.#counts);
 		this.#switch.type = 'button';
 		this.#switch.setAttribute('aria-controls', 'figures');
 		this.#switch.addEventListener('click', () => switched(this.#more.hidden === true));
@@ -83,10 +62,19 @@ export class Overlay {
 
 	/** Shows the details, or the line alone. */
 	set details(shown: boolean) {
+		// Without a network there are figures without graphs.
+		if (shown) this.#meters ??= this.#addGraphs().catch(() => undefined);
 		this.#more.hidden = !shown;
 		this.#switch.setAttribute('aria-expanded', String(shown));
 		this.#switch.setAttribute('aria-label', shown ? this.#words.fewFigures : this.#words.allFigures);
 		this.#switch.title = this.#switch.ariaLabel ?? '';
+	}
+
+	async #addGraphs(): Promise<void> {
+		const { Graph } = await import('../say/graphs.ts');
+		this.#fps = new Graph(this.#graphs, 'FPS', '#0ff', '#002', 0);
+		this.#cpu = new Graph(this.#graphs, 'CPU', '#0f0', '#020', 1);
+		if (this.#timer.works) this.#gpu = new Graph(this.#graphs, 'GPU', '#ff0', '#220', 1);
 	}
 
 	/** Bytes of all textures of the scene. */
@@ -115,8 +103,8 @@ export class Overlay {
 		if (now < this.#read + READING_INTERVAL) return;
 		const { perSecond, milliseconds } = this.#words;
 		const time = (now - this.#read) / this.#frames;
-		this.#fps.show(1000 / time);
-		this.#cpu.show(this.#busy / this.#frames);
+		this.#fps?.show(1000 / time);
+		this.#cpu?.show(this.#busy / this.#frames);
 		this.#gpu?.show(this.#timer.latest);
 		this.#read = now;
 		this.#frames = 0;

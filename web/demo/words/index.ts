@@ -2,10 +2,10 @@
 
 import { type Language, languageOf } from '../../page/language.ts';
 import { en, type Words } from './en.ts';
-import { zh } from './zh.ts';
 
 export type { Words };
 
 export const language: Language = languageOf(location.search, navigator.languages);
 
-export const words: Words = { en, zh }[language];
+/** Only English comes with the page. */
+export const words: Words = language === 'zh' ? (await import('./zh.ts')).zh : en;

@@ -10,6 +10,9 @@ const SIZES: Record<string, number> = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MA
 /** Numbers of accessors without a buffer view together: they take memory, but no bytes of the file. */
 const MAX_ZEROS = 1 << 24;
 
+/** Extensions of a buffer view that is compressed. */
+const PACKED = ['EXT_meshopt_compression', 'KHR_meshopt_compression'];
+
 /** Span of bytes in a buffer view. */
 interface Span {
 	bufferView?: number;
@@ -25,11 +28,24 @@ interface Accessor extends Span {
 	sparse?: { count: number; indices: Span; values: Span };
 }
 
+/** Place of a view's bytes. */
+interface Place {
+	buffer: number;
+	byteOffset?: number;
+	byteLength: number;
+	byteStride?: number;
+}
+
+/** A buffer view, and where its compressed bytes are, by the name of the extension. */
+interface View extends Place {
+	extensions?: Record<string, Place & { byteStride: number; count: number }>;
+}
+
 /** Lists of a glTF that this check reads. */
 interface Gltf {
 	nodes?: { children?: number[] }[];
 	accessors?: Accessor[];
-	bufferViews?: { buffer: number; byteOffset?: number; byteLength: number; byteStride?: number }[];
+	bufferViews?: View[];
 	buffers?: { byteLength: number }[];
 }
 
@@ -42,9 +58,21 @@ export function checkGltf(json: object): void {
 	checkSchema(new Validator(schemaOf(json as Record<string, unknown>), '2020-12'), json, 'glTF');
 	const { nodes = [], accessors = [], bufferViews = [], buffers = [] } = json as Gltf;
 	checkTree(nodes);
-	bufferViews.forEach(({ buffer, byteOffset = 0, byteLength }, i) => {
-		const whole = buffers[buffer]?.byteLength as number;
-		expectAtMost(`bufferViews/${i}`, byteOffset + byteLength, whole, `in buffer ${buffer}`);
+	bufferViews.forEach((view, i) => {
+		const inBuffer = ({ buffer, byteOffset = 0, byteLength }: Place) =>
+			expectAtMost(
+				`bufferViews/${i}`,
+				byteOffset + byteLength,
+				buffers[buffer]?.byteLength as number,
+				`in buffer ${buffer}`,
+			);
+		inBuffer(view);
+		for (const packed of PACKED.flatMap((name) => view.extensions?.[name] ?? [])) {
+			inBuffer(packed);
+			const { count, byteStride } = packed;
+			if (count * byteStride !== view.byteLength)
+				refuse(`bufferViews/${i}`, `${count} elements of ${byteStride} bytes`, `${view.byteLength} bytes`);
+		}
 	});
 	let zeros = 0;
 	accessors.forEach((accessor, i) => {
@@ -154,6 +182,16 @@ function schemaOf(json: Record<string, unknown>): Schema {
 	const accessor = { ...span, count: { ...natural, minimum: 1 }, sparse, min: list(number), max: list(number) };
 	const kinds = { componentType: numeric(...Object.keys(BYTES).map(Number)), type: { enum: Object.keys(SIZES) } };
 	const view = { byteOffset: natural, byteLength: natural, byteStride: { ...natural, minimum: 4, maximum: 252 } };
+	const packed = object(
+		{
+			...{ buffer: index('buffers'), byteOffset: natural, byteLength: natural },
+			...{ byteStride: { ...natural, minimum: 1, maximum: 256 }, count: { ...natural, minimum: 1 } },
+			mode: { enum: ['ATTRIBUTES', 'TRIANGLES', 'INDICES'] },
+			filter: { enum: ['NONE', 'OCTAHEDRAL', 'QUATERNION', 'EXPONENTIAL', 'COLOR'] },
+		},
+		...['buffer', 'byteLength', 'byteStride', 'count', 'mode'],
+	);
+	const extensions = object(Object.fromEntries(PACKED.map((name) => [name, packed])));
 	const sampler = object({ input: index('accessors'), output: index('accessors') }, 'input', 'output');
 	const channel = object({ target: object({ node: index('nodes'), path: name }) }, 'sampler', 'target');
 	return object(
@@ -173,7 +211,7 @@ function schemaOf(json: Record<string, unknown>): Schema {
 				),
 			),
 			accessors: list(object({ ...accessor, ...kinds }, 'componentType', 'count', 'type')),
-			bufferViews: list(object({ ...view, buffer: index('buffers') }, 'buffer', 'byteLength')),
+			bufferViews: list(object({ ...view, extensions, buffer: index('buffers') }, 'buffer', 'byteLength')),
 			buffers: list(object({ uri: name, byteLength: natural }, 'byteLength')),
 			images: list({
 				...object({ uri: name, bufferView: index('bufferViews'), mimeType: name }),

@@ -115,6 +115,13 @@ export interface FurAsset {
 	shells: number;
 	/** Index of the fins' node: quads on the edges. */
 	fins?: number;
+	/** Fins in place of that node; format 2.2. */
+	edges?: {
+		/** Index of an accessor: a bit for each edge of the shells. */
+		mask: number;
+		/** Where the first fin begins, a share of a tile. */
+		start: number;
+	};
 	/** Factor from TEXCOORD_0 to tiles; 1 where absent. */
 	tiles?: number;
 	/** Slabs of the tile. */

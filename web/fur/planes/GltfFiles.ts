@@ -24,11 +24,16 @@ export class GltfFiles {
 	/** Bytes of a buffer view, from a buffer that has arrived whole. */
 	bufferView(index: number): Promise<ArrayBuffer> {
 		const { buffer, byteOffset = 0, byteLength } = this.#parser.json.bufferViews[index];
-		this.#buffers[buffer] ??= this.#buffer(buffer);
-		return this.#buffers[buffer].then((bytes) => bytes.slice(byteOffset, byteOffset + byteLength));
+		return this.buffer(buffer).then((bytes) => bytes.slice(byteOffset, byteOffset + byteLength));
 	}
 
-	async #buffer(index: number): Promise<ArrayBuffer> {
+	/** A buffer that has arrived whole. */
+	buffer(index: number): Promise<ArrayBuffer> {
+		this.#buffers[index] ??= this.#fetch(index);
+		return this.#buffers[index];
+	}
+
+	async #fetch(index: number): Promise<ArrayBuffer> {
 		const { json, options, extensions } = this.#parser;
 		const { uri, byteLength } = json.buffers[index];
 		const name = nameOf(uri) ?? `buffer ${index}`;

@@ -19,6 +19,15 @@ RIDGE, MIN_RIDGE = 1e-9, 1e-12
 """Added to the diagonal of a slab's Gram matrix, the first as a share of its trace."""
 
 
+FULL = 8
+"""Bits of a byte."""
+
+
+def step_of(bits: int) -> int:
+    """Distance of the codes of numbers of `bits` bits, 1 to 8, that are stored as bytes."""
+    return 1 << (FULL - bits)
+
+
 def byte_range(coefficients: Array, alpha: Array, top: int = 255) -> tuple[Array, Array]:
     """λ and Ω per coefficient, (C,) each, so that the bytes span the coefficients of the visible texels.
 
@@ -40,16 +49,16 @@ def gram(phi: Array, mean: Array | None = None) -> Array:
     return np.asarray(slabs + (RIDGE * power + MIN_RIDGE)[:, None, None] * np.eye(phi.shape[1]))
 
 
-def quantise(coefficients: Array, scale: Array, bias: Array, gram: Array, top: int = 255) -> Codes:
+def quantise(coefficients: Array, scale: Array, bias: Array, gram: Array, top: int = 255, step: int = 1) -> Codes:
     """Bytes of the coefficients, (..., C) → (..., C), with rounding errors that make up for each other.
 
-    gram : (C, C) of `gram`, or (K, C, C) for coefficients (K, ..., C); top : the greatest code. Coefficients are
-    rounded one after the other, the last first; each takes up what the rounding of those before it did to the light
-    (Babai's nearest plane), which the decoder need not know.
+    gram : (C, C) of `gram`, or (K, C, C) for coefficients (K, ..., C); top : the greatest code; step : of which
+    all codes are multiples. Coefficients are rounded one after the other, the last first; each takes up what the
+    rounding of those before it did to the light (Babai's nearest plane), which the decoder need not know.
     """
     if gram.ndim > 2:
         slabs = zip(coefficients, gram, strict=True)
-        return np.stack([quantise(slab, scale, bias, own, top) for slab, own in slabs])
+        return np.stack([quantise(slab, scale, bias, own, top, step) for slab, own in slabs])
     count = coefficients.shape[-1]
     upper = np.linalg.cholesky(gram * np.outer(scale, scale)).T
     wanted = coefficients / scale + bias
@@ -57,7 +66,7 @@ def quantise(coefficients: Array, scale: Array, bias: Array, gram: Array, top: i
     carried = np.zeros_like(wanted)
     for i in reversed(range(count)):
         target = wanted[..., i] + (carried[..., i + 1 :] @ upper[i, i + 1 :]) / upper[i, i]
-        codes[..., i] = np.clip(np.round(target), 0, top)
+        codes[..., i] = np.clip(step * np.round(target / step), 0, top)
         carried[..., i] = wanted[..., i] - codes[..., i]
     return codes
 
@@ -67,9 +76,9 @@ def dequantise(codes: Codes, scale: Array, bias: Array) -> Array:
     return scale * (codes - bias)
 
 
-def unit_bytes(values: Array) -> Bytes:
-    """0..1 → 0..255, rounded."""
-    return np.round(np.clip(values, 0, 1) * 255).astype(np.uint8)
+def unit_bytes(values: Array, step: int = 1) -> Bytes:
+    """0..1 → 0..255, rounded to multiples of `step`; what would be above is 255."""
+    return np.minimum(step * np.round(np.clip(values, 0, 1) * (255 / step)), 255).astype(np.uint8)
 
 
 def signed_bytes(vectors: Array) -> Bytes:

@@ -143,6 +143,7 @@ def write_passes(ceiling: Ceiling, grey: Path, folder: Path) -> None:
     if "fin" in pelt:
         del pelt["fin"]
         fins = fur.pop("fins", None)
+        fur.pop("edges", None)
         document["scenes"][0]["nodes"] = [node for node in document["scenes"][0]["nodes"] if node != fins]
     text = json.dumps(document)
     for number in range(ceiling.passes):

@@ -1,4 +1,4 @@
-"""A glTF file as JSON and arrays: container, buffers, accessors (glTF 2.0, section 3.6), Draco.
+"""A glTF file as JSON and arrays: container, buffers, accessors (glTF 2.0, section 3.6), Draco, meshopt.
 
 Read here and not by trimesh because trimesh 5.2 takes normalised integers for lengths, leaves sparse accessors zero,
 knows only the first set of texture coordinates and rounds colours to bytes.
@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 
 from furbake.surface.files import Source
 from furbake.surface.read.accessors import TYPES, WIDTHS, elements
-from furbake.surface.soup import Floats, Ints
+from furbake.surface.read.meshopt import EXTENSIONS, compression, decoded
+from furbake.surface.soup import Floats, Ints, MeshError
 
 Record = dict[str, Any]
 
@@ -27,7 +28,8 @@ DRACO = "KHR_draco_mesh_compression"
 BROKEN = (ValueError, LookupError, TypeError, AttributeError, OverflowError, OSError)
 """Errors of a broken file. A MeshError is one of them: it must be let through."""
 
-COMPRESSED = ("EXT_meshopt_compression", "KHR_meshopt_compression", "MESHOPT_compression")
+COMPRESSED = (*EXTENSIONS, "MESHOPT_compression")
+"""Extensions of a primitive that nothing decodes."""
 
 
 class UndecodableError(ValueError):
@@ -52,6 +54,7 @@ class GltfData:
         self._lists: dict[str, list[Record]] = {}
         self._buffers: dict[int, memoryview] = {}
         self._images: dict[int, bytes] = {}
+        self._decoded: dict[int, memoryview] = {}
         self.numbers = source.budgets.numbers
 
     def list_of(self, name: str) -> list[Record]:
@@ -108,13 +111,26 @@ class GltfData:
     def view(self, index: Any) -> memoryview:
         """Bytes of a buffer view. Raises UndecodableError where they are compressed."""
         record = self.item("bufferViews", index)
-        for name in COMPRESSED:
-            if name in record.get("extensions", {}):
-                raise UndecodableError(name)
+        if COMPRESSED[-1] in record.get("extensions", {}):
+            raise UndecodableError(COMPRESSED[-1])
+        packed = compression(record)
+        if packed is None:
+            return self._part(record, f"buffer view {index}")
+        if index not in self._decoded:
+            stream = self._part(packed, f"buffer view {index}")
+            try:
+                self._decoded[index] = memoryview(decoded(stream, packed, self.source.budgets.copied.take))
+            except MeshError:
+                raise
+            except Exception as error:  # a decoder raises anything on a broken stream
+                raise UndecodableError(EXTENSIONS[0]) from error
+        return self._decoded[index]
+
+    def _part(self, record: Record, name: str) -> memoryview:
         start, length = int(record.get("byteOffset", 0)), int(record["byteLength"])
         data = self._buffer(record["buffer"])
         if start < 0 or length < 0 or start + length > len(data):
-            raise ValueError(f"buffer view {index} ends at {start + length} of {len(data)} bytes")
+            raise ValueError(f"{name} ends at {start + length} of {len(data)} bytes")
         return data[start : start + length]
 
     def image(self, index: Any) -> bytes:

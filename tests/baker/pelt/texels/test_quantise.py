@@ -14,6 +14,7 @@ from furbake.pelt.texels.quantise import (
     quantise,
     signed_bytes,
     srgb_bytes,
+    step_of,
     unit_bytes,
 )
 
@@ -66,3 +67,20 @@ def test_signed_bytes_come_back_within_half_a_step() -> None:
     values = np.linspace(-1, 1, 4001)
     assert np.abs(from_signed_bytes(signed_bytes(values)) - values).max() <= 0.5 / 127.5 + 1e-12
     np.testing.assert_array_equal(signed_bytes(np.array([-2, -1, 1, 2])), [0, 0, 255, 255])
+
+
+@pytest.mark.parametrize(("bits", "step"), [(8, 1), (6, 4), (4, 16)])
+def test_fewer_bits_are_multiples_of_a_step_within_a_byte(bits: int, step: int) -> None:
+    assert step_of(bits) == step
+    coefficients = np.random.default_rng(1).normal(size=(1, 32, 32, 6))
+    scale, bias = byte_range(coefficients, np.ones((1, 32, 32)), 256 - step)
+    codes = quantise(coefficients, scale, bias, np.eye(6), 256 - step, step)
+    assert codes.dtype == np.uint8
+    assert 0.6 * 2**bits < len(np.unique(codes)) <= 2**bits
+    assert not (codes % step).any()
+    low, high = (dequantise(np.uint8([code] * 6), scale, bias) for code in (0, 256 - step))
+    lost = dequantise(codes, scale, bias) - np.clip(coefficients, low, high)
+    assert (np.abs(lost) <= step * scale / 2 * (1 + 1e-9)).all()
+    tint = unit_bytes(np.linspace(0, 1, 999), step)
+    assert tint.max() == 255
+    assert not (tint[tint < 255] % step).any()

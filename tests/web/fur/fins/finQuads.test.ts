@@ -1,0 +1,94 @@
+import { readFileSync } from 'node:fs';
+import type { BufferAttribute, BufferGeometry } from 'three';
+import { expect, it } from 'vitest';
+import { EdgeFaces } from '../../../../web/fur/fins/EdgeFaces.ts';
+import { finQuads } from '../../../../web/fur/fins/finQuads.ts';
+import { load } from '../furs.ts';
+
+/** Stored by the baker as a mesh. */
+const NAME = 'torus-4608';
+const gltf = JSON.parse(readFileSync(new URL(`../../../../public/models/${NAME}/model.gltf`, import.meta.url), 'utf8'));
+const asset = gltf.extensions.FUR_ptm_shells;
+const shells = load(NAME).fur.shells.geometry;
+const stored = load(NAME, 'fins').fur.shells.geometry;
+
+const row = (geometry: BufferGeometry, name: string, vertex: number) => {
+	const attribute = geometry.getAttribute(name) as BufferAttribute;
+	return Array.from({ length: attribute.itemSize }, (_, c) => attribute.getComponent(vertex, c));
+};
+const place = (geometry: BufferGeometry, vertex: number) =>
+	row(geometry, 'position', vertex)
+		.map((value) => Math.round(value * 65535))
+		.join();
+const ends = (geometry: BufferGeometry, a: number, b: number) => [place(geometry, a), place(geometry, b)].sort().join();
+
+/** Number of each stored fin by the places of its roots. */
+const fins = new Map(
+	Array.from({ length: stored.getAttribute('position').count / 4 }, (_, i) => [ends(stored, 4 * i, 4 * i + 1), i]),
+);
+const edges = [...new EdgeFaces(shells).edges];
+const kept = edges.map(({ from, to }) => fins.has(ends(shells, from, to)));
+const mask = new Uint8Array(Math.ceil(edges.length / 8));
+for (const [i, keep] of kept.entries()) if (keep) mask[i >> 3] = (mask[i >> 3] as number) | (1 << (i & 7));
+
+const places = {
+	start: 0.25,
+	tile: asset.length / asset.height / gltf.nodes[asset.shells].scale[0],
+	lean: asset.drift.at(-1)[1],
+	tiles: asset.tiles ?? 1,
+};
+
+it('makes of the edges the fins that the baker stores', () => {
+	const made = finQuads(shells, mask, places);
+	expect(made.getAttribute('position').count).toBe(stored.getAttribute('position').count);
+	expect(made.index?.count).toBe(stored.index?.count);
+	const off: Record<string, number> = {};
+	const differ = (name: string, got: readonly number[], wanted: readonly number[], turn = 0) => {
+		for (const [c, value] of got.entries()) {
+			const apart = Math.abs(value - (wanted[c] as number));
+			off[name] = Math.max(off[name] ?? 0, turn ? Math.min(apart, Math.abs(turn - apart)) : apart);
+		}
+	};
+	const across = (u: readonly number[]) => [1, 2, 3].map((i) => ((u[i] as number) - (u[0] as number)) * places.tiles);
+	let turned = 0;
+	for (let i = 0; i < made.getAttribute('position').count / 4; i++) {
+		const fin = fins.get(ends(made, 4 * i, 4 * i + 1)) as number;
+		if (place(made, 4 * i) !== place(stored, 4 * fin)) {
+			// Straight across the fur no end is the first.
+			const sheared = (row(made, 'uv', 4 * i + 2)[0] as number) - (row(made, 'uv', 4 * i)[0] as number);
+			expect((sheared * places.tiles) / places.lean).toBeGreaterThan(0.97);
+			turned++;
+			continue;
+		}
+		const columns = [made, stored].map((geometry, which) =>
+			[0, 1, 2, 3].map((corner) => row(geometry, 'uv', 4 * (which ? fin : i) + corner)[0] as number),
+		) as [number[], number[]];
+		differ('u', across(columns[0]), across(columns[1]));
+		for (let corner = 0; corner < 4; corner++) {
+			const [at, from] = [4 * i + corner, 4 * fin + corner];
+			for (const name of ['position', 'normal', 'tangent', '_fur']) {
+				if (stored.hasAttribute(name)) differ(name, row(made, name, at), row(stored, name, from));
+			}
+			differ('v', [row(made, 'uv', at)[1] as number], [row(stored, 'uv', from)[1] as number]);
+			const [angles, wanted] = [row(made, '_edge', at), row(stored, '_edge', from)];
+			differ('comb', angles.slice(2), wanted.slice(2));
+			// The two faces come in any order.
+			const apart = (one: number, two: number) =>
+				Math.abs((angles[0] as number) - one) + Math.abs((angles[1] as number) - two);
+			const [one = 0, two = 0] = wanted;
+			off.angles = Math.max(off.angles ?? 0, Math.min(apart(one, two), apart(two, one)));
+		}
+	}
+	expect(turned).toBeLessThan(fins.size / 3);
+	expect(off.position).toBeLessThan(1e-6);
+	for (const name of ['normal', 'tangent', '_fur', 'comb', 'angles']) expect(off[name] ?? 0, name).toBeLessThan(0.03);
+	expect(off.v).toBeLessThan(1e-4);
+	expect(off.u).toBeLessThan(0.02);
+});
+
+it('begins each fin a golden section after the one before, and refuses a mask of another mesh', () => {
+	const uv = finQuads(shells, mask, places).getAttribute('uv');
+	const starts = Array.from({ length: 8 }, (_, i) => Math.min(uv.getX(4 * i), uv.getX(4 * i + 1)) * places.tiles);
+	for (const [i, start] of starts.entries()) expect(start).toBeCloseTo((0.25 + i * ((5 ** 0.5 - 1) / 2)) % 1, 5);
+	expect(() => finQuads(shells, mask.slice(1), places)).toThrow(/got a mask of \d+ bytes, expected \d+ for \d+ edges/);
+});

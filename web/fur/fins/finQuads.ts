@@ -1,0 +1,123 @@
+/** Quads of the fins, from the edges of the shells' mesh on which they stand. */
+
+import { BufferGeometry, Float32BufferAttribute, Vector3 } from 'three';
+import { EdgeFaces } from './EdgeFaces.ts';
+
+/** Share of a tile by which each fin begins further on than the one before it: the golden section. */
+const GOLDEN = (Math.sqrt(5) - 1) / 2;
+
+/** Where fins are in their tile. */
+export interface FinPlaces {
+	/** Where the first fin begins, tiles. */
+	start: number;
+	/** Width of a tile, units of the surface. */
+	tile: number;
+	/** How far hairs lean along growing u at their tips, tiles. */
+	lean: number;
+	/** Tiles that a texture coordinate of 1 stands for. */
+	tiles: number;
+}
+
+/** Numbers per vertex of what `FurFins` needs. */
+const SIZES = { position: 3, normal: 3, tangent: 4, uv: 2, _fur: 4, _edge: 4, color: 3 };
+
+/**
+ * Four vertices per edge: root, root, tip, tip, first end before second. Fins run the way in which the fur is laid.
+ *
+ * @param surface the shells' geometry
+ * @param mask a bit for each edge of it, lowest first
+ * @throws Error for a mask of another number of edges
+ */
+export function finQuads(surface: BufferGeometry, mask: Uint8Array, places: FinPlaces): BufferGeometry {
+	const { start, tile, lean, tiles } = places;
+	const faces = new EdgeFaces(surface);
+	if (mask.length !== Math.ceil(faces.count / 8))
+		throw new Error(
+			`got a mask of ${mask.length} bytes, expected ${Math.ceil(faces.count / 8)} for ${faces.count} edges`,
+		);
+	const edges = [...faces.edges].filter((_, i) => (mask[i >> 3] as number) & (1 << (i & 7)));
+	const count = edges.length;
+	const quads = new BufferGeometry();
+	for (const [name, size] of Object.entries(SIZES)) {
+		if (name !== 'color' || surface.hasAttribute(name))
+			quads.setAttribute(name, new Float32BufferAttribute(count * 4 * size, size));
+	}
+	const roots = [new Root(surface, quads), new Root(surface, quads)] as const;
+	const [along, laid, one, two] = [new Vector3(), new Vector3(), new Vector3(), new Vector3()];
+	for (const [i, edge] of edges.entries()) {
+		const [from, to] = roots;
+		from.read(edge.from);
+		to.read(edge.to);
+		along.subVectors(to.place, from.place);
+		const length = along.length() / tile;
+		laid.addVectors(from.across, to.across).normalize();
+		const cosine = along.normalize().dot(laid);
+		const sheared = lean * (1 - Math.abs(cosine));
+		const begin = (start + GOLDEN * i) % 1;
+		if (cosine < 0) along.negate();
+		faces.normals(edge, one, two);
+		for (const [end, root] of (cosine < 0 ? [to, from] : roots).entries()) {
+			const u = begin + end * length;
+			root.write(4 * i + end, along, one, two, u / tiles, 0);
+			root.write(4 * i + end + 2, along, one, two, (u + sheared) / tiles, 1 / tiles);
+		}
+	}
+	quads.setIndex(
+		Array.from({ length: 6 * count }, (_, i) => 4 * Math.floor(i / 6) + ([0, 1, 3, 0, 3, 2][i % 6] as number)),
+	);
+	return quads;
+}
+
+/** An end of an edge: a vertex of the shells, and its copies in a fin. */
+class Root {
+	readonly place = new Vector3();
+	/** Direction in which v grows. */
+	readonly across = new Vector3();
+	readonly #normal = new Vector3();
+	readonly #comb = new Vector3();
+	readonly #spare = [new Vector3(), new Vector3()] as const;
+	#vertex = 0;
+
+	constructor(
+		readonly surface: BufferGeometry,
+		readonly quads: BufferGeometry,
+	) {}
+
+	/** Reads a vertex of the shells. */
+	read(vertex: number): void {
+		const { position, normal, tangent, _comb } = this.surface.attributes;
+		if (!position || !normal || !tangent) return;
+		this.#vertex = vertex;
+		this.place.fromBufferAttribute(position, vertex);
+		this.#normal.fromBufferAttribute(normal, vertex).normalize();
+		const t = this.#comb.fromBufferAttribute(tangent, vertex).normalize();
+		this.across.crossVectors(this.#normal, t).multiplyScalar(tangent.getW(vertex)).normalize();
+		t.multiplyScalar(_comb?.getX(vertex) ?? 0).addScaledVector(this.across, _comb?.getY(vertex) ?? 0);
+	}
+
+	/**
+	 * Writes a vertex of a fin.
+	 *
+	 * @param along unit, the edge; `one`, `two`: normals of its faces
+	 */
+	write(at: number, along: Vector3, one: Vector3, two: Vector3, u: number, v: number): void {
+		const { position, normal, tangent, uv, _fur, _edge, color } = this.quads.attributes;
+		const { _fur: fur, color: colour } = this.surface.attributes;
+		const [vertex, n] = [this.#vertex, this.#normal];
+		position?.setXYZ(at, ...this.place.toArray());
+		normal?.setXYZ(at, ...n.toArray());
+		tangent?.setXYZW(at, along.x, along.y, along.z, 1);
+		uv?.setXY(at, u, v);
+		_fur?.setXYZW(at, 1, fur?.getY(vertex) ?? 1, fur?.getZ(vertex) ?? 1, fur?.getW(vertex) ?? 0);
+		if (colour) color?.setXYZ(at, colour.getX(vertex), colour.getY(vertex), colour.getZ(vertex));
+		// The comb, along the edge made perpendicular to the normal, and across.
+		const [upright, aside] = this.#spare;
+		aside.crossVectors(along, n).normalize();
+		const comb = [this.#comb.dot(upright.crossVectors(n, aside)), this.#comb.dot(aside)] as const;
+		// Angles about the edge, from the normal made perpendicular to it.
+		upright.copy(n).addScaledVector(along, -along.dot(n)).normalize();
+		aside.crossVectors(along, upright);
+		const angle = (face: Vector3) => Math.atan2(face.dot(aside), face.dot(upright)) / Math.PI;
+		_edge?.setXYZW(at, angle(one), angle(two), ...comb);
+	}
+}
