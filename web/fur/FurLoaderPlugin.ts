@@ -23,7 +23,7 @@ import { GltfFiles } from './planes/GltfFiles.ts';
 import { isPacked, meshDecoder } from './planes/meshopt.ts';
 import { decodePlanes, type Layout, type PlaneFile, type Role } from './planes/mipLevels.ts';
 import { type Cut, PeltStates } from './planes/PeltStates.ts';
-import { textureArray } from './planes/planes.ts';
+import { readOneLevel, textureArray } from './planes/planes.ts';
 import { statesOf } from './planes/states.ts';
 import { ALPHA_CUT } from './shells/lod.ts';
 
@@ -237,6 +237,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		const textures: Record<string, Texture> = {};
 		for (const { role, name, levels } of await decodePlanes(await Promise.all(planes), layout))
 			textures[role] = textureArray(name, levels, layout.extent, role === 'colour');
+		readOneLevel(textures);
 		const { wet, dirty } = statesOf(asset);
 		const files = new Map<Pelt, () => Promise<PlaneFile>[]>();
 		for (const state of [...wet.slice(1), ...(dirty ? [dirty] : [])]) {

@@ -212,6 +212,7 @@ export class PeltStates {
 				const texture = textureArray(old.name, stacked(levels), extent, role === 'colour');
 				texture.anisotropy = old.anisotropy;
 				texture.wrapT = old.wrapT;
+				texture.minFilter = old.minFilter;
 				textures[role] = texture;
 				old.dispose();
 			}

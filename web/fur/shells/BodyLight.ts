@@ -43,7 +43,7 @@ const VERTICES_PER_ROW = 1024;
 const SKY_HEIGHTS = 11;
 
 /** Parts of the shells' shaders that place and bend hairs and light them by the sky. */
-const PARTS = ['SWING', 'TRIMMED', 'WET', 'SKY', 'MORPHS'];
+const PARTS = ['SWING', 'STRAIGHT', 'TRIMMED', 'WET', 'SKY', 'MORPHS'];
 
 /** Parts of the shells' shaders that belong to the pelt. */
 const PELT_PARTS = ['LAYERS', 'EYE', 'TWO_PLANES', 'CURVES', 'CURVES_LOW', 'CURVES_HIGH'];

@@ -1,10 +1,12 @@
 import {
 	BufferAttribute,
 	BufferGeometry,
+	type Camera,
 	type InterleavedBufferAttribute,
 	Matrix4,
 	Mesh,
 	type Object3D,
+	type Scene,
 	type Skeleton,
 	Sphere,
 	Vector3,
@@ -15,6 +17,7 @@ import type { FurPose, Jointed } from '../body/FurPose.ts';
 import { beginClip, endClip, type FurColumns } from './clip.ts';
 import type { FurFinMaterial } from './FurFinMaterial.ts';
 import type { FurMaterial } from './FurMaterial.ts';
+import { SeenFins } from './SeenFins.ts';
 
 /** Strips per fin where light changes with the height. */
 const STRIPS = 4;
@@ -41,6 +44,9 @@ export class FurFins extends Mesh<BufferGeometry, FurFinMaterial> implements Joi
 	/** Columns of the picture to draw; undefined: all. */
 	clip: FurColumns | undefined;
 	readonly #pose: FurPose | undefined;
+	readonly #seen = new SeenFins();
+	/** Indices of all fins, which copies share, while only some are drawn. */
+	#all: BufferAttribute | null = null;
 
 	/**
 	 * @param quads four vertices per edge with position (on the skin), normal, tangent (along the edge), uv (tiles along
@@ -93,13 +99,21 @@ export class FurFins extends Mesh<BufferGeometry, FurFinMaterial> implements Joi
 		sphere.radius += longer;
 	}
 
-	/** Restrict the draw to `clip`. */
-	override onBeforeRender(renderer: WebGLRenderer): void {
+	/** Restrict the draw to `clip`, and to fins that the camera sees. */
+	override onBeforeRender(renderer: WebGLRenderer, _scene: Scene, camera: Camera): void {
 		beginClip(renderer, this.clip);
+		const { geometry, material } = this;
+		// A pose turns normals on the GPU alone.
+		const seen = this.#pose ? undefined : this.#seen.choose(this, camera, STRIPS, Number(material.defines.FADE_TO));
+		if (!seen) return;
+		this.#all = geometry.index;
+		geometry.setIndex(seen.index).setDrawRange(0, seen.count);
 	}
 
-	/** Restore the scissor. */
+	/** Restore the scissor and all fins. */
 	override onAfterRender(renderer: WebGLRenderer): void {
+		if (this.#all) this.geometry.setIndex(this.#all).setDrawRange(0, Number.POSITIVE_INFINITY);
+		this.#all = null;
 		endClip(renderer, this.clip);
 	}
 

@@ -21,6 +21,7 @@ import { beginClip, endClip, type FurColumns } from './clip.ts';
 import type { FurMaterial } from './FurMaterial.ts';
 import { HullMaterial } from './HullMaterial.ts';
 import { cutFor, pixelsPerUnit, shellsFor } from './lod.ts';
+import { switchPart } from './switches.ts';
 
 /** Largest number of shells. */
 export const MAX_SHELLS = 256;
@@ -73,6 +74,7 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> implem
 		super(geometry, material);
 		const comb = surface instanceof InstancedBufferGeometry ? undefined : sharedComb(surface);
 		if (comb) geometry.setAttribute('_comb', comb);
+		this.#lay();
 		this.name = 'fur';
 		this.customDepthMaterial = new HullMaterial(material);
 		this.castShadow = this.receiveShadow = true;
@@ -143,8 +145,14 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> implem
 		this.geometry.instanceCount = Math.ceil(count);
 	}
 
+	/** Leave out of the shaders what only combed hairs need. */
+	#lay(): void {
+		switchPart(this.material, 'STRAIGHT', this.geometry.hasAttribute('_comb') ? undefined : '');
+	}
+
 	/** Set number of shells and alpha cut for this picture. */
 	override onBeforeRender(renderer: WebGLRenderer, _scene: Scene, camera: Camera): void {
+		this.#lay();
 		this.#light?.offer(renderer, camera);
 		const { center, radius } = this.geometry.boundingSphere as Sphere;
 		const unit = this.matrixWorld.getMaxScaleOnAxis() / this.scale.x; // world units per model unit

@@ -20,8 +20,8 @@ int storedSlab(int height) {
 
 #ifdef BODY_LIGHT
 #define STORED_ARRIVALS
-// Bits of floats. A lamp: 0 = height, radius, lightTS along the frame's two level axes; 1 = curves; 2 = nap, surge. The sky:
-// see packedSky.
+// Bits of floats. A lamp: 0 = height, radius, lightTS along the frame's two level axes; 1 = curves; 2 = nap, surge. With light
+// curves whose φ is costly 1 and 2 are halves, two to a word: 1 = curves, nap, surge; 2 = none, φ. The sky: see packSky.
 uniform highp usampler2D bodyLight0;
 uniform highp usampler2D bodyLight1;
 uniform highp usampler2D bodyLight2;

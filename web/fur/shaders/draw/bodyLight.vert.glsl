@@ -24,8 +24,13 @@ void main() {
 #if NUM_DIR_LIGHTS > 0
 		Arrival at = arrivalAt(point, eyeAt(point, bending), bending, directionalLights[gl_InstanceID].direction);
 		vEntry0 = floatBitsToUint(vec4(at.height, at.radius, at.lightTS.x, at.lightTS[LEVEL]));
+#ifdef CURVES
+		vEntry1 = uvec4(packHalf2x16(at.curves.xy), packHalf2x16(at.curves.zw), packHalf2x16(at.nap.xy), packHalf2x16(vec2(at.nap.z, at.surge)));
+		vEntry2 = uvec4(0u, packHalf2x16(at.low.xy), packHalf2x16(vec2(at.low.z, at.high.x)), packHalf2x16(at.high.yz));
+#else
 		vEntry1 = floatBitsToUint(at.curves);
 		vEntry2 = floatBitsToUint(vec4(at.nap, at.surge));
+#endif
 #endif
 	} else {
 #ifdef SKY

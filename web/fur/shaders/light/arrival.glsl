@@ -18,6 +18,9 @@ Arrival arrivalAt(FurPoint point, Eye from, Bending bending, vec3 lightVS) {
 	at.curves = curvesAt(at.height, horizonShare(point, at.height, at.radius), at.radius, lightTS);
 	at.nap = napTowards(from, bending.there ? unbent(lightTS, bending) : lightTS);
 	at.surge = surgeTowards(from, lightVS);
+#ifdef CURVES
+	basis(lightTS, at.low, at.high);
+#endif
 	return at;
 }
 
@@ -25,11 +28,29 @@ Arrival arrivalAt(FurPoint point, Eye from, Bending bending, vec3 lightVS) {
 // Arrival stored for this vertex of the body. lamp: index of the directional lamp
 Arrival storedArrival(int lamp) {
 	ivec2 texel = bodyTexel(gl_VertexID, lamp);
-	vec4 place = uintBitsToFloat(texelFetch(bodyLight0, texel, 0)), nap = uintBitsToFloat(texelFetch(bodyLight2, texel, 0));
+	vec4 place = uintBitsToFloat(texelFetch(bodyLight0, texel, 0));
 	vec3 lightTS;
 	lightTS.x = place.z;
 	lightTS[LEVEL] = place.w;
 	lightTS.UP = max(place.x, 0.0);
-	return Arrival(lightTS, place.x, place.y, uintBitsToFloat(texelFetch(bodyLight1, texel, 0)), nap.xyz, nap.w);
+	Arrival at;
+	at.lightTS = lightTS;
+	at.height = place.x;
+	at.radius = place.y;
+#ifdef CURVES
+	uvec4 first = texelFetch(bodyLight1, texel, 0), second = texelFetch(bodyLight2, texel, 0);
+	vec2 low = unpackHalf2x16(second.y), nap = unpackHalf2x16(first.z), middle = unpackHalf2x16(second.z);
+	at.curves = vec4(unpackHalf2x16(first.x), unpackHalf2x16(first.y));
+	at.nap = vec3(nap, unpackHalf2x16(first.w).x);
+	at.surge = unpackHalf2x16(first.w).y;
+	at.low = vec3(low, middle.x);
+	at.high = vec3(middle.y, unpackHalf2x16(second.w));
+#else
+	vec4 nap = uintBitsToFloat(texelFetch(bodyLight2, texel, 0));
+	at.curves = uintBitsToFloat(texelFetch(bodyLight1, texel, 0));
+	at.nap = nap.xyz;
+	at.surge = nap.w;
+#endif
+	return at;
 }
 #endif

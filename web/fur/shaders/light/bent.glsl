@@ -4,6 +4,10 @@
 uniform vec2 lean; // mean displacement of the tips inside the tile, share of the length along (T, B)
 uniform vec4 bent[6]; // weights of eight terms, two vectors for each of 1, s, s²
 
+#if defined(STRAIGHT) && !defined(SWING)
+#define UNBENT // no hair is bent further than baked
+#endif
+
 #define MAX_BEND 0.6667 // displacement of the tip beyond which the factor is constant
 
 // Terms of the law at a point, in the axes of lightTS.
@@ -28,7 +32,11 @@ vec3 leanTS() {
 Bending bendingOf(vec3 comb, float s) {
 	Bending bending;
 	float square = dot(comb, comb);
+#ifdef UNBENT
+	bending.there = false;
+#else
 	bending.there = square > 0.0;
+#endif
 	bending.shear = vec3(0.0);
 	bending.factor = Quadratic(1.0, vec3(0.0), mat3(0.0));
 	bending.rise = sqrt(max(1.0 - square, 0.04));

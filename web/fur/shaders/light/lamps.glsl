@@ -79,14 +79,21 @@ void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bendi
 	vec3 lightTS = at.lightTS;
 	vec4 curves = at.curves;
 	float nap = napAt(at, point.s), gain = nap, left = horizonShare(point, at.height, at.radius);
+#ifndef UNBENT
 	if (bending.there) {
 		gain *= bentLight(lightTS, bending);
 		curves = curvesAt(at.height < 0.0 ? at.height : lightTS.UP, left, at.radius, lightTS);
 	}
+#endif
 	float reaching = meanLight(point, curves);
 	gain *= reaching;
 	vec3 low, high;
+#if defined(CURVES) && defined(UNBENT)
+	low = at.low;
+	high = at.high;
+#else
 	basis(lightTS, low, high);
+#endif
 	float luminance = dot(irradiance, vec3(0.2126, 0.7152, 0.0722));
 #ifdef SHADOW_SHARE
 	lamps.share += max(gain, 0.0) * luminance;

@@ -72,6 +72,10 @@ struct Arrival {
 	vec4 curves; // mean curves under it; format 1.x: X = share of the dip left
 	vec3 nap; // its share for the eye before the bound MIN_SEEN, by 1, s, s²
 	float surge; // factor of light beside the eye
+#ifdef CURVES
+	vec3 low; // φ of the light, unbent: costly here
+	vec3 high;
+#endif
 };
 
 uniform float bodyRadius; // β, in lengths of the fur, of the body as a whole; format 1.x
