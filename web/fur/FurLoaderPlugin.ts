@@ -32,9 +32,6 @@ import { ALPHA_CUT } from './shells/lod.ts';
  */
 const ANISOTROPY = 2;
 
-/** Crisp levels of the shells' planes: seen from afar fur stays as bright as it was, to 1 %; with three to 3 %. */
-const CRISP_LEVELS = 2;
-
 /** Layers per texture that every GPU with WebGL2 allows. */
 const MIN_LAYERS = 256;
 
@@ -187,7 +184,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 	async #shellCut(asset: FurAsset, pelt: Pelt): Promise<Cut> {
 		const { size, layers, coefficients, height } = asset;
 		const extent = { width: size, height: size, layers };
-		const layout = { extent, coefficients, view: { cut: ALPHA_CUT, rise: height, crisp: CRISP_LEVELS } };
+		const layout = { extent, coefficients, view: { cut: ALPHA_CUT, rise: height } };
 		const cut = await this.#cut(asset, pelt, layout, (state) => state);
 		for (const texture of Object.values(cut.textures)) texture.anisotropy = this.#options.anisotropy ?? ANISOTROPY;
 		return cut;

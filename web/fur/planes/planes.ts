@@ -1,4 +1,4 @@
-/** PNG planes → texture arrays, with mip levels that keep what the alpha cut lets through. */
+/** PNG planes → texture arrays, byte for byte, with mip levels that keep what the alpha cut lets through. */
 
 import {
 	type ColorSpace,
@@ -12,7 +12,6 @@ import {
 	UnsignedByteType,
 } from 'three';
 import { alphaChannel } from '../format.ts';
-import { crisp } from './crisp.ts';
 import { decodePng, pngHeader } from './png.ts';
 
 /** PlaneBytes of `layers` pictures of `width` × `height`, RGBA, layer after layer. */
@@ -59,8 +58,6 @@ export interface MipOptions {
 	cut: number;
 	/** Height of the fur, widths of the tile. */
 	rise: number;
-	/** Number of levels whose hairs get crisp, the finest first; absent: none. */
-	crisp?: number;
 }
 
 interface MipLevel {
@@ -109,7 +106,7 @@ export function* mipSteps(
 	planes: PlaneBytes[],
 	{ width, height, layers }: Extent,
 	coefficients: number,
-	{ cut, rise, crisp: near = 0 }: MipOptions,
+	{ cut, rise }: MipOptions,
 ): Generator<void, PlaneBytes[][]> {
 	const { plane: alphaPlane, channel } = alphaChannel(coefficients);
 	const base = planes[alphaPlane] as PlaneBytes;
@@ -119,7 +116,7 @@ export function* mipSteps(
 	const seen = open.map((share, i) => share * (drawn[i] as number));
 
 	let level: MipLevel = { width, height, planes: planes.map((plane) => Float32Array.from(plane)), alpha, open, seen };
-	const levels = [[...planes]];
+	const levels = [planes];
 	while (level.width > 1 || level.height > 1) {
 		yield;
 		level = halve(level, layers);
@@ -132,11 +129,6 @@ export function* mipSteps(
 				),
 			),
 		);
-	}
-	// Coarser levels are of the stored coverage.
-	for (const level of levels.slice(0, near)) {
-		yield;
-		level[alphaPlane] = crisp(level[alphaPlane] as PlaneBytes, layers, channel);
 	}
 	return levels;
 }

@@ -20,7 +20,7 @@ import { BodyLight } from './BodyLight.ts';
 import { beginClip, endClip, type FurColumns } from './clip.ts';
 import type { FurMaterial } from './FurMaterial.ts';
 import { HullMaterial } from './HullMaterial.ts';
-import { cutFor, pixelsPerUnit, shellsFor } from './lod.ts';
+import { coarserShare, crispnessFor, cutFor, pixelsPerUnit, shellsFor } from './lod.ts';
 
 /** Largest number of shells. */
 export const MAX_SHELLS = 256;
@@ -143,7 +143,7 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> implem
 		this.geometry.instanceCount = Math.ceil(count);
 	}
 
-	/** Set number of shells and alpha cut for this picture. */
+	/** Set number of shells, alpha cut and crispness for this picture. */
 	override onBeforeRender(renderer: WebGLRenderer, _scene: Scene, camera: Camera): void {
 		this.#light?.offer(renderer, camera);
 		const { center, radius } = this.geometry.boundingSphere as Sphere;
@@ -158,7 +158,9 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> implem
 				shellsFor(this.furLength * unit * pixelsPerUnit(camera, height, near), this.#layers * this.material.trim) /
 					this.coarseness,
 			);
-		this.material.alphaCut = cutFor(this.#texel * unit * pixelsPerUnit(camera, height, away));
+		const texel = this.#texel * unit * pixelsPerUnit(camera, height, away);
+		this.material.alphaCut = cutFor(texel);
+		this.material.crispness.set(crispnessFor(texel), coarserShare(texel));
 		this.material.uniformsNeedUpdate = true;
 		beginClip(renderer, this.clip);
 	}
