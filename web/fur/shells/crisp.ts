@@ -3,7 +3,7 @@
  * contrast around one level of each slab makes them narrow and opaque, and fur hides as much.
  */
 
-import { type CompressedArrayTexture, Vector2 } from 'three';
+import { type CompressedArrayTexture, Vector4 } from 'three';
 import { alphaChannel } from '../format.ts';
 import type { FurTextures } from '../light/texels.ts';
 
@@ -25,6 +25,12 @@ const STEPS = 12;
 /** Values told apart. */
 const BINS = 256;
 
+interface Level {
+	data: Uint8Array;
+	width: number;
+	height: number;
+}
+
 interface Slab {
 	/** Coverage and others, rgba. */
 	texels: Uint8Array;
@@ -35,22 +41,24 @@ interface Slab {
 
 /**
  * Coverage of each slab that keeps its value where the picture's contrast is raised, 0..1: X for texels of the finest
- * level, Y of the next one. For `crispCoverage` of hair/opacity.glsl.
+ * level, Y of the next one, ZW of the next slab. For `crispCoverage` of hair/opacity.glsl.
  *
  * @param textures those of the dry fur come first
  */
-export function crispLevels({ plane0, plane1 }: FurTextures, layers: number): Vector2[] {
+export function crispLevels({ plane0, plane1 }: FurTextures, layers: number): Vector4[] {
 	const { plane, channel } = alphaChannel(plane1 ? 6 : 3);
 	const { mipmaps, image } = (plane === 1 ? plane1 : plane0) as CompressedArrayTexture;
 	const { depth } = image as { depth: number };
-	return Array.from({ length: layers }, (_, k) => {
-		const levels = SLABS.map((slabs, level) => {
-			const { data, width, height } = (mipmaps[level] ?? mipmaps[0]) as { data: Uint8Array; width: number; height: number };
+	const levels = Array.from({ length: layers }, (_, k) =>
+		SLABS.map((slabs, level) => {
+			const { data, width, height } = (mipmaps[level] ?? mipmaps[0]) as Level;
 			const size = data.length / depth;
 			return keptLevel(between({ texels: data.subarray(k * size, (k + 1) * size), width, height, channel }), slabs);
-		});
-		return new Vector2(...levels);
-	});
+		}),
+	).flat();
+	return Array.from({ length: Math.ceil(layers / 2) }, (_, i) =>
+		new Vector4().fromArray([...levels.slice(4 * i, 4 * i + 4), 0, 0]),
+	);
 }
 
 /** Shares of the values that coverage has between texels, a quarter of a texel off their middles. */

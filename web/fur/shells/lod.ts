@@ -31,7 +31,7 @@ const CRISP_FROM = 0.3;
 const CRISP_PER_PIXEL = 4;
 
 /** Largest crispness: beyond, the texels' corners show. */
-const CRISPEST = Number(import.meta.env.VITE_M ?? 3);
+const CRISPEST = 2.5;
 
 /**
  * Contrast of coverage on screen over the texels'.

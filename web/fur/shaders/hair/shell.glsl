@@ -16,7 +16,7 @@ uniform float shellCount; // n of one body, or the largest of many; may be fract
 uniform int firstShell; // first shell that is drawn
 uniform vec4 drift[(LAYERS + 2) / 2]; // two knots each: mean displacement of the hairs at the root and in every slab's middle, tile widths
 
-uniform vec2 crispLevels[LAYERS]; // coverage of each slab that crispness leaves alone: X = of texels, Y = of those twice as large
+uniform vec4 crispLevels[(LAYERS + 1) / 2]; // coverage of two slabs each that crispness leaves alone: X = of texels, Y = of those twice as large
 #ifndef BODIES
 uniform vec2 crispness; // Y = share of the latter in the picture
 #endif
@@ -109,7 +109,9 @@ ShellPoint shellPoint() {
 #endif
 	vAt = vec3(uv * tiles - (driftAt(point.s) - driftKnot(slab + 1)), float(slab));
 	vWeight = _fur.x * share / sharesOf(slab, count);
-	vKept = mix(crispLevels[slab].x, crispLevels[slab].y, crispness.y);
+	vec4 two = crispLevels[slab >> 1];
+	vec2 kept = (slab & 1) == 0 ? two.xy : two.zw;
+	vKept = mix(kept.x, kept.y, crispness.y);
 	vFacing = dot(point.turn * n, viewerVS(point.pointVS));
 	gl_Position = point.there ? projectionMatrix * vec4(point.pointVS, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 	return point;
