@@ -15,7 +15,9 @@ function hairs(size: number, radius: number, height: number): number[] {
 
 /** Levels of a plane with this coverage in the blue channel, or in alpha, and noise elsewhere. */
 function level(coverage: number[][], channel: number): Uint8Array<ArrayBuffer> {
-	return Uint8Array.from(coverage.flat().flatMap((a, i) => [0, 1, 2, 3].map((c) => (c === channel ? a : (i * 7) % 256))));
+	return Uint8Array.from(
+		coverage.flat().flatMap((a, i) => [0, 1, 2, 3].map((c) => (c === channel ? a : (i * 7) % 256))),
+	);
 }
 
 /** Share that a slab hides, drawn 4 × 4 times finer with linear filtering, as GPUs do; through `slabs` of it. */
