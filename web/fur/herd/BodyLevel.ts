@@ -119,7 +119,7 @@ export class BodyLevel {
 	readonly fins: Draw | undefined;
 	readonly #fur: Fur;
 	readonly #material: BodyMaterial;
-	/** Shells and alpha cut of each body, in the order of the draw. */
+	/** Shells, alpha cut and crispness of each body, in the order of the draw. */
 	readonly #details: InstancedBufferAttribute;
 
 	/**
@@ -135,7 +135,7 @@ export class BodyLevel {
 		this.fins = fins && finMaterial && new Draw(fins.geometry, finMaterial, capacity, 1, bounds);
 		this.#material = new BodyMaterial(shells.material, { shellCount: { value: most } });
 		this.shells = new Draw(shells.geometry, this.#material, capacity, most, bounds);
-		this.#details = new InstancedBufferAttribute(new Float32Array(2 * capacity), 2, false, most);
+		this.#details = new InstancedBufferAttribute(new Float32Array(4 * capacity), 4, false, most);
 		this.shells.geometry.setAttribute('bodyDetail', this.#details);
 		this.shells.name = `fur, up to ${most} shells`;
 		if (this.fins) this.fins.name = `fins of fur, up to ${most} shells`;
@@ -150,7 +150,7 @@ export class BodyLevel {
 	 * Draws `count` bodies from `drawn[first]` on.
 	 *
 	 * @param matrices matrices of all bodies
-	 * @param details shells and alpha cut of all bodies
+	 * @param details shells, alpha cut and crispness of all bodies
 	 * @param moved whether the matrices have changed
 	 */
 	put(
@@ -167,8 +167,8 @@ export class BodyLevel {
 		this.shells.clip = fur.clip;
 		this.shells.put(drawn, first, count, matrices, moved);
 		const { array } = this.#details;
-		for (let i = 0; i < 2 * count; i++) {
-			const detail = details[2 * (drawn[first + (i >> 1)] as number) + (i & 1)] as number;
+		for (let i = 0; i < 4 * count; i++) {
+			const detail = details[4 * (drawn[first + (i >> 2)] as number) + (i & 3)] as number;
 			if (array[i] === detail) continue;
 			array[i] = detail;
 			this.#details.needsUpdate = true;

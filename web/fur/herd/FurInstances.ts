@@ -1,6 +1,6 @@
 import { type Camera, Frustum, Matrix4, Object3D, type OrthographicCamera, Sphere, Vector4 } from 'three';
 import type { Fur } from '../Fur.ts';
-import { cutFor, pixelsPerUnit, shellsFor } from '../shells/lod.ts';
+import { coarserShare, crispnessFor, cutFor, pixelsPerUnit, shellsFor } from '../shells/lod.ts';
 import { BodyHull, BodyLevel, BodyMaterial } from './BodyLevel.ts';
 import { boundAll, cullBodies, cutLevels, type Eye, findEye, levelOf, measurePowers, sortFarFirst } from './bodies.ts';
 import { HerdPoses, MAX_POSES } from './HerdPoses.ts';
@@ -80,7 +80,7 @@ export class FurInstances extends Object3D {
 	readonly #powers: Float64Array;
 	readonly #order: Uint32Array;
 	readonly #seen: Uint8Array;
-	/** Shells and alpha cut of each body. */
+	/** Shells, alpha cut and crispness of each body. */
 	readonly #details: Float32Array;
 	readonly #level: Uint8Array;
 	readonly #drawn: Uint32Array;
@@ -99,7 +99,7 @@ export class FurInstances extends Object3D {
 		this.#powers = new Float64Array(capacity);
 		this.#order = Uint32Array.from({ length: capacity }, (_, i) => i);
 		this.#seen = new Uint8Array(capacity);
-		this.#details = new Float32Array(2 * capacity);
+		this.#details = new Float32Array(4 * capacity);
 		this.#level = new Uint8Array(capacity);
 		this.#drawn = new Uint32Array(capacity);
 		this.#ends = new Uint32Array(levels.length);
@@ -223,7 +223,7 @@ export class FurInstances extends Object3D {
 
 	/** Number of shells of body `i` by the last `update`; may be fractional. */
 	getShellsAt(i: number): number {
-		return this.#details[2 * i] as number;
+		return this.#details[4 * i] as number;
 	}
 
 	/** Culls, sorts and picks levels for the next draw by this camera. World matrices have to be up to date. */
@@ -245,7 +245,7 @@ export class FurInstances extends Object3D {
 
 		for (let i = 0; i < count; i++) {
 			this.#detail(i, camera, scale);
-			this.#level[i] = levelOf(this.#details[2 * i] as number, this.levels);
+			this.#level[i] = levelOf(this.#details[4 * i] as number, this.levels);
 		}
 		cutLevels(this.#order, count, this.#seen, this.#level, this.#drawn, this.#ends);
 
@@ -261,7 +261,7 @@ export class FurInstances extends Object3D {
 		this.#moved = false;
 	}
 
-	/** Number of shells and alpha cut that the fur by itself would have there. @param scale these axes → the world's */
+	/** Number of shells, alpha cut and crispness that the fur by itself would have there. @param scale these axes → the world's */
 	#detail(i: number, camera: Camera, scale: number): void {
 		const radius = this.#spheres[4 * i + 3] as number;
 		const unit = (scale * radius) / this.#sphere.radius;
@@ -270,8 +270,11 @@ export class FurInstances extends Object3D {
 		const { automatic, shellCount, coarseness } = this.#fur.shells;
 		const fewest = this.fewestShells * this.#fur.material.trim;
 		const wanted = shellsFor(this.#length * unit * pixelsPerUnit(camera, this.height, near), fewest) / coarseness;
-		this.#details[2 * i] = Math.min(Math.max(automatic ? wanted : shellCount, 1), this.levels[0] as number);
-		this.#details[2 * i + 1] = cutFor(this.#texel * unit * pixelsPerUnit(camera, this.height, away));
+		this.#details[4 * i] = Math.min(Math.max(automatic ? wanted : shellCount, 1), this.levels[0] as number);
+		const texel = this.#texel * unit * pixelsPerUnit(camera, this.height, away);
+		this.#details[4 * i + 1] = cutFor(texel);
+		this.#details[4 * i + 2] = crispnessFor(texel);
+		this.#details[4 * i + 3] = coarserShare(texel);
 	}
 
 	/** Frees everything but the fur. */

@@ -1,4 +1,4 @@
-import { Color, type ShaderMaterialParameters, Vector3, Vector4 } from 'three';
+import { Color, type ShaderMaterialParameters, Vector2, Vector3, Vector4 } from 'three';
 import type { FurAsset } from '../format.ts';
 import { bentWeights, leanOf, wayOf } from '../light/bent.ts';
 import { eyeUniforms } from '../light/eye.ts';
@@ -11,6 +11,7 @@ import hairIn from '../shaders/hair/hair.frag.glsl?raw';
 import hairOut from '../shaders/hair/hair.vert.glsl?raw';
 import opacity from '../shaders/hair/opacity.glsl?raw';
 import shell from '../shaders/hair/shell.glsl?raw';
+import { crispLevels } from './crisp.ts';
 import { ALPHA_CUT } from './lod.ts';
 import { morphUniforms, weightUniforms } from './morphs.ts';
 import { PeltMaterial } from './PeltMaterial.ts';
@@ -25,6 +26,8 @@ export interface FurMaterialParameters extends ShaderMaterialParameters {
 	alphaCut?: number;
 	/** {@inheritDoc FurMaterial.bodyRadius} */
 	bodyRadius?: number;
+	/** See `setCrispness`; FurShells does for every picture. @internal */
+	crispness?: Vector2;
 	/** Base colour of the model, which multiplies the fur's. */
 	skinColour?: Color;
 	/** Linear colour at the skin. */
@@ -57,6 +60,7 @@ const MIRRORED = [
 	'furLength',
 	'shellCount',
 	'alphaCut',
+	'crispness',
 	'skinColour',
 	'root',
 	'tip',
@@ -79,6 +83,8 @@ export class FurMaterial extends PeltMaterial {
 	declare shellCount: number;
 	/** {@inheritDoc FurMaterialParameters.alphaCut} */
 	declare alphaCut: number;
+	/** {@inheritDoc FurMaterialParameters.crispness} @internal */
+	declare crispness: Vector2;
 	/** {@inheritDoc FurMaterialParameters.skinColour} */
 	declare skinColour: Color;
 	/** {@inheritDoc FurMaterialParameters.root} */
@@ -118,6 +124,8 @@ export class FurMaterial extends PeltMaterial {
 					...morphUniforms(),
 					...weightUniforms(),
 					alphaCut: { value: ALPHA_CUT },
+					crispness: { value: new Vector2(1, 0) },
+					crispLevels: { value: crispLevels(textures, asset.layers) },
 					skinColour: { value: new Color(1, 1, 1) },
 					root: { value: new Color(...ramp.root) },
 					tip: { value: new Color(...ramp.tip) },

@@ -20,7 +20,7 @@ import { BodyLight } from './BodyLight.ts';
 import { beginClip, endClip, type FurColumns } from './clip.ts';
 import type { FurMaterial } from './FurMaterial.ts';
 import { HullMaterial } from './HullMaterial.ts';
-import { cutFor, pixelsPerUnit, shellsFor } from './lod.ts';
+import { coarserShare, crispnessFor, cutFor, pixelsPerUnit, shellsFor } from './lod.ts';
 import { switchPart } from './switches.ts';
 
 /** Largest number of shells. */
@@ -150,7 +150,7 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> implem
 		switchPart(this.material, 'STRAIGHT', this.geometry.hasAttribute('_comb') ? undefined : '');
 	}
 
-	/** Set number of shells and alpha cut for this picture. */
+	/** Set number of shells, alpha cut and crispness for this picture. */
 	override onBeforeRender(renderer: WebGLRenderer, _scene: Scene, camera: Camera): void {
 		this.#lay();
 		this.#light?.offer(renderer, camera);
@@ -166,7 +166,9 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> implem
 				shellsFor(this.furLength * unit * pixelsPerUnit(camera, height, near), this.#layers * this.material.trim) /
 					this.coarseness,
 			);
-		this.material.alphaCut = cutFor(this.#texel * unit * pixelsPerUnit(camera, height, away));
+		const texel = this.#texel * unit * pixelsPerUnit(camera, height, away);
+		this.material.alphaCut = cutFor(texel);
+		this.material.crispness.set(crispnessFor(texel), coarserShare(texel));
 		this.material.uniformsNeedUpdate = true;
 		beginClip(renderer, this.clip);
 	}

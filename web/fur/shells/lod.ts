@@ -1,4 +1,4 @@
-/** Number of shells and alpha cut for a picture. */
+/** Number of shells, alpha cut and crispness for a picture. */
 
 import type { Camera } from 'three';
 
@@ -24,6 +24,27 @@ export function shellsFor(pixels: number, least: number): number {
 /** Coverage below which a fragment is dropped. @param pixels width of a texel on screen */
 export function cutFor(pixels: number): number {
 	return ALPHA_CUT * Math.min(Math.max((0.8 * pixels) ** 1.7, FAR_CUT), 1);
+}
+
+/** Width of texels on screen, pixels, from which on hairs get crisp, and how much for each pixel more. */
+const CRISP_FROM = 0.3;
+const CRISP_PER_PIXEL = 4;
+
+/** Largest crispness: beyond, the texels' corners show. */
+const CRISPEST = 2.5;
+
+/**
+ * Contrast of coverage on screen over the texels'.
+ *
+ * @param pixels width of a texel on screen
+ */
+export function crispnessFor(pixels: number): number {
+	return Math.min(Math.max(1 + CRISP_PER_PIXEL * (pixels - CRISP_FROM), 1), CRISPEST);
+}
+
+/** Share of texels of the second level in a picture, 0..1. @param pixels width of a texel of the first on screen */
+export function coarserShare(pixels: number): number {
+	return Math.min(Math.max(-Math.log2(pixels), 0), 1);
 }
 
 /**

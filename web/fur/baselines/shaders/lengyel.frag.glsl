@@ -4,6 +4,7 @@ out vec4 fragColour;
 
 void main() {
 	vec2 hair = furCoverage(vAt);
+	hair.x = crispCoverage(hair.x);
 	vec3 strand = strandTS(vAt);
 	vec3 colour = hairColour(vAt, hair.y);
 	if (hair.x < alphaCut) discard;

@@ -8,6 +8,7 @@ out vec4 fragColour;
 
 void main() {
 	vec2 hair = furCoverage(vAt);
+	hair.x = crispCoverage(hair.x);
 	vec3 colour = hairColour(vAt, hair.y);
 	if (hair.x < alphaCut) discard;
 	fragColour = furOutput(colour * (brightness * 4.0 * PI), shellOpacity(hair.x));

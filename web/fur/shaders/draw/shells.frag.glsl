@@ -4,6 +4,7 @@ out vec4 fragColour;
 
 void main() {
 	FurTexel texel = furTexel(vAt);
+	texel.alpha = crispCoverage(texel.alpha);
 	vec3 colour = hairColour(vAt, texel.tint);
 	if (texel.alpha < alphaCut) discard;
 	fragColour = furOutput(furRadiance(texel, colour, receivedLamps(), receivedSky()), shellOpacity(texel.alpha));

@@ -3,10 +3,13 @@
 #ifdef BODIES
 in float vShells; // shells of this body
 in float vCut;
+in vec2 vCrispness;
 #define shellCount vShells
 #define alphaCut vCut
+#define crispness vCrispness
 #else
 uniform float alphaCut; // coverage below which a fragment is dropped
+uniform vec2 crispness; // X = contrast of coverage over the texels'
 #ifdef ALPHA_TO_COVERAGE
 uniform float shellCount;
 #endif
@@ -14,6 +17,13 @@ uniform float shellCount;
 
 in float vWeight;
 in float vFacing;
+
+in float vKept; // coverage that crispness leaves alone
+
+// Coverage with the contrast of this picture, see crisp.ts.
+float crispCoverage(float coverage) {
+	return clamp((coverage - vKept) * crispness.x + vKept, 0.0, 1.0);
+}
 
 // coverage: that of a slab of the baked thickness, seen from straight above.
 float shellOpacity(float coverage) {

@@ -3,10 +3,12 @@
 layout(location = 12) in vec4 color; // colour of the skin, linear
 
 #ifdef BODIES
-in vec2 bodyDetail; // per instance: X = shells of this body, no more than shellCount; Y = its alphaCut
+in vec4 bodyDetail; // per instance: X = shells of this body, no more than shellCount; Y = its alphaCut; ZW = its crispness
+#define crispness bodyDetail.zw
 
 out float vShells;
 out float vCut;
+out vec2 vCrispness;
 #endif
 
 uniform float tiles; // texture coordinates → tiles
@@ -14,9 +16,15 @@ uniform float shellCount; // n of one body, or the largest of many; may be fract
 uniform int firstShell; // first shell that is drawn
 uniform vec4 drift[(LAYERS + 2) / 2]; // two knots each: mean displacement of the hairs at the root and in every slab's middle, tile widths
 
+uniform vec4 crispLevels[(LAYERS + 1) / 2]; // coverage of two slabs each that crispness leaves alone: X = of texels, Y = of those twice as large
+#ifndef BODIES
+uniform vec2 crispness; // Y = share of the latter in the picture
+#endif
+
 out vec3 vAt; // XY = tiles, Z = slab
 out float vWeight; // slabs that the shell stands for, times the patch's weight
 out float vFacing; // n·v
+out float vKept;
 
 #define SLABS (furTrim * float(LAYERS)) // slabs left after a cut
 
@@ -74,6 +82,7 @@ ShellPoint shellPoint() {
 	float i = float(firstShell + gl_InstanceID % int(ceil(shellCount))), count = bodyDetail.x;
 	vShells = bodyDetail.x;
 	vCut = bodyDetail.y;
+	vCrispness = bodyDetail.zw;
 #else
 	float i = float(firstShell + gl_InstanceID), count = shellCount;
 #endif
@@ -100,6 +109,9 @@ ShellPoint shellPoint() {
 #endif
 	vAt = vec3(uv * tiles - (driftAt(point.s) - driftKnot(slab + 1)), float(slab));
 	vWeight = _fur.x * share / sharesOf(slab, count);
+	vec4 two = crispLevels[slab >> 1];
+	vec2 kept = (slab & 1) == 0 ? two.xy : two.zw;
+	vKept = mix(kept.x, kept.y, crispness.y);
 	vFacing = dot(point.turn * n, viewerVS(point.pointVS));
 	gl_Position = point.there ? projectionMatrix * vec4(point.pointVS, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 	return point;

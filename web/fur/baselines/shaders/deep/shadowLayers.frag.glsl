@@ -5,6 +5,7 @@ out vec4 fragColour;
 
 void main() {
 	vec2 hair = furCoverage(vAt);
+	hair.x = crispCoverage(hair.x);
 	vec3 strand = strandTS(vAt);
 	float through = deepTransmittance(vMapped);
 	vec3 colour = hairColour(vAt, hair.y);

@@ -1,0 +1,77 @@
+import { describe, expect, it } from 'vitest';
+import { textureArray } from '../../../../web/fur/planes/planes.ts';
+import { crispLevels } from '../../../../web/fur/shells/crisp.ts';
+import { coarserShare, crispnessFor } from '../../../../web/fur/shells/lod.ts';
+
+const SIZE = 32;
+
+/** Coverage of soft round hairs on a grid of empty texels; `height` of their middles, 0..255. */
+function hairs(size: number, radius: number, height: number): number[] {
+	return Array.from({ length: size * size }, (_, i) => {
+		const [x, y] = [(i % size) % 8, Math.floor(i / size) % 8];
+		return Math.round(height * Math.max(1 - Math.hypot(x - 3.3, y - 3.6) / radius, 0));
+	});
+}
+
+/** Levels of a plane with this coverage in the blue channel, or in alpha, and noise elsewhere. */
+function level(coverage: number[][], channel: number): Uint8Array<ArrayBuffer> {
+	return Uint8Array.from(
+		coverage.flat().flatMap((a, i) => [0, 1, 2, 3].map((c) => (c === channel ? a : (i * 7) % 256))),
+	);
+}
+
+/** Share that a slab hides, drawn 4 × 4 times finer with linear filtering, as GPUs do; through `slabs` of it. */
+function hidden(coverage: number[], size: number, slabs: number, contrast: number, kept: number): number {
+	const at = (x: number, y: number) => (coverage[((y + size) % size) * size + ((x + size) % size)] as number) / 255;
+	let sum = 0;
+	const fine = 4 * size;
+	for (let j = 0; j < fine; j++)
+		for (let i = 0; i < fine; i++) {
+			const [x, y] = [(i + 0.5) / 4 - 0.5, (j + 0.5) / 4 - 0.5];
+			const [left, top] = [Math.floor(x), Math.floor(y)];
+			const [u, v] = [x - left, y - top];
+			const value =
+				(1 - v) * ((1 - u) * at(left, top) + u * at(left + 1, top)) +
+				v * ((1 - u) * at(left, top + 1) + u * at(left + 1, top + 1));
+			const crisp = Math.min(Math.max((value - kept) * contrast + kept, 0), 1);
+			sum += 1 - (1 - Math.min(crisp, 0.996)) ** slabs;
+		}
+	return sum / fine ** 2;
+}
+
+describe('crisp hairs', () => {
+	const slabs = [hairs(SIZE, 3.2, 250), hairs(SIZE, 2.6, 180), hairs(SIZE, 2.2, 120)];
+	const coarse = [hairs(SIZE / 2, 2.4, 200), hairs(SIZE / 2, 2, 140), hairs(SIZE / 2, 1.8, 90)];
+	const extent = { width: SIZE, height: SIZE, layers: 3 };
+
+	it.each([
+		['the second plane', 2],
+		['the only plane', 3],
+	])('hide as much as soft ones, with coverage in %s', (_, channel) => {
+		const plane = textureArray('plane', [level(slabs, channel), level(coarse, channel)], extent);
+		const other = textureArray('other', [new Uint8Array(SIZE * SIZE * 12)], extent);
+		const levels = crispLevels(channel === 2 ? { plane0: other, plane1: plane } : { plane0: plane }, 3);
+		expect(levels).toHaveLength(2);
+		const each = levels.flatMap((two) => two.toArray());
+		for (const k of [0, 1, 2]) {
+			const [near, far] = [each[2 * k] as number, each[2 * k + 1] as number];
+			const soft = hidden(slabs[k] as number[], SIZE, 0.5, 1, 0);
+			expect(Math.abs(hidden(slabs[k] as number[], SIZE, 0.5, 3, near) / soft - 1)).toBeLessThan(0.06);
+			const softer = hidden(coarse[k] as number[], SIZE / 2, 1.4, 1, 0);
+			expect(Math.abs(hidden(coarse[k] as number[], SIZE / 2, 1.4, 3, far) / softer - 1)).toBeLessThan(0.06);
+			// Around one half all but the thickest hairs would get thin, or vanish.
+			if (k === 2) expect(hidden(slabs[k] as number[], SIZE, 0.5, 3, 0.5)).toBeLessThan(0.5 * soft);
+		}
+	});
+
+	it('are those close up: from afar the picture stays as it was, and nothing jumps', () => {
+		expect([0.01, 0.1, 0.29].map(crispnessFor)).toEqual([1, 1, 1]);
+		expect(crispnessFor(0.55)).toBeCloseTo(2, 6);
+		expect([1, 5, 100].map(crispnessFor)).toEqual([2.5, 2.5, 2.5]);
+		expect([0.1, 0.5, 1, 4].map(coarserShare)).toEqual([1, 1, 0, 0]);
+		for (let pixels = 0.02; pixels < 4; pixels += 0.01) {
+			expect(Math.abs(crispnessFor(pixels + 0.01) - crispnessFor(pixels))).toBeLessThan(0.05);
+			expect(Math.abs(coarserShare(pixels + 0.01) - coarserShare(pixels))).toBeLessThan(0.05);
+		}
+	});
+});
