@@ -27,7 +27,13 @@ describe('patchesOf', () => {
 		const { byteOffset, byteLength, count, byteStride, mode } = view.extensions.EXT_meshopt_compression;
 		const decoded = new Uint8Array(count * byteStride);
 		await MeshoptDecoder.ready;
-		MeshoptDecoder.decodeGltfBuffer(decoded, count, byteStride, bin.subarray(byteOffset, byteOffset + byteLength), mode);
+		MeshoptDecoder.decodeGltfBuffer(
+			decoded,
+			count,
+			byteStride,
+			bin.subarray(byteOffset, byteOffset + byteLength),
+			mode,
+		);
 		const corners = [...new (byteStride === 4 ? Uint32Array : Uint16Array)(decoded.buffer)];
 		expect(corners.length).toBe(accessor.count);
 		const vertices: number = gltf.accessors[shells.attributes.POSITION].count;
