@@ -1,5 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { BufferAttribute, BufferGeometry } from 'three';
+import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
 import { describe, expect, it } from 'vitest';
 import { patchesOf } from '../../../web/learn/data/patches.ts';
 
@@ -16,17 +17,25 @@ describe('patchesOf', () => {
 		expect([...of]).toEqual([0, 0, 0, 0, 1, 1, 1, 2]);
 	});
 
-	it('finds in the bunny what a flood over its triangles finds', () => {
+	it('finds in the bunny what a flood over its triangles finds', async () => {
 		const folder = new URL('../../../public/models/bunny/', import.meta.url);
 		const gltf = JSON.parse(readFileSync(new URL('model.gltf', folder), 'utf8'));
 		const bin = readFileSync(new URL('model.bin', folder));
 		const shells = gltf.meshes.find(({ name }: { name: string }) => name === 'shells').primitives[0];
 		const accessor = gltf.accessors[shells.indices];
 		const view = gltf.bufferViews[accessor.bufferView];
-		const start = bin.byteOffset + (view.byteOffset ?? 0) + (accessor.byteOffset ?? 0);
-		const corners = [
-			...new (accessor.componentType === 5125 ? Uint32Array : Uint16Array)(bin.buffer, start, accessor.count),
-		];
+		const { byteOffset, byteLength, count, byteStride, mode } = view.extensions.EXT_meshopt_compression;
+		const decoded = new Uint8Array(count * byteStride);
+		await MeshoptDecoder.ready;
+		MeshoptDecoder.decodeGltfBuffer(
+			decoded,
+			count,
+			byteStride,
+			bin.subarray(byteOffset, byteOffset + byteLength),
+			mode,
+		);
+		const corners = [...new (byteStride === 4 ? Uint32Array : Uint16Array)(decoded.buffer)];
+		expect(corners.length).toBe(accessor.count);
 		const vertices: number = gltf.accessors[shells.attributes.POSITION].count;
 
 		const around = Array.from({ length: vertices }, () => [] as number[]);
