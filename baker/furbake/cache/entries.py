@@ -40,7 +40,7 @@ class Cache:
     max_bytes: int = MAX_BYTES
 
     def get(self, key: str) -> Any | None:
-        """What was put under this key; None where nothing was, or the file is not what was written."""
+        """The value under this key; None where there is none, or the file is not what was written."""
         path = self.folder / f"{key}{ENTRY}"
         try:
             with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:

@@ -23,7 +23,7 @@ OWN_POINTS, OWN_POINTS_PER_TEXEL = 8, 8
 POINTS_PER_TEXEL, MIN_POINTS = 2, 2
 """Points of a bent ray per texel that it moves aside, and in a slab at least."""
 
-STRIP, DARK = 8, 1e-5
+STRIP, DARK = 8, 1e-4
 """Slabs whose rays are followed together, from the tips down, and the mean T below which all deeper ones are black."""
 
 TOGETHER = 2**17

@@ -249,7 +249,7 @@ class Medium:
     def sweep(
         self, even: Single, perpendicular: Single, light: Single, ways: Array, solid_angles: Array
     ) -> tuple[Arriving, Single]:
-        """What D directions of travel bring to the slabs, with the irradiance of the end, and to the eye, (K, B, N, N).
+        """Light of D directions of travel: to the slabs, with the irradiance of the end, and to the eye, (K, B, N, N).
 
         even, perpendicular : (K, B, N, N) and (3, K, B, N, N), φ and F⊥ times what hairs send on of them
         light : (B, N, N) enters below where the directions go up, above where they go down
