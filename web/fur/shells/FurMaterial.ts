@@ -11,7 +11,7 @@ import hairIn from '../shaders/hair/hair.frag.glsl?raw';
 import hairOut from '../shaders/hair/hair.vert.glsl?raw';
 import opacity from '../shaders/hair/opacity.glsl?raw';
 import shell from '../shaders/hair/shell.glsl?raw';
-import { crispLevels } from './crisp.ts';
+import { crispLevels } from '../planes/crisp.ts';
 import { ALPHA_CUT } from './lod.ts';
 import { morphUniforms, weightUniforms } from './morphs.ts';
 import { PeltMaterial } from './PeltMaterial.ts';
