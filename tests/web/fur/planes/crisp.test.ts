@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
+import { crispLevels } from '../../../../web/fur/planes/crisp.ts';
 import { textureArray } from '../../../../web/fur/planes/planes.ts';
-import { crispLevels } from '../../../../web/fur/shells/crisp.ts';
 import { coarserShare, crispnessFor } from '../../../../web/fur/shells/lod.ts';
 
 const SIZE = 32;
