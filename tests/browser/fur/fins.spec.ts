@@ -232,3 +232,26 @@ test('fins are measured: what they add to the outline, where they are, what a fr
 	expect(cost?.shells).toBe(2);
 	for (const value of [cost?.without, cost?.fins, cost?.ratio]) expect(value).toBeGreaterThan(0);
 });
+
+for (const parallel of [false, true])
+	test(`fins that ${parallel ? 'parallel rays' : 'an eye'} cannot meet are left out, and no pixel changes`, async ({
+		page,
+	}) => {
+		await openStage(page);
+		const sides: [number, number, number][] = [
+			[0, 0.5, 5],
+			[4, 2, 1],
+			[-3, 4, -2],
+			[0.1, -4, 1],
+		];
+		const figures = await page.evaluate(([url, from, flat]) => stage.chosen(url, from, flat), [
+			'/models/bunny/model.gltf',
+			sides,
+			parallel,
+		] as const);
+		for (const [few = 0, all = 0, different, seen] of figures) {
+			expect(few).toBeLessThan(0.5 * all);
+			expect(seen).toBeGreaterThan(1000);
+			expect(different).toBe(0);
+		}
+	});

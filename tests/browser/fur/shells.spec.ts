@@ -140,3 +140,42 @@ for (const [model, trim] of [
 			'that it is another program',
 		).toBe(true);
 	});
+
+for (const [model, least] of [
+	['torus-4608', 90],
+	['torus-512-eigen3', 55],
+] as const)
+	test(`${model}: hairs without a comb are lit as with one of no length`, async ({ page }) => {
+		await openStage(page);
+		const [without, combed] = await page.evaluate(
+			(url) => stage.pictures(url, 240, [{ shells: 16 }, { shells: 16, combed: true }]),
+			`/models/${model}/model.gltf`,
+		);
+		expect(without?.rgba).not.toBe('');
+		const dB = psnr(floats(without?.rgba ?? ''), floats(combed?.rgba ?? ''));
+		test.info().annotations.push({ type: 'PSNR', description: `${dB.toFixed(1)} dB` });
+		expect(dB).toBeGreaterThan(least);
+	});
+
+test('coefficients of the nearest mip level look like a mixture of two', async ({ page }) => {
+	await openStage(page);
+	for (const distance of [0.5, 1.4]) {
+		const [nearest, mixed] = await page.evaluate(
+			([url, away]) =>
+				stage.pictures(
+					url,
+					300,
+					[false, true].map((mix) => ({ shells: 16, distance: away, mixed: mix })),
+				),
+			[BUNNY, distance] as const,
+		);
+		const [a, b] = [floats(nearest?.rgba ?? ''), floats(mixed?.rgba ?? '')];
+		const dB = psnr(a, b);
+		test.info().annotations.push({ type: `PSNR at ${distance}`, description: `${dB.toFixed(1)} dB` });
+		expect(dB).toBeGreaterThan(48);
+		expect(
+			a.some((value, i) => value !== b[i]),
+			'that levels differ',
+		).toBe(true);
+	}
+});

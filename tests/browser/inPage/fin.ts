@@ -7,6 +7,7 @@ import {
 	FloatType,
 	NoBlending,
 	OrthographicCamera,
+	PerspectiveCamera,
 	Scene,
 	WebGLRenderTarget,
 } from 'three';
@@ -15,6 +16,41 @@ import { channel, renderer, uncovered } from './flat.ts';
 import { toBase64 } from './Stand.ts';
 
 export const finStage = {
+	/**
+	 * Fins alone from several sides, those chosen and all of them.
+	 *
+	 * @returns for each side triangles of the chosen, of all, the number of values in which the two pictures differ, and of those above 0
+	 */
+	async chosen(url: string, sides: [x: number, y: number, z: number][], parallel: boolean): Promise<number[][]> {
+		const fur = await loadFur(url);
+		const { fins } = fur;
+		if (!fins) throw new Error('no fins');
+		const scene = new Scene();
+		scene.add(fins, new DirectionalLight(0xffffff, 6));
+		const target = new WebGLRenderTarget(160, 160, { type: FloatType });
+		const camera = parallel
+			? new OrthographicCamera(-1.5, 1.5, 1.5, -1.5, 0.1, 20)
+			: new PerspectiveCamera(30, 1, 0.1, 20);
+		const figures = sides.map((side) => {
+			camera.position.fromArray(side);
+			camera.lookAt(0, 0, 0);
+			const draw = () => [renderFloats(renderer, scene, camera, target), renderer.info.render.triangles] as const;
+			const [some, few] = draw();
+			const choose = fins.onBeforeRender;
+			fins.onBeforeRender = () => {};
+			const [every, all] = draw();
+			fins.onBeforeRender = choose;
+			return [
+				few,
+				all,
+				some.filter((value, i) => value !== every[i]).length,
+				every.filter((value) => value > 0).length,
+			];
+		});
+		fur.dispose();
+		return figures;
+	},
+
 	/**
 	 * The only fin of an asset, one tile wide over the origin in the plane z = 0, under each of the lights.
 	 *

@@ -1,6 +1,14 @@
 /** Runs inside the page: the library alone, without the demo, on assets of the tests. Its answers go to `fur.spec.ts`. */
 
-import { AmbientLight, BufferAttribute, DirectionalLight, HemisphereLight, LightProbe, type Texture } from 'three';
+import {
+	AmbientLight,
+	BufferAttribute,
+	DirectionalLight,
+	HemisphereLight,
+	LightProbe,
+	LinearMipmapLinearFilter,
+	type Texture,
+} from 'three';
 import type { Fur } from '../../../web/fur/index.ts';
 import { skyShares } from '../../../web/fur/light/multiple.ts';
 import { measureEnvironment } from '../../../web/measure/environment.ts';
@@ -138,6 +146,10 @@ const stage = {
 			/** Whether lamps and sky are found once per vertex of the body, not at every shell. */
 			bodyLight?: boolean;
 			trim?: number;
+			/** Whether hairs have a comb, of no length. */
+			combed?: boolean;
+			/** Whether coefficients are a mixture of two mip levels. */
+			mixed?: boolean;
 		}[],
 	): Promise<{ rgba: string; shells: number }[]> {
 		const studio = new Studio(renderer, await loadFur(url), size, size);
@@ -147,6 +159,16 @@ const stage = {
 			studio.look(-0.4, 1.2, distance);
 			studio.showFur(shells, true);
 			if (points) points.visible = bodyLight;
+			const { geometry } = studio.fur.shells;
+			if (setting.combed)
+				geometry.setAttribute(
+					'_comb',
+					new BufferAttribute(new Float32Array(geometry.getAttribute('position').count * 3), 3),
+				);
+			if (setting.mixed) {
+				studio.fur.textures.plane0.minFilter = LinearMipmapLinearFilter;
+				studio.fur.textures.plane0.needsUpdate = true;
+			}
 			studio.fur.length = trim * studio.fur.asset.length;
 			studio.fur.shells.material.lampsPerFragment = lampsPerFragment;
 			const rgba = toBase64(new Uint8Array(studio.draw(samples).buffer));

@@ -54,7 +54,10 @@ export class SeenFins {
 		const { count = 0 } = geometry.getAttribute('position') ?? {};
 		const edges = count / (2 * (strips + 1));
 		if (all?.count !== 6 * strips * edges) return undefined;
-		if (this.#index?.array.length !== all.count || ATTRIBUTES.some((name, i) => geometry.attributes[name] !== this.#read[i]))
+		if (
+			this.#index?.array.length !== all.count ||
+			ATTRIBUTES.some((name, i) => geometry.attributes[name] !== this.#read[i])
+		)
 			this.#measure(geometry, edges, strips);
 		inverse.copy(matrixWorld).invert();
 		const flat = (camera as Camera & { isOrthographicCamera?: boolean }).isOrthographicCamera === true;
@@ -98,7 +101,12 @@ export class SeenFins {
 	#select(all: ArrayLike<number>, own: BufferAttribute, edges: number, each: number, fade: number): void {
 		let count = 0;
 		for (let i = 0; i < edges; i++) {
-			if (!this.#seen(4 * i, fade) && !this.#seen(4 * i + 1, fade) && !this.#seen(4 * i + 2, fade) && !this.#seen(4 * i + 3, fade))
+			if (
+				!this.#seen(4 * i, fade) &&
+				!this.#seen(4 * i + 1, fade) &&
+				!this.#seen(4 * i + 2, fade) &&
+				!this.#seen(4 * i + 3, fade)
+			)
 				continue;
 			for (let k = 0; k < each; k++) own.array[count++] = all[each * i + k] as number;
 		}
@@ -118,7 +126,8 @@ export class SeenFins {
 		const vz = z - w * (numbers[at + 2] as number);
 		const far = Math.hypot(vx, vy, vz);
 		const towards = (first: number) =>
-			((numbers[first] as number) * vx + (numbers[first + 1] as number) * vy + (numbers[first + 2] as number) * vz) / far;
+			((numbers[first] as number) * vx + (numbers[first + 1] as number) * vy + (numbers[first + 2] as number) * vz) /
+			far;
 		if (Math.abs(towards(at + 9)) < BROADSIDE - TOLERANCE) return false;
 		const one = towards(at + 3);
 		const other = towards(at + 6);
