@@ -1,7 +1,7 @@
 /** The model on show, in its fur and its environment, as the view asks for them. */
 
 import { FUR_VERSION } from '../../fur/index.ts';
-import { facing } from '../../page/facing.ts';
+import { facing } from '../../measure/facing.ts';
 import type { OwnModel } from '../open/drop.ts';
 import { notice, withdraw } from '../say/notice.ts';
 import type { Progress } from '../say/progress.ts';

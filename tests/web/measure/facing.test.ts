@@ -1,6 +1,6 @@
 import { BoxGeometry, Group, MathUtils, Mesh, SphereGeometry, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
-import { facing } from '../../../web/page/facing.ts';
+import { facing } from '../../../web/measure/facing.ts';
 
 const part = (name: string, size: [number, number, number], place: [number, number, number]) => {
 	const mesh = new Mesh(new SphereGeometry(0.5, 24, 16));
