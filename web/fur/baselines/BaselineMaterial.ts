@@ -36,10 +36,12 @@ export class BaselineMaterial extends ShaderMaterial {
 		readonly shells: FurMaterial,
 		{ uniforms, defines, vertexShader, fragmentShader, ...parameters }: ShaderMaterialParameters,
 	) {
+		// Nothing here depends on the comb.
+		const { STRAIGHT: _, ...parts } = shells.defines;
 		super({
 			glslVersion: shells.glslVersion,
 			uniforms: { ...shells.uniforms, ...UniformsUtils.clone(UniformsLib.lights), ...uniforms },
-			defines: { ...shells.defines, ...defines },
+			defines: { ...parts, ...defines },
 			vertexShader: ['#include <common>', view, ...hairChunks, frame, shell, colour, hairOut, vertexShader].join('\n'),
 			fragmentShader: [
 				'#include <common>',

@@ -34,7 +34,7 @@ import curvature from '../shaders/draw/curvature.glsl?raw';
 import frame from '../shaders/hair/frame.glsl?raw';
 import { arrivalChunks, hairChunks, skyChunks } from './chunks.ts';
 import type { FurMaterial } from './FurMaterial.ts';
-import { followParts, switchPart } from './switches.ts';
+import { followComb, followParts, switchPart } from './switches.ts';
 
 /** Vertices in a row of texels. */
 const VERTICES_PER_ROW = 1024;
@@ -168,6 +168,7 @@ export class BodyLight extends Points<InstancedBufferGeometry, ShaderMaterial> i
 		const entries = own ? this.#fit(renderer, scene) : 0;
 		if (entries === 0) return;
 		this.#share(this.#shells.geometry.attributes);
+		followComb(this.#shells);
 		followParts(this.material, this.#source, PARTS);
 		this.#frame = renderer.info.render.frame;
 		this.#camera = camera;

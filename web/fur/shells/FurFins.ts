@@ -17,7 +17,7 @@ import type { FurPose, Jointed } from '../body/FurPose.ts';
 import { beginClip, endClip, type FurColumns } from './clip.ts';
 import type { FurFinMaterial } from './FurFinMaterial.ts';
 import type { FurMaterial } from './FurMaterial.ts';
-import { SeenFins } from './SeenFins.ts';
+import { SeenFins } from './fins/SeenFins.ts';
 
 /** Strips per fin where light changes with the height. */
 const STRIPS = 4;

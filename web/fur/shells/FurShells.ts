@@ -21,7 +21,7 @@ import { beginClip, endClip, type FurColumns } from './clip.ts';
 import type { FurMaterial } from './FurMaterial.ts';
 import { HullMaterial } from './HullMaterial.ts';
 import { cutFor, pixelsPerUnit, shellsFor } from './lod.ts';
-import { switchPart } from './switches.ts';
+import { followComb } from './switches.ts';
 
 /** Largest number of shells. */
 export const MAX_SHELLS = 256;
@@ -61,6 +61,8 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> implem
 	/** Size in the pose over that at rest. */
 	#stretch = 1;
 	readonly #pose: FurPose | undefined;
+	/** The shells' own material, whatever method lights them. */
+	readonly #own: FurMaterial;
 
 	/**
 	 * @param surface the skin's vertices with normal, tangent, uv (tiles), _fur, _comb and color; or other shells'
@@ -74,7 +76,8 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> implem
 		super(geometry, material);
 		const comb = surface instanceof InstancedBufferGeometry ? undefined : sharedComb(surface);
 		if (comb) geometry.setAttribute('_comb', comb);
-		this.#lay();
+		this.#own = material;
+		followComb(this);
 		this.name = 'fur';
 		this.customDepthMaterial = new HullMaterial(material);
 		this.castShadow = this.receiveShadow = true;
@@ -145,14 +148,9 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> implem
 		this.geometry.instanceCount = Math.ceil(count);
 	}
 
-	/** Leave out of the shaders what only combed hairs need. */
-	#lay(): void {
-		switchPart(this.material, 'STRAIGHT', this.geometry.hasAttribute('_comb') ? undefined : '');
-	}
-
 	/** Set number of shells and alpha cut for this picture. */
 	override onBeforeRender(renderer: WebGLRenderer, _scene: Scene, camera: Camera): void {
-		this.#lay();
+		if (this.material === this.#own) followComb(this);
 		this.#light?.offer(renderer, camera);
 		const { center, radius } = this.geometry.boundingSphere as Sphere;
 		const unit = this.matrixWorld.getMaxScaleOnAxis() / this.scale.x; // world units per model unit

@@ -1,6 +1,6 @@
 /** Parts of shaders that are compiled in on demand: a define each. */
 
-import type { ShaderMaterial } from 'three';
+import type { BufferGeometry, Mesh, ShaderMaterial } from 'three';
 
 /** Parts that change position and coverage of hairs, whatever lights them. */
 export const SHAPE = ['DENSITY', 'SWING', 'TRIMMED', 'WET', 'DIRTY', 'MUD', 'MORPHS'] as const;
@@ -15,6 +15,12 @@ export function switchPart(material: ShaderMaterial, part: string, value: string
 	if (value !== undefined) material.defines[part] = value;
 	else delete material.defines[part];
 	material.needsUpdate = true;
+}
+
+/** Leave out of the shells' shaders what only combed hairs need. */
+export function followComb({ geometry, material }: Mesh<BufferGeometry, ShaderMaterial>): void {
+	// Always there, since another order of defines is another program.
+	switchPart(material, 'STRAIGHT', geometry.hasAttribute('_comb') ? 0 : 1);
 }
 
 /** Compile in the same of these parts as another material. */

@@ -1,6 +1,7 @@
 import { encode } from 'fast-png';
+import { LinearMipmapLinearFilter, LinearMipmapNearestFilter, Texture } from 'three';
 import { describe, expect, it } from 'vitest';
-import { decodePlane, mipLevels, type PlaneBytes, textureArray } from '../../../../web/fur/planes/planes.ts';
+import { decodePlane, mipLevels, type PlaneBytes, readOneLevel, textureArray } from '../../../../web/fur/planes/planes.ts';
 
 const noise = (length: number) => Uint8Array.from({ length }, (_, i) => (i * 7919 + (i >> 3) * 104729) % 256);
 
@@ -174,5 +175,17 @@ describe('textureArray', () => {
 		const [data, colour] = [textureArray('a', mips, extent), textureArray('b', mips, extent, true)];
 		expect([data.flipY, data.premultiplyAlpha, data.colorSpace, colour.colorSpace]).toEqual([false, false, '', 'srgb']);
 		expect(data.mipmaps).toHaveLength(3);
+	});
+});
+
+describe('readOneLevel', () => {
+	it('leaves the plane with the coverage its mixture of levels, whichever it is', () => {
+		const [two, alone] = [
+			{ plane0: new Texture(), plane1: new Texture() },
+			{ plane0: new Texture() },
+		];
+		for (const textures of [two, alone]) readOneLevel(textures);
+		expect([two.plane0.minFilter, two.plane1.minFilter]).toEqual([LinearMipmapNearestFilter, LinearMipmapLinearFilter]);
+		expect(alone.plane0.minFilter).toBe(LinearMipmapLinearFilter);
 	});
 });

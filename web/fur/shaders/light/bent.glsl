@@ -5,7 +5,9 @@ uniform vec2 lean; // mean displacement of the tips inside the tile, share of th
 uniform vec4 bent[6]; // weights of eight terms, two vectors for each of 1, s, s²
 
 #if defined(STRAIGHT) && !defined(SWING)
+#if STRAIGHT
 #define UNBENT // no hair is bent further than baked
+#endif
 #endif
 
 #define MAX_BEND 0.6667 // displacement of the tip beyond which the factor is constant
