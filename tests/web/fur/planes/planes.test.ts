@@ -1,7 +1,13 @@
 import { encode } from 'fast-png';
 import { LinearMipmapLinearFilter, LinearMipmapNearestFilter, Texture } from 'three';
 import { describe, expect, it } from 'vitest';
-import { decodePlane, mipLevels, type PlaneBytes, readOneLevel, textureArray } from '../../../../web/fur/planes/planes.ts';
+import {
+	decodePlane,
+	mipLevels,
+	type PlaneBytes,
+	readOneLevel,
+	textureArray,
+} from '../../../../web/fur/planes/planes.ts';
 
 const noise = (length: number) => Uint8Array.from({ length }, (_, i) => (i * 7919 + (i >> 3) * 104729) % 256);
 
@@ -180,10 +186,7 @@ describe('textureArray', () => {
 
 describe('readOneLevel', () => {
 	it('leaves the plane with the coverage its mixture of levels, whichever it is', () => {
-		const [two, alone] = [
-			{ plane0: new Texture(), plane1: new Texture() },
-			{ plane0: new Texture() },
-		];
+		const [two, alone] = [{ plane0: new Texture(), plane1: new Texture() }, { plane0: new Texture() }];
 		for (const textures of [two, alone]) readOneLevel(textures);
 		expect([two.plane0.minFilter, two.plane1.minFilter]).toEqual([LinearMipmapNearestFilter, LinearMipmapLinearFilter]);
 		expect(alone.plane0.minFilter).toBe(LinearMipmapLinearFilter);
