@@ -120,6 +120,8 @@ export class FurFins extends Mesh<BufferGeometry, FurFinMaterial> implements Joi
 	/** Frees the geometry; material and textures belong to the fur. */
 	override dispose(): void {
 		super.dispose();
+		// The indices on the GPU are those of the fins seen.
+		if (this.#seen.index) this.geometry.setIndex(this.#seen.index);
 		this.geometry.dispose();
 	}
 }

@@ -39,6 +39,11 @@ export class SeenFins {
 	readonly #eye = new Vector4(Number.NaN);
 	readonly #now = new Vector4();
 
+	/** Indices of the last choice. */
+	get index(): BufferAttribute | undefined {
+		return this.#index;
+	}
+
 	/**
 	 * @param fins of `strips` quads each, root to tip
 	 * @param fade |n·v| of a face beyond which a fin is invisible
