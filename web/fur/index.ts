@@ -13,7 +13,7 @@ export { FUR_EXTENSION, FUR_VERSION, type FurAsset } from './format.ts';
 export { FurInstances } from './herd/FurInstances.ts';
 export { fitFurShadow } from './light/fitFurShadow.ts';
 export { type FurEnvironment, type FurLamp, furEnvironment } from './light/furEnvironment.ts';
-export { FurColours } from './light/multiple.ts';
+export { FurColors } from './light/multiple.ts';
 export type { FurTextures } from './light/texels.ts';
 export { FurMotion } from './motion/FurMotion.ts';
 export type { FurMotionOptions } from './motion/options.ts';

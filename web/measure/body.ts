@@ -57,7 +57,7 @@ export class BodyScene {
 		this.#scene.add(body, this.#lamp, this.#lamp.target);
 		// Only baked light: no sky, no highlights, no light from behind. The colour of bare skin does not tint the hairs.
 		Object.assign(fur.material, { environment: false, gloss, backlight });
-		fur.material.skinColour.set(1, 1, 1);
+		fur.material.skinColor.set(1, 1, 1);
 	}
 
 	/** Picture by rows from the bottom: light, premultiplied, one number or three, then coverage. */
@@ -94,7 +94,7 @@ export class BodyScene {
 		// Add the light of the skin once.
 		if (number > 0) for (const piece of this.#skin) piece.material = black;
 		Object.assign(fur.material, { tipShare: 0 });
-		fur.material.skinColour.set(1, 1, 1);
+		fur.material.skinColor.set(1, 1, 1);
 		const lighting = furMethod(fur, 'unlit', { brightness: 1 });
 		lighting.apply();
 		this.#show(false);

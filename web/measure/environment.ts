@@ -41,7 +41,7 @@ export function lampsOf(texture: DataTexture, count: number): FurLamp[] {
 		const level = Math.sqrt(1 - y * y);
 		return new Vector3(level * Math.cos(i * golden), y, level * Math.sin(i * golden));
 	});
-	const lamps = points.map(() => ({ direction: new Vector3(), colour: new Color(0, 0, 0) }));
+	const lamps = points.map(() => ({ direction: new Vector3(), color: new Color(0, 0, 0) }));
 	// Bound of the search: no direction is farther than 4/√count from its point, and points are in order of y, 2/count apart.
 	const reach = Math.ceil(2 * Math.sqrt(count));
 	visitEnvironment(texture, (radiance, to, solidAngle) => {
@@ -53,7 +53,7 @@ export function lampsOf(texture: DataTexture, count: number): FurLamp[] {
 		}
 		const lamp = lamps[nearest];
 		lamp?.direction.addScaledVector(to, luminance(radiance) * solidAngle);
-		lamp?.colour.add(radiance.multiplyScalar(solidAngle));
+		lamp?.color.add(radiance.multiplyScalar(solidAngle));
 	});
 	return lamps.filter(({ direction }) => direction.normalize().lengthSq() > 0);
 }
@@ -72,8 +72,8 @@ function deviation(picture: Float32Array, truth: Float32Array): Deviation & { pi
 	return { pixels: values / 3, rmse: Math.sqrt(squares / values) / (whole / values), bias: sum / whole - 1 };
 }
 
-const directional = ({ direction, colour }: FurLamp) => {
-	const light = new DirectionalLight(colour);
+const directional = ({ direction, color }: FurLamp) => {
+	const light = new DirectionalLight(color);
 	light.position.copy(direction);
 	return light;
 };
@@ -107,8 +107,8 @@ export async function measureEnvironment(
 	};
 
 	// Far points instead of parallel lights, over which three unrolls its loop a thousand times.
-	const many = lampsOf(texture, lamps).map(({ direction, colour }) => {
-		const lamp = new PointLight(colour, 1, 0, 0);
+	const many = lampsOf(texture, lamps).map(({ direction, color }) => {
+		const lamp = new PointLight(color, 1, 0, 0);
 		lamp.position.copy(direction).multiplyScalar(FAR * studio.radius);
 		return lamp;
 	});
@@ -132,7 +132,7 @@ export async function measureEnvironment(
 		};
 	});
 	const whole = many.reduce((sum, { color }) => sum + luminance(color), 0);
-	const shares = splits.at(-1)?.lamps.map(({ colour }) => luminance(colour) / whole) ?? [];
+	const shares = splits.at(-1)?.lamps.map(({ color }) => luminance(color) / whole) ?? [];
 	studio.dispose();
 	renderer.dispose();
 	texture.dispose();

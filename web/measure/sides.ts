@@ -3,9 +3,9 @@
 import { Color, DirectionalLight, Vector3, WebGLRenderer } from 'three';
 import { fitFurShadow } from '../fur/index.ts';
 import { daylightSky, KEY_COLOUR } from '../page/daylight.ts';
-import { facing } from './facing.ts';
 import { DEFAULT_LOOK } from '../page/look.ts';
 import { setToneMapping } from '../page/toneMapping.ts';
+import { facing } from './facing.ts';
 import { loadFur, Studio } from './studio.ts';
 
 /** Azimuth of each side, radians from the front to the model's left. */

@@ -91,7 +91,7 @@ describe('FurFinMaterial', () => {
 		shells.material.furLength = 0.7;
 		shells.material.tip.setRGB(0.1, 0.2, 0.3);
 		shells.material.rampPower = 2;
-		for (const name of ['furLength', 'tip', 'tip2', 'rampPower', 'skinColour', 'tiles'])
+		for (const name of ['furLength', 'tip', 'tip2', 'rampPower', 'skinColor', 'tiles'])
 			expect(fins.material.uniforms[name]?.value, name).toBe(shells.material.uniforms[name]?.value);
 		expect(fins.material.uniforms.tiles?.value).toBe(4);
 	});

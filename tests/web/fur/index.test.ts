@@ -24,7 +24,7 @@ it('exports these names', () => {
 		  "FUR_EXTENSION",
 		  "FUR_VERSION",
 		  "Fur",
-		  "FurColours",
+		  "FurColors",
 		  "FurEdgeEffect",
 		  "FurFade",
 		  "FurFinMaterial",

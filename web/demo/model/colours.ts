@@ -4,7 +4,7 @@
  */
 
 import { Color } from 'three';
-import { type Fur, FurColours } from '../../fur/index.ts';
+import { type Fur, FurColors } from '../../fur/index.ts';
 
 /** Largest factor of a tint's channel, on fur whose hairs each have a colour. */
 const MAX_TINT = 4;
@@ -14,20 +14,20 @@ interface Baked {
 	root: Color;
 	tip: Color;
 	tip2: Color;
-	skinColour: Color;
+	skinColor: Color;
 	/** Conversion of hairs' colours to seen ones; undefined: none. */
-	seen: FurColours | undefined;
+	seen: FurColors | undefined;
 }
 
 const bakedByFur = new WeakMap<Fur, Baked>();
 
 function baked(fur: Fur): Baked {
-	const { root, tip, tip2, skinColour } = fur.shells.material;
+	const { root, tip, tip2, skinColor } = fur.shells.material;
 	let colours = bakedByFur.get(fur);
 	if (!colours) {
 		colours = {
-			...{ root: root.clone(), tip: tip.clone(), tip2: tip2.clone(), skinColour: skinColour.clone() },
-			seen: FurColours.of(fur.asset),
+			...{ root: root.clone(), tip: tip.clone(), tip2: tip2.clone(), skinColor: skinColor.clone() },
+			seen: FurColors.of(fur.asset),
 		};
 		bakedByFur.set(fur, colours);
 	}
@@ -69,15 +69,15 @@ function ratio(to: Color, from: Color): Color {
 /** @param colours of root and tip; undefined: as baked */
 export function paint(fur: Fur, colours: readonly [root: string, tip: string] | undefined): void {
 	const own = baked(fur);
-	const { root, tip, tip2, skinColour } = fur.shells.material;
+	const { root, tip, tip2, skinColor } = fur.shells.material;
 	root.copy(own.root);
 	tip.copy(own.tip);
 	tip2.copy(own.tip2);
-	skinColour.copy(own.skinColour);
+	skinColor.copy(own.skinColor);
 	if (!colours) return;
 	const wanted = new Color(`#${colours[1]}`);
 	if (hasOwnColours(fur)) {
-		skinColour.multiply(ratio(asHairs(own, wanted), own.tip));
+		skinColor.multiply(ratio(asHairs(own, wanted), own.tip));
 		return;
 	}
 	root.copy(asHairs(own, new Color(`#${colours[0]}`)));

@@ -53,10 +53,10 @@ export async function loadEnvironment(name: EnvironmentName, azimuth: number): P
 		whole += luminance(radiance) * solidAngle;
 	});
 	const scale = TOTAL_LIGHT / whole;
-	for (const { colour } of lamps) colour.multiplyScalar(scale);
+	for (const { color } of lamps) color.multiplyScalar(scale);
 	for (const coefficient of probe.sh.coefficients) coefficient.multiplyScalar(scale);
 	const [first, ...others] = lamps;
-	const colour = first ? first.colour.clone() : new Color(1, 1, 1);
+	const colour = first ? first.color.clone() : new Color(1, 1, 1);
 	colour.multiplyScalar(Math.max(1, (MIN_KEY_SHARE * TOTAL_LIGHT) / luminance(colour)));
 	const background = blurred(texture, scale);
 	texture.dispose();

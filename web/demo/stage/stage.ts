@@ -223,8 +223,8 @@ export class Stage {
 		this.#ground.material.color.copy(environment?.ground ?? SLATE);
 		this.#environmentLights.clear();
 		if (environment) this.#environmentLights.add(environment.probe);
-		for (const { direction, colour } of environment?.others ?? []) {
-			const lamp = new DirectionalLight(colour);
+		for (const { direction, color } of environment?.others ?? []) {
+			const lamp = new DirectionalLight(color);
 			lamp.position.copy(direction);
 			this.#environmentLights.add(lamp);
 		}

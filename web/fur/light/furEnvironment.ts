@@ -35,7 +35,7 @@ export interface FurLamp {
 	/** Unit vector to it, world axes. */
 	direction: Vector3;
 	/** Irradiance of a surface that faces it, linear: `DirectionalLight.color`. */
-	colour: Color;
+	color: Color;
 }
 
 /** Light of a place as three's own lights. */
@@ -126,14 +126,14 @@ export function furEnvironment(texture: DataTexture, most = 1): FurEnvironment {
 	const lamps: FurLamp[] = [];
 	while (lamps.length < most) {
 		const cone = brightestCone(texture, cones);
-		const lamp = { direction: new Vector3(), colour: new Color(0, 0, 0) };
+		const lamp = { direction: new Vector3(), color: new Color(0, 0, 0) };
 		visitWithout(texture, cones, (radiance, to, solidAngle) => {
 			if (to.dot(cone.middle) <= Math.cos(CONE)) return;
 			const excess = above(radiance, cone.around);
-			add(lamp.colour, excess, solidAngle);
+			add(lamp.color, excess, solidAngle);
 			lamp.direction.addScaledVector(to, luminance(excess) * solidAngle);
 		});
-		if (!(luminance(lamp.colour) > MIN_LAMP_SHARE * luminance(total))) break;
+		if (!(luminance(lamp.color) > MIN_LAMP_SHARE * luminance(total))) break;
 		lamp.direction.normalize();
 		cones.push(cone);
 		lamps.push(lamp);

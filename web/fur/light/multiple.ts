@@ -54,7 +54,7 @@ export function skyShares(
  * Conversion between the colour of hairs and the colour of their fur. Hairs take light from each other, so fur is darker
  * and more saturated than its hairs. Linear, per channel.
  */
-export class FurColours {
+export class FurColors {
 	readonly #multiple: Multiple;
 	readonly #shares: readonly number[];
 
@@ -65,11 +65,11 @@ export class FurColours {
 	}
 
 	/** Conversion for an asset's dry pelt; undefined where the asset lacks the numbers, and fur has the colour of its hairs. */
-	static of(asset: Pick<FurAsset, 'curves' | 'pelts'>): FurColours | undefined {
+	static of(asset: Pick<FurAsset, 'curves' | 'pelts'>): FurColors | undefined {
 		const { curves, pelts } = asset;
 		const { multiple, weights = [] } = pelts[0] ?? {};
 		if (!curves || !multiple) return undefined;
-		return new FurColours(multiple, skyShares(multiple, { curves, way: [0, 1] }, weights, BODY_RADIUS));
+		return new FurColors(multiple, skyShares(multiple, { curves, way: [0, 1] }, weights, BODY_RADIUS));
 	}
 
 	/** Mean colour, from above in even light, of fur whose hairs have this colour; relative to the samples' light. */

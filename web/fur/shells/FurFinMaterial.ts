@@ -37,7 +37,7 @@ const SHARED = [
 		'density',
 	],
 	...['swing', 'stains', 'wetnesses', 'traits', 'mud', 'morphCount', 'morphs'],
-	...['skinColour', 'root', 'tip', 'tip2', 'tipShare', 'rampPower'],
+	...['skinColor', 'root', 'tip', 'tip2', 'tipShare', 'rampPower'],
 ];
 
 /**

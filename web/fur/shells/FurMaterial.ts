@@ -29,7 +29,7 @@ export interface FurMaterialParameters extends ShaderMaterialParameters {
 	/** See `setCrispness`; FurShells does for every picture. @internal */
 	crispness?: Vector2;
 	/** Base colour of the model, which multiplies the fur's. */
-	skinColour?: Color;
+	skinColor?: Color;
 	/** Linear colour at the skin. */
 	root?: Color;
 	/** Linear colour of the tips; where the pelt has a colour plane only the ratio of the two tips counts. */
@@ -61,7 +61,7 @@ const MIRRORED = [
 	'shellCount',
 	'alphaCut',
 	'crispness',
-	'skinColour',
+	'skinColor',
 	'root',
 	'tip',
 	'tip2',
@@ -85,8 +85,8 @@ export class FurMaterial extends PeltMaterial {
 	declare alphaCut: number;
 	/** {@inheritDoc FurMaterialParameters.crispness} @internal */
 	declare crispness: Vector2;
-	/** {@inheritDoc FurMaterialParameters.skinColour} */
-	declare skinColour: Color;
+	/** {@inheritDoc FurMaterialParameters.skinColor} */
+	declare skinColor: Color;
 	/** {@inheritDoc FurMaterialParameters.root} */
 	declare root: Color;
 	/** {@inheritDoc FurMaterialParameters.tip} */
@@ -126,7 +126,7 @@ export class FurMaterial extends PeltMaterial {
 					alphaCut: { value: ALPHA_CUT },
 					crispness: { value: new Vector2(1, 0) },
 					crispLevels: { value: crispLevels(textures, asset.layers) },
-					skinColour: { value: new Color(1, 1, 1) },
+					skinColor: { value: new Color(1, 1, 1) },
 					root: { value: new Color(...ramp.root) },
 					tip: { value: new Color(...ramp.tip) },
 					tip2: { value: new Color(...ramp.tip2) },

@@ -9,7 +9,7 @@ import type { FurShells } from './FurShells.ts';
 const LIGHT = ['gloss', 'sharpness', 'backlight', 'environment', 'lampsPerFragment', 'multisampled'] as const;
 /** Settings of the hairs of one pelt. */
 const HAIRS = ['density', 'tipShare', 'rampPower', 'bodyRadius'] as const;
-const COLOURS = ['skinColour', 'root', 'tip', 'tip2'] as const;
+const COLOURS = ['skinColor', 'root', 'tip', 'tip2'] as const;
 const FINS = ['finLength', 'finOpacity'] as const;
 
 /** Fur whose look is copied. */

@@ -1,7 +1,7 @@
 import { Color } from 'three';
 import { describe, expect, it } from 'vitest';
 import { bakedColours, hasOwnColours, paint } from '../../../../web/demo/model/colours.ts';
-import { type Fur, type FurAsset, FurColours } from '../../../../web/fur/index.ts';
+import { type Fur, type FurAsset, FurColors } from '../../../../web/fur/index.ts';
 import { coloured } from '../../fur/light/multiple.ts';
 
 /** What colours are about of a fur, linear. */
@@ -10,7 +10,7 @@ function fur(plane: boolean, asset: Partial<FurAsset> = { pelts: [] }) {
 		root: new Color(0.1, 0.05, 0.02),
 		tip: new Color(0.4, 0.2, 0.1),
 		tip2: new Color(0.8, 0.8, 0.8),
-		skinColour: new Color(1, 0.5, 1),
+		skinColor: new Color(1, 0.5, 1),
 	};
 	const made = { asset, shells: { material }, textures: { colour: plane ? {} : undefined } };
 	return { fur: made as unknown as Fur, material };
@@ -28,7 +28,7 @@ describe('the colours of root and tip', () => {
 		expect(material.root.getHexString()).toBe('ff0000');
 		expect(material.tip.getHexString()).toBe('00ff00');
 		expect(material.tip2.toArray()).toEqual([0, 1, 0]);
-		expect(material.skinColour.toArray()).toEqual([1, 0.5, 1]);
+		expect(material.skinColor.toArray()).toEqual([1, 0.5, 1]);
 		expect(bakedColours(one)[0]).toBe(new Color(0.1, 0.05, 0.02).getHexString());
 		paint(one, undefined);
 		expect([material.root, material.tip, material.tip2].map((colour) => colour.toArray())).toEqual([
@@ -42,19 +42,19 @@ describe('the colours of root and tip', () => {
 		const { fur: one, material } = fur(true);
 		expect(hasOwnColours(one)).toBe(true);
 		paint(one, ['ff0000', new Color(0.2, 0.2, 0.1).getHexString()]);
-		const [r = 0, g = 0, b = 0] = material.skinColour.toArray();
+		const [r = 0, g = 0, b = 0] = material.skinColor.toArray();
 		expect(r).toBeCloseTo(0.5, 1);
 		expect(g).toBeCloseTo(0.5, 1);
 		expect(b).toBeCloseTo(1, 1);
 		expect(material.root.toArray()).toEqual([0.1, 0.05, 0.02]);
 		// However dark the baked colour is, white is no floodlight.
 		paint(one, ['000000', 'ffffff']);
-		expect(Math.max(...material.skinColour.toArray())).toBeLessThanOrEqual(4);
+		expect(Math.max(...material.skinColor.toArray())).toBeLessThanOrEqual(4);
 	});
 
 	it('are picked as they are seen: hairs that take light from each other are paler than their fur', () => {
 		const { fur: one, material } = fur(false, coloured);
-		const seen = FurColours.of(coloured);
+		const seen = FurColors.of(coloured);
 		if (!seen) throw new Error('no colours');
 		paint(one, ['804020', 'c08040']);
 		for (const [hairs, picked] of [

@@ -38,7 +38,7 @@ const closeTo = (values: number[], digits = 3) => values.map((value) => expect.c
 function whole({ probe, lamps }: ReturnType<typeof furEnvironment>): number {
 	const [constant = new Vector3()] = probe.sh.coefficients;
 	const sky = 0.2126 * constant.x + 0.7152 * constant.y + 0.0722 * constant.z;
-	return sky * Math.sqrt(4 * Math.PI) + lamps.reduce((sum, { colour }) => sum + luminance(colour), 0);
+	return sky * Math.sqrt(4 * Math.PI) + lamps.reduce((sum, { color }) => sum + luminance(color), 0);
 }
 
 const sun = new Vector3(0.48, 0.6, -0.64);
@@ -150,7 +150,7 @@ describe('furEnvironment', () => {
 		const { probe, lamps } = furEnvironment(texture);
 		expect(lamps).toHaveLength(1);
 		expect(lamps[0]?.direction.toArray()).toEqual(closeTo(to, 6));
-		expect(lamps[0]?.colour.toArray()).toEqual(closeTo([0, light, 0], 6));
+		expect(lamps[0]?.color.toArray()).toEqual(closeTo([0, light, 0], 6));
 		expect(green(probe)).toEqual(closeTo([0, 0, 0, 0, 0, 0, 0, 0, 0], 6));
 	});
 
@@ -161,13 +161,13 @@ describe('furEnvironment', () => {
 		const degrees = (lamp.direction.angleTo(sun) * 180) / Math.PI;
 		expect(degrees).toBeLessThan(0.5);
 		const disc = 2 * Math.PI * (1 - Math.cos((3 * Math.PI) / 180));
-		expect(lamp.colour.r / (900 * disc)).toBeGreaterThan(0.98);
-		expect(lamp.colour.r / (900 * disc)).toBeLessThan(1.02);
+		expect(lamp.color.r / (900 * disc)).toBeGreaterThan(0.98);
+		expect(lamp.color.r / (900 * disc)).toBeLessThan(1.02);
 		expect(Math.abs(whole(split) / whole(plain) - 1)).toBeLessThan(0.001);
 		// What is left is the sky without its sun.
 		const sky = furEnvironment(picture(overcast, 512, 256), 0);
 		expect(green(split.probe)).toEqual(closeTo(green(sky.probe), 1));
-		expect(Math.abs(whole(sky) / (whole(split) - luminance(lamp.colour)) - 1)).toBeLessThan(0.01);
+		expect(Math.abs(whole(sky) / (whole(split) - luminance(lamp.color)) - 1)).toBeLessThan(0.01);
 	});
 
 	it('finds several lamps, the one with most light first, and no more than there are', () => {

@@ -1,9 +1,9 @@
 import { describe, expect, it } from 'vitest';
 import type { FurAsset } from '../../../../web/fur/format.ts';
-import { FurColours, gainOf, shareOf, skyShares } from '../../../../web/fur/light/multiple.ts';
+import { FurColors, gainOf, shareOf, skyShares } from '../../../../web/fur/light/multiple.ts';
 import { coloured, multiple } from './multiple.ts';
 
-const seen = FurColours.of(coloured as FurAsset);
+const seen = FurColors.of(coloured as FurAsset);
 
 describe('light that has met several hairs', () => {
 	it('is that of the samples between hairs of their grey, and a geometric series between others', () => {
@@ -35,9 +35,9 @@ describe('light that has met several hairs', () => {
 	});
 });
 
-describe('FurColours', () => {
+describe('FurColors', () => {
 	it('are those of the hairs where all are of the grey of the samples', () => {
-		const plain = new FurColours({ ...multiple, tint: [1, 1] }, [0.5, 0.3]);
+		const plain = new FurColors({ ...multiple, tint: [1, 1] }, [0.5, 0.3]);
 		expect(plain.seen(0.8)).toBeCloseTo(0.8, 9);
 		expect(plain.seen(0)).toBe(0);
 	});
@@ -52,6 +52,6 @@ describe('FurColours', () => {
 	});
 
 	it('are not told by assets without mean curves or numbers of them', () => {
-		expect(FurColours.of({ pelts: coloured.pelts } as FurAsset)).toBeUndefined();
+		expect(FurColors.of({ pelts: coloured.pelts } as FurAsset)).toBeUndefined();
 	});
 });

@@ -57,7 +57,7 @@ void main() {
 	vec3 comb = finComb(frame * vec3(_edge.z, 0.0, _edge.w));
 	vec3 pointVS = (placement * vec4(furPoint(rootPosition, n, comb, _fur.y * finLength, s), 1.0)).xyz;
 	gl_Position = projectionMatrix * vec4(pointVS, 1.0);
-	vSkin = vec4(skinColour * color.rgb, tipShare * _fur.w);
+	vSkin = vec4(skinColor * color.rgb, tipShare * _fur.w);
 #ifdef WET
 	vSkin.rgb *= furTraits.y;
 #endif

@@ -1,7 +1,7 @@
 // Colour of the hairs, linear: a ramp from root to tip with two tip colours. A colour plane already contains the ramp;
 // there the second tip colour is mixed in, scaled by the texel's tint.
 
-uniform vec3 skinColour; // the model's own base colour
+uniform vec3 skinColor; // the model's own base colour
 uniform vec3 root; // colour at the skin
 uniform vec3 tip;
 uniform vec3 tip2; // second colour of the tips

@@ -7,7 +7,7 @@ out float vHeight; // 0 at the skin, 1 at the tip
 #endif
 
 void passColour(ShellPoint shell) {
-	vColour = skinColour * color.rgb;
+	vColour = skinColor * color.rgb;
 #ifdef WET
 	vColour *= furTraits.y;
 #endif
