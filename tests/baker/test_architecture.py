@@ -39,10 +39,11 @@ FLOORS: dict[str, set[str]] = {
     "tile": {"pelt", "options", "cache"},
     "lazy": set(),
     "page": set(),
+    "daylight": set(),
     "pipeline": {"asset", "pelt", "surface", "options", "identity", "body", "tile"},
     "groom": {"asset", "pelt", "options"},
-    "show": {"asset", "pelt", "options", "identity", "tile", "page"},
-    "study": {"asset", "pelt", "surface", "options", "tile", "groom", "page"},
+    "show": {"asset", "pelt", "options", "identity", "tile", "page", "daylight"},
+    "study": {"asset", "pelt", "surface", "options", "tile", "groom", "page", "daylight"},
     "cli": {
         "asset",
         "pelt",

@@ -28,7 +28,7 @@ GZIP = 6
 """Level of zlib at which sizes are compared: that of most hosts."""
 
 LEVEL, STREAM = 3, 0
-"""Of the codec: the smallest streams, of the version that the extension allows."""
+"""Settings of the codec: the smallest streams, of the version that the extension allows."""
 
 ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER = 34962, 34963
 

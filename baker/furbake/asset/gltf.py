@@ -22,6 +22,7 @@ from furbake.asset.rig.nodes import morphs, rigged
 from furbake.asset.rig.stand import Stand
 from furbake.asset.skin import Looks, bare_colour, feature_nodes, fur_colour, skin_primitives
 from furbake.asset.vertices import (
+    Attributes,
     coarse_uv,
     fin_vertices,
     grid,
@@ -114,15 +115,12 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
         {"name": "skin", "primitives": skin},
         {"name": "shells", "primitives": [shells | below.shell_targets(buffer, charts)]},
     ]
-    edges: Record | None = None
-    if compress and fins is not None and motion is None and pelt.curves is not None:
-        edges = edges_record(charts, stood["POSITION"], fins, buffer)
+    edges = _fin_edges(model, charts, stood, buffer) if compress else None
     if fins is not None and edges is None:
         stood = fin_vertices(ground, fins, fur, below.positions, tiles) | below.joints(fins.source)
         quads = buffer.primitive(stood, fins.faces)
         meshes.append({"name": "fins", "primitives": [quads | below.fin_targets(buffer, fins)]})
-    names = [mesh["name"] for mesh in meshes]
-    meshes = [mesh | morphs(motion) for mesh in meshes]
+    names, meshes = [mesh["name"] for mesh in meshes], [mesh | morphs(motion) for mesh in meshes]
     undone = {"translation": numbers(place[0]), "scale": numbers(np.full(3, place[1]))}
     nodes = [{"name": name, "mesh": i, **undone} for i, name in enumerate(names)]
     nodes += feature_nodes(features, buffer, looks, meshes)
@@ -145,6 +143,13 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     (folder / "model.gltf").write_text(dump(document), "utf-8", newline="\n")
     files = ("model.gltf", "model.bin", *looks.images)
     return _counts(model) | {"bytes": {name: (folder / name).stat().st_size for name in files}}
+
+
+def _fin_edges(model: FurModel, charts: Charts, stood: Attributes, buffer: Buffer) -> Record | None:
+    """Fins as edges of the shells, of which readers make quads; None for those that are stored."""
+    if model.fins is None or model.motion is not None or model.pelts[0].curves is None:
+        return None
+    return edges_record(charts, stood["POSITION"], model.fins, buffer)
 
 
 def _bound(model: FurModel) -> FurModel:

@@ -71,7 +71,7 @@ def _mesh(asset: Asset, name: str) -> dict[str, Any]:
 
 
 def _edges(asset: Asset) -> dict[str, Any]:
-    """What a reader makes of the edges."""
+    """Quads that a reader makes of the edges."""
     count = int(np.unpackbits(asset.accessor(asset.fur["edges"]["mask"])).sum())
     return {"vertices": 4 * count, "faces": 2 * count, "attributes": ["edges"]}
 

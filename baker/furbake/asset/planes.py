@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import OpenImageIO as oiio  # noqa: N813 — as its own documentation spells it
@@ -35,7 +36,7 @@ FILTERS = 0x08 | 0x10 | 0x20 | 0x80
 """Row filters of libpng: none, sub, up, Paeth. A mean of two neighbours, rounded down, leaves the grid of the codes."""
 
 STRATEGIES = ("filtered", "huffman")
-"""Of zlib: numbers of fur have few matches. The smaller file of the two is kept; zlib's default is 8 % larger."""
+"""Strategies of zlib: numbers of fur have few matches. The smaller file of the two is kept; zlib's default is 8 % larger."""
 
 
 class PlaneError(ValueError):
@@ -123,6 +124,15 @@ def write_png(path: Path, pixels: NDArray[np.uint8] | NDArray[np.uint16], srgb: 
     return None
 
 
+def write_webp(path: Path, pixels: NDArray[np.uint8], quality: int) -> None:
+    """Write (height, width, 4) as a lossy picture, sRGB, alpha apart; quality : 0 to 100. Raises PlaneError."""
+    height, width, channels = pixels.shape
+    spec = oiio.ImageSpec(width, height, channels, pixels.dtype.name)
+    spec.attribute("oiio:UnassociatedAlpha", 1)
+    spec.attribute("compression", f"webp:{quality}")
+    _write(path, spec, pixels)
+
+
 def _write_png(
     path: Path, pixels: NDArray[np.uint8] | NDArray[np.uint16], srgb: bool, strategy: str | None = None
 ) -> None:
@@ -134,9 +144,13 @@ def _write_png(
         spec.attribute("compression", strategy)
         spec.attribute("png:filter", FILTERS)
     spec.attribute("oiio:ColorSpace", "srgb_rec709_scene" if srgb else "data")
+    _write(path, spec, pixels)
+
+
+def _write(path: Path, spec: oiio.ImageSpec, pixels: NDArray[Any]) -> None:
     output = oiio.ImageOutput.create(os.fspath(path))
     if output is None:
-        raise PlaneError(f"{path}: {oiio.geterror() or 'no PNG writer'}")
+        raise PlaneError(f"{path}: {oiio.geterror() or 'no writer of such pictures'}")
     try:
         written = output.open(os.fspath(path), spec) and output.write_image(np.ascontiguousarray(pixels))
         if not (written and output.close()):

@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 from furbake.asset.planes import write_png
 from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt, skin_colour
+from furbake.daylight import PAGE, RGB, Scene, tone_mapped
 from furbake.options import OptionError
 from furbake.pelt.light.paths import BODY_RADIUS
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.texels.basis import environment
 from furbake.pelt.texels.quantise import srgb_bytes
-from furbake.show.daylight import PAGE, RGB, Scene, tone_mapped
 
 Array = NDArray[np.float64]
 Bytes = NDArray[np.uint8]

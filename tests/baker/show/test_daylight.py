@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from furbake.show.daylight import PAGE, PALING, SHOULDER, tone_mapped
+from furbake.daylight import PAGE, PALING, SHOULDER, tone_mapped
 
 WEB = Path(__file__).parents[3] / "web"
 RNG = np.random.default_rng(4)

@@ -18,12 +18,12 @@ from furbake.asset.gltf import FurModel, write_gltf
 from furbake.asset.planes import read_png
 from furbake.asset.read import AssetError, read_asset
 from furbake.asset.stored import read_pelt, skin_colour
+from furbake.daylight import Scene
 from furbake.options import OptionError, preset
 from furbake.pelt.hairs.ramp import Ramp
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.texels.basis import PTM
 from furbake.pipeline import bake
-from furbake.show.daylight import Scene
 from furbake.show.swatch import (
     SKIN,
     above_horizon,

@@ -204,6 +204,26 @@ def average_down(fine: NDArray[Real], shares: NDArray[Real], size: int) -> NDArr
     return mean
 
 
+def joined(slabs: NDArray[np.float32], count: int) -> NDArray[np.float32]:
+    """Means of every `count` slabs, (K, N, N) → (K / count, N, N)."""
+    return slabs if count == 1 else np.asarray(slabs.reshape(-1, count, *slabs.shape[1:]).mean(1))
+
+
+def parted(slabs: NDArray[np.float32], count: int) -> NDArray[np.float32]:
+    """Linear between the middles of slabs at those of `count` times as many, (K, N, N) → (K · count, N, N)."""
+    if count == 1:
+        return slabs
+    place = (np.arange(len(slabs) * count) + 0.5) / count - 0.5
+    low = np.clip(np.floor(place).astype(np.intp), 0, max(len(slabs) - 2, 0))
+    share = np.clip(place - low, 0, 1).astype(np.float32)
+    parts = np.empty((len(place), *slabs.shape[1:]), np.float32)
+    for i, (one, other) in enumerate(zip(low, np.minimum(low + 1, len(slabs) - 1), strict=True)):
+        np.subtract(slabs[other], slabs[one], out=parts[i])
+        parts[i] *= share[i]
+        parts[i] += slabs[one]
+    return parts
+
+
 def slab_means(fine: Array, layers: int) -> Array:
     """Means of two numbers per fine slab over the stored slabs, (K·f, 2) → (K, 2)."""
     return np.asarray(fine.reshape(layers, -1, 2).mean(1))

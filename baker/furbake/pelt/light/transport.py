@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.pelt.hairs.drawn import through_own
-from furbake.pelt.hairs.volume import Volume, doubled, pool, slab_means
+from furbake.pelt.hairs.volume import Volume, doubled, joined, parted, pool, slab_means
 from furbake.pelt.light.depth import Depth
 from furbake.pelt.light.fibre import ABOVE, Cylinders, shown
 from furbake.pelt.light.paths import BODY_RADIUS, lowest, spread, thinned
@@ -58,26 +58,6 @@ def hemisphere(count: int, turn: float = 0.0, lowest: float = LOWEST) -> Array:
     angle = np.pi * (3 - np.sqrt(5)) * i + turn
     across = np.sqrt(1 - z * z)
     return np.stack([across * np.cos(angle), across * np.sin(angle), z], -1)
-
-
-def joined(slabs: Single, count: int) -> Single:
-    """Means of every `count` slabs, (K, N, N) → (K / count, N, N)."""
-    return slabs if count == 1 else np.asarray(slabs.reshape(-1, count, *slabs.shape[1:]).mean(1))
-
-
-def parted(slabs: Single, count: int) -> Single:
-    """Linear between the middles of slabs at those of `count` times as many, (K, N, N) → (K · count, N, N)."""
-    if count == 1:
-        return slabs
-    place = (np.arange(len(slabs) * count) + 0.5) / count - 0.5
-    low = np.clip(np.floor(place).astype(np.intp), 0, max(len(slabs) - 2, 0))
-    share = np.clip(place - low, 0, 1).astype(np.float32)
-    parts = np.empty((len(place), *slabs.shape[1:]), np.float32)
-    for i, (one, other) in enumerate(zip(low, np.minimum(low + 1, len(slabs) - 1), strict=True)):
-        np.subtract(slabs[other], slabs[one], out=parts[i])
-        parts[i] *= share[i]
-        parts[i] += slabs[one]
-    return parts
 
 
 @dataclass(frozen=True)

@@ -1,22 +1,18 @@
-"""Path-traced pictures for the lesson's figure of the rivals: a baked body under its lamps and the page's sky.
-
-As a module it writes them: `python -m furbake.study.verify.lesson VIEW.json MODEL OUT`.
-"""
+"""Path-traced pictures for the lesson's figure of the rivals: a baked body under its lamps and the page's sky."""
 
 from __future__ import annotations
 
 import json
-import sys
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from PIL import Image
 
+from furbake.asset.planes import write_webp
 from furbake.asset.stored import read_pelt, skin_colour
+from furbake.daylight import PAGE, tone_mapped
 from furbake.pelt.hairs.ramp import RGB
 from furbake.pelt.texels.quantise import srgb_bytes
-from furbake.show.daylight import PAGE, tone_mapped
 from furbake.study.verify.apart import trace
 from furbake.study.verify.body import Options, prepared
 from furbake.study.verify.cells import Cell, Floats, Frame, axes
@@ -90,16 +86,7 @@ def shown(lit: Traced, sky: Traced) -> Floats:
     return np.concatenate([srgb_bytes(tone_mapped(colour)) / 255.0, cover[..., None]], axis=-1)
 
 
-def write_webp(path: Path, picture: Floats) -> None:
-    """Write an RGBA picture, 0..1. Raises OSError where it cannot be written."""
-    Image.fromarray(np.round(picture * 255).astype(np.uint8)).save(path, quality=QUALITY, method=6)
-
-
-def main(view: str, model: str, out: str) -> None:
-    """Write OUT/LAMP.webp for every lamp."""
+def write_pictures(view: str, model: str, out: str) -> None:
+    """Write OUT/LAMP.webp for every lamp of a view's file."""
     for name, picture in lesson_pictures(Path(model), View.read(Path(view))).items():
-        write_webp(Path(out) / f"{name}.webp", picture)
-
-
-if __name__ == "__main__":
-    main(*sys.argv[1:])
+        write_webp(Path(out) / f"{name}.webp", np.round(picture * 255).astype(np.uint8), QUALITY)

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from furbake.asset.planes import write_webp
+from furbake.daylight import PAGE, tone_mapped
 from furbake.groom.strands import Groom
-from furbake.show.daylight import PAGE, tone_mapped
 from furbake.study.verify.cells import Cell, Frame
-from furbake.study.verify.lesson import View, shown, write_webp
+from furbake.study.verify.lesson import QUALITY, View, shown
 from furbake.study.verify.truth import Scene, Traced, trace
 
 LESSON = Path(__file__).parents[4] / "web" / "learn" / "rivals"
@@ -44,9 +45,12 @@ def test_lamp_and_sky_add_up_and_are_tone_mapped_behind_their_coverage(tmp_path:
     brighter = shown(lit, Traced(0.1 * half[..., None] * np.ones(3), half, (white, white)))
     assert (brighter[..., 2] > picture[..., 2]).all()
 
-    write_webp(tmp_path / "a.webp", np.repeat(picture, 8, axis=0).repeat(8, axis=1))
+    pixels = np.round(np.repeat(picture, 8, axis=0).repeat(8, axis=1) * 255).astype(np.uint8)
+    write_webp(tmp_path / "a.webp", pixels, QUALITY)
     with Image.open(tmp_path / "a.webp") as stored:
         assert (stored.mode, stored.size) == ("RGBA", (16, 8))
+        # Lossy, but colours stay as they are where the coverage is half.
+        assert np.abs(np.asarray(stored, float) - pixels).max() < 12
 
 
 def test_the_sky_is_above() -> None:
