@@ -36,7 +36,7 @@ FILTERS = 0x08 | 0x10 | 0x20 | 0x80
 """Row filters of libpng: none, sub, up, Paeth. A mean of two neighbours, rounded down, leaves the grid of the codes."""
 
 STRATEGIES = ("filtered", "huffman")
-"""Strategies of zlib: numbers of fur have few matches. The smaller file of the two is kept; zlib's default is 8 % larger."""
+"""Strategies of zlib: numbers of fur have few matches. The smaller file is kept; the default is 8 % larger."""
 
 
 class PlaneError(ValueError):
