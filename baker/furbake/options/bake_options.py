@@ -30,7 +30,7 @@ LATER = ("directions", "states", "dirt", "auto_length", "pose")
 OF_BODY = (
     "preset", "length", "tile", "height", "guide", "sweep", "uv", "length_by_thickness", "auto_length", "length_noise",
     "tip_noise", "belly", "max_faces", "pose", "length_map", "mask", "comb", "features", "fins", "tile_share",
-    "height_share",
+    "height_share", "meshopt",
 )  # fmt: skip
 """Options of the body that wears a tile, or by which the tile's height is found; all others are the tile's own."""
 
