@@ -15,6 +15,9 @@ export interface Watch {
 	requests: string[];
 }
 
+/** Remark of a browser's driver on pages that read pixels back, as measurements do. */
+const STALL = /GL Driver Message \(OpenGL, Performance, .*GPU stall due to ReadPixels/;
+
 interface Fixtures {
 	/** Every test fails by a complaint in it, unless it takes them away. */
 	watch: Watch;
@@ -25,7 +28,8 @@ export const test = base.extend<Fixtures>({
 		async ({ page }, use) => {
 			const watch: Watch = { complaints: [], requests: [] };
 			page.on('console', (message) => {
-				if (['error', 'warning', 'assert'].includes(message.type())) watch.complaints.push(message.text());
+				if (!['error', 'warning', 'assert'].includes(message.type())) return;
+				if (!STALL.test(message.text())) watch.complaints.push(message.text());
 			});
 			page.on('pageerror', (error) => watch.complaints.push(`uncaught: ${error.message}`));
 			page.on('request', (request) => watch.requests.push(request.url()));
