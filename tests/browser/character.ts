@@ -2,6 +2,7 @@
 
 import { readFile } from 'node:fs/promises';
 import { Euler, Matrix4, Quaternion, Vector3 } from 'three';
+import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
 import { repository } from './library.ts';
 import { type Json, PosedGltf } from './posed.ts';
 
@@ -85,7 +86,7 @@ const fromLeft: Weights = (x) => {
 export async function character(folder = 'public/models/torus-512', weights: Weights = fromLeft): Promise<Made> {
 	const json: Json = JSON.parse(await readFile(`${repository}${folder}/model.gltf`, 'utf8'));
 	const bin = await readFile(`${repository}${folder}/${json.buffers[0].uri}`);
-	const made: Made = { json, buffers: [new Uint8Array(bin)] };
+	const made: Made = { json, buffers: [new Uint8Array(bin), ...(await unpack(json, bin))] };
 	const additions = new Additions(made);
 	const fur = json.extensions.FUR_ptm_shells;
 	fur.version = '2.1';
@@ -96,7 +97,9 @@ export async function character(folder = 'public/models/torus-512', weights: Wei
 		new Vector3().fromArray(first.scale),
 	);
 	const still = new PosedGltf(json, made.buffers);
-	for (const node of [fur.skin, fur.shells, fur.fins]) {
+	// Edges are of fins of bodies that nothing moves.
+	delete fur.edges;
+	for (const node of [fur.skin, fur.shells, ...(fur.fins === undefined ? [] : [fur.fins])]) {
 		json.nodes[node].skin = 0;
 		for (const primitive of json.meshes[json.nodes[node].mesh].primitives)
 			bendPrimitive(additions, still, primitive, place, weights, node !== fur.skin);
@@ -123,6 +126,34 @@ export async function character(folder = 'public/models/torus-512', weights: Wei
 	json.skins = [{ joints: JOINTS.map((_, j) => root + j), inverseBindMatrices }];
 	json.animations = [wave(additions, root, fur.skin)];
 	return made;
+}
+
+/** Lets compressed views be as they were. @returns buffer that they are in, if there are any */
+async function unpack(json: Json, bin: Uint8Array): Promise<Uint8Array[]> {
+	const fallback = json.buffers[1];
+	if (!fallback) return [];
+	await MeshoptDecoder.ready;
+	const bytes = new Uint8Array(fallback.byteLength);
+	for (const view of json.bufferViews) {
+		const packed = view.extensions?.EXT_meshopt_compression;
+		if (!packed) continue;
+		const { byteOffset = 0, byteLength, count, byteStride, mode, filter } = packed;
+		const target = bytes.subarray(view.byteOffset, view.byteOffset + count * byteStride);
+		MeshoptDecoder.decodeGltfBuffer(
+			target,
+			count,
+			byteStride,
+			bin.subarray(byteOffset, byteOffset + byteLength),
+			mode,
+			filter,
+		);
+		delete view.extensions;
+	}
+	delete fallback.extensions;
+	fallback.uri = `data:application/octet-stream;base64,${Buffer.from(bytes).toString('base64')}`;
+	for (const key of ['extensionsRequired', 'extensionsUsed'])
+		json[key] = json[key].filter((name: string) => name !== 'EXT_meshopt_compression');
+	return [bytes];
 }
 
 /** Joints, weights and targets of the vertices of a primitive. */

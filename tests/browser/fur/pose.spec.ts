@@ -75,15 +75,18 @@ test('no crack opens between patches of a body that moves', async ({ page }) => 
 	expect(error).toBe(0);
 });
 
-for (const shadows of [false, true])
-	test(`a body turned by its joint is lit as one turned by its node${shadows ? ', in shadow' : ''}`, async ({
-		page,
-	}) => {
-		const { json } = await character('public/models/bunny');
-		await page.route('**/bunny/moving.gltf', (route) => route.fulfill({ json: bare(json) }));
+// The bunny has patches, and no fins here; the ring has fins.
+for (const [name, body, shadows] of [
+	['bunny', 'public/models/bunny', false],
+	['bunny in shadow', 'public/models/bunny', true],
+	['ring with fins', 'public/models/torus-512', false],
+] as const)
+	test(`a body turned by its joint is lit as one turned by its node: ${name}`, async ({ page }) => {
+		const { json } = await character(body);
+		await page.route('**/moving.gltf', (route) => route.fulfill({ json: bare(json) }));
 		const still = structuredClone(json);
-		await page.route('**/bunny/still.gltf', (route) => route.fulfill({ json: unmoved(bare(still)) }));
-		const at = (name: string) => bunny.replace('model.gltf', name);
+		await page.route('**/still.gltf', (route) => route.fulfill({ json: unmoved(bare(still)) }));
+		const at = (file: string) => served(`${body}/${file}`);
 		const { alike, apart, error } = await page.evaluate(
 			([still, moving, shadows]) => loaded.turned(still, moving, shadows),
 			[at('still.gltf'), at('moving.gltf'), shadows] as const,

@@ -113,6 +113,7 @@ export async function cracks(url: string, moments: [clip: string | undefined, se
 		vertexShader: material.vertexShader,
 		fragmentShader: 'out vec4 colour; void main() { colour = vec4(1.0); }',
 	});
+	Object.assign(closed, { crispness: material.crispness });
 	Object.assign(closed.defaultAttributeValues, material.defaultAttributeValues);
 	delete closed.defines.BODY_LIGHT;
 	const counts = moments.map(([clip, seconds]) => {
