@@ -11,7 +11,7 @@ const SIZES: Record<string, number> = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MA
 const MAX_ZEROS = 1 << 24;
 
 /** Extensions of a buffer view that is compressed. */
-const PACKED = ['EXT_meshopt_compression', 'KHR_meshopt_compression'];
+export const PACKED = ['EXT_meshopt_compression', 'KHR_meshopt_compression'];
 
 /** Span of bytes in a buffer view. */
 interface Span {

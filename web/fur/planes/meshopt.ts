@@ -1,5 +1,7 @@
 /** Decoder of compressed meshes, fetched by the first file that has some. */
 
+import { PACKED } from '../format/gltf.ts';
+
 /** Methods that three's loader calls on `MeshoptDecoder`. */
 export interface MeshDecoder {
 	supported: boolean;
@@ -15,12 +17,9 @@ export interface MeshDecoder {
 const fetchDecoder = async () =>
 	(await import('three/addons/libs/meshopt_decoder.module.js')).MeshoptDecoder as MeshDecoder;
 
-/** Names of the extensions of a buffer view that is compressed. */
-const EXTENSIONS = ['EXT_meshopt_compression', 'KHR_meshopt_compression'];
-
 /** Whether a file's meshes are compressed. */
 export function isPacked(json: { extensionsUsed?: string[] }): boolean {
-	return json.extensionsUsed?.some((name) => EXTENSIONS.includes(name)) ?? false;
+	return json.extensionsUsed?.some((name) => PACKED.includes(name)) ?? false;
 }
 
 /**

@@ -227,7 +227,7 @@ export function textureArray(
 }
 
 /**
- * Reads coefficients from the nearest mip level where another plane holds the coverage: the picture stays within 56 dB, a
+ * Reads coefficients from the nearest mip level where another plane holds the coverage: the picture is the same to 56 dB, a
  * software rasteriser's frame costs .92, and a mixture of levels would only show in the outlines of hairs.
  */
 export function readOneLevel({ plane0, plane1 }: Readonly<Record<string, Texture>>): void {
