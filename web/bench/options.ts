@@ -54,7 +54,11 @@ export function parseOptions(search: string): BenchAddress {
 	};
 
 	/** Entries of a list named in the address, in the list's order. */
-	function some<T extends string>(name: string, all: readonly T[], otherwise: readonly T[]): readonly T[] {
+	function some<T extends string, Otherwise>(
+		name: string,
+		all: readonly T[],
+		otherwise: Otherwise,
+	): readonly T[] | Otherwise {
 		const named = query.get(name)?.split(',');
 		if (!named) return otherwise;
 		const odd = named.filter((item) => !all.includes(item as T));

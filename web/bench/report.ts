@@ -2,7 +2,7 @@
 
 import { ARTICLE, type BenchFigures, type Point, type Result } from '../measure/bench/results.ts';
 import { plot, type Series } from './plot.ts';
-import { articleTable, costTable, count, methodTable, overdrawTable, type Table, times } from './tables.ts';
+import { articleTable, cardTable, costTable, count, methodTable, overdrawTable, type Table, times } from './tables.ts';
 import type { Words } from './words/en.ts';
 
 export interface Section {
@@ -18,7 +18,7 @@ export interface Section {
 const LINES: Result['method'][] = ['shadow-layers', 'ptm', 'unlit'];
 
 export function sections(figures: BenchFigures, words: Words): Section[] {
-	const { results, results_of_layers, costs, lights, curves } = figures;
+	const { results, results_of_layers, costs, lights, curves, card } = figures;
 	const found: Section[] = [];
 	const add = (title: string, text: string, tables: Table[], plots: string[] = []) =>
 		found.push({ title, text, tables: tables.filter(({ rows }) => rows.length), plots });
@@ -37,6 +37,7 @@ export function sections(figures: BenchFigures, words: Words): Section[] {
 			costTable(words.tables.light, lights, words.tables.ofOneLamp, words),
 		]);
 	}
+	if (card.length) add(words.cardTitle, words.cardText(figures.device), [cardTable(card, words)]);
 	const { shells, pixels, triangles } = words.curves;
 	const plots = [
 		curve(curves.shells, shells, words, (point) => point.shells),

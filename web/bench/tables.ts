@@ -1,6 +1,6 @@
 /** Tables of figures as rows of text. */
 
-import { ARTICLE, type BenchFigures, type Cost, type Result } from '../measure/bench/results.ts';
+import { ARTICLE, type BenchFigures, type CardPoint, type Cost, type Result } from '../measure/bench/results.ts';
 import type { Words } from './words/en.ts';
 
 /** Text of a table; the first cell of a column or row is a heading. */
@@ -75,6 +75,24 @@ export function costTable(caption: string, costs: readonly Cost[], ratioHead: st
 		caption,
 		head: ['', 'ms', ratioHead],
 		rows: costs.map(({ name, median_ms, ratio }) => [words.costs[name], time(median_ms), times(ratio)]),
+	};
+}
+
+/** Full pictures and herds: a row per number of shells and bodies, a column per size of the picture. */
+export function cardTable(points: readonly CardPoint[], { tables }: Words): Table {
+	const sizeOf = ({ width, height }: CardPoint) => `${width} × ${height}`;
+	const titleOf = ({ shells, bodies }: CardPoint) => tables.shells(shells, bodies);
+	const sizes = [...new Set(points.map(sizeOf))];
+	return {
+		caption: tables.card,
+		head: ['', ...sizes],
+		rows: [...new Set(points.map(titleOf))].map((title) => [
+			title,
+			...sizes.map((size) => {
+				const point = points.find((one) => titleOf(one) === title && sizeOf(one) === size);
+				return point ? `${time(point.median_ms)} (${time(1000 / point.median_ms)})` : '–';
+			}),
+		]),
 	};
 }
 

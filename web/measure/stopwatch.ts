@@ -29,6 +29,8 @@ export const breath = () => new Promise<void>((resolve) => setTimeout(resolve));
 
 export class Stopwatch {
 	readonly device: string;
+	/** Whether the processor draws. */
+	readonly software: boolean;
 	readonly #renderer: WebGLRenderer;
 	readonly #gl: WebGL2RenderingContext;
 	readonly #query: TimerQuery | null;
@@ -38,7 +40,8 @@ export class Stopwatch {
 		this.#renderer = renderer;
 		this.#gl = renderer.getContext() as WebGL2RenderingContext;
 		this.device = deviceOf(renderer);
-		this.#query = SOFTWARE.test(this.device) ? null : this.#gl.getExtension('EXT_disjoint_timer_query_webgl2');
+		this.software = SOFTWARE.test(this.device);
+		this.#query = this.software ? null : this.#gl.getExtension('EXT_disjoint_timer_query_webgl2');
 	}
 
 	get clock(): 'readPixels' | 'timer query' {

@@ -3,7 +3,9 @@
 import type { Page } from '@playwright/test';
 import type { BenchFigures, Result } from '../../../web/measure/bench/results.ts';
 import { expect, site, state, test } from '../harness.ts';
+import type { coverage } from '../inPage/benchHerd.ts';
 import { drawNothing } from '../inPage/gpu.ts';
+import { openInPage } from '../library.ts';
 
 // As wide as its tables.
 test.use({ viewport: { width: 480, height: 360 } });
@@ -63,6 +65,20 @@ test('fragments are counted, not guessed', async ({ page }) => {
 	expect(blended).toBeGreaterThan(1);
 	expect(blended).toBeLessThan(shaded);
 	expect(fins?.overdraw?.shaded).toBeGreaterThan(shaded);
+});
+
+test('a herd is as many bodies, framed as one is', async ({ page }) => {
+	await openInPage(page, 'benchHerd');
+	const [alone, one, four] = await page.evaluate(() =>
+		(globalThis as unknown as { loaded: { coverage: typeof coverage } }).loaded.coverage(),
+	);
+	expect(alone.share).toBeGreaterThan(0.2);
+	expect(one.share / alone.share).toBeCloseTo(1, 2);
+	expect(one.brightness / alone.brightness).toBeGreaterThan(0.9);
+	expect(one.brightness / alone.brightness).toBeLessThan(1.1);
+	// Four bodies, seen from 1 + 2.05 / 2 times as far.
+	expect((four.share * 2.025 ** 2) / alone.share).toBeGreaterThan(3.6);
+	expect((four.share * 2.025 ** 2) / alone.share).toBeLessThan(4.4);
 });
 
 test('frames upload nothing, wherever the light is', async ({ page }) => {

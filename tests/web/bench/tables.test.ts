@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { sections } from '../../../web/bench/report.ts';
-import { articleTable, methodTable, overdrawTable, titleOf } from '../../../web/bench/tables.ts';
+import { articleTable, cardTable, methodTable, overdrawTable, titleOf } from '../../../web/bench/tables.ts';
 import { WORDS } from '../../../web/bench/words/index.ts';
 import type { BenchFigures, Result } from '../../../web/measure/bench/results.ts';
 
@@ -39,6 +39,7 @@ const figures: BenchFigures = {
 	costs: [],
 	lights: [],
 	curves: { shells: [], pixels: [] },
+	card: [],
 };
 /** With plain spaces. */
 const plain = (rows: string[][]) => rows.map((cells) => cells.map((cell) => cell.replaceAll('\u00a0', ' ')));
@@ -78,6 +79,21 @@ describe("the article's table", () => {
 	});
 });
 
+describe('the table of a graphics card', () => {
+	it('has a row per number of shells and bodies, a column per size, and dashes where nothing was measured', () => {
+		const point = (bodies: number, height: number, median_ms: number) => ({
+			...row({ fins: true, width: (16 * height) / 9, height, median_ms }),
+			bodies,
+		});
+		const { head, rows } = cardTable([point(1, 1080, 0.5), point(1, 2160, 2), point(100, 1080, 12.5)], en);
+		expect([head, ...rows]).toEqual([
+			['', '1920 × 1080', '3840 × 2160'],
+			['16 shells, one body', '0.500 (2000)', '2.00 (500)'],
+			['16 shells, 100 bodies', '12.5 (80.0)', '–'],
+		]);
+	});
+});
+
 describe('the report', () => {
 	it('has what there is', () => {
 		expect(sections({ ...figures, results: [] }, en)).toEqual([]);
@@ -96,6 +112,7 @@ describe('the report', () => {
 			results_of_layers: [row({ triangles: 32 }), row({ method: 'shadow-layers', triangles: 32 })],
 			costs: [{ name: 'plain', median_ms: 10, ratio: 1 }],
 			lights: [{ name: '8 lights', median_ms: 11, ratio: 1.1 }],
+			card: [{ ...row({ fins: true, median_ms: 4, width: 1920, height: 1080 }), bodies: 100 }],
 		};
 		const [english, chinese] = [sections(everything, en), sections(everything, zh)];
 		const numbers = (those: typeof english) =>

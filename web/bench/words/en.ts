@@ -9,6 +9,7 @@ const doing: Record<Part | 'loading', string> = {
 	layers: 'methods, triangles counted over all layers',
 	costs: 'what features cost',
 	curves: 'frames against shells and pixels',
+	card: 'full pictures and herds',
 };
 
 const methods: Record<Method, string> = {
@@ -96,6 +97,8 @@ export const en = {
 		shaded: 'shaded',
 		blended: 'blended',
 		triangles: (count: string, fins: boolean) => `${count} triangles${fins ? ', fins' : ''}`,
+		card: 'Milliseconds a frame (frames per second) by picture',
+		shells: (count: number, bodies: number) => `${count} shells, ${bodies === 1 ? 'one body' : `${bodies} bodies`}`,
 	},
 
 	methodsTitle: 'Methods',
@@ -112,6 +115,9 @@ export const en = {
 	costsTitle: 'What else costs what',
 	costsText:
 		'PTM with 4\u00a0608 triangles. First what fur can have besides, each by itself and all together, then what light costs: whether it moves, eight lamps for one, and fins.',
+	cardTitle: 'Full pictures and herds',
+	cardText: (device: string) =>
+		`PTM with fins under one moving lamp, 4\u00a0608 triangles a body and shell, on ${device}: one body that fills the height, and a herd that does.`,
 	curvesTitle: 'What a frame grows with',
 	curvesText: 'Milliseconds a frame against the number of shells, of pixels and of triangles.',
 	curves: {

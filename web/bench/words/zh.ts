@@ -10,6 +10,7 @@ const doing: Record<Part | 'loading', string> = {
 	layers: '各种方法（三角面片数按所有层合计）',
 	costs: '各项效果的开销',
 	curves: '帧时间随壳层数和像素数的变化',
+	card: '全尺寸画面与群体',
 };
 
 const methods: Record<Method, string> = {
@@ -91,6 +92,8 @@ export const zh: Words = {
 		shaded: '着色',
 		blended: '混合',
 		triangles: (count, fins) => `${count} 个三角面片${fins ? '，带鳍片' : ''}`,
+		card: '每帧的毫秒数（每秒帧数），按画面尺寸',
+		shells: (count, bodies) => `${count} 层壳，${bodies} 个物体`,
 	},
 
 	methodsTitle: '各种方法',
@@ -107,6 +110,9 @@ export const zh: Words = {
 	costsTitle: '其他效果的开销',
 	costsText:
 		'4\u00a0608 个三角面片的 PTM。先列出毛发的附加效果，逐项以及全部一起；再列出光照的开销：光源是否移动，一盏灯换成八盏灯，以及鳍片。',
+	cardTitle: '全尺寸画面与群体',
+	cardText: (device) =>
+		`PTM，带鳍片，一盏移动的灯，每个物体每层壳 4\u00a0608 个三角面片，设备为 ${device}：占满画面高度的一个物体，以及同样占满画面的一群物体。`,
 	curvesTitle: '帧时间随什么增长',
 	curvesText: '每帧的毫秒数随壳层数、像素数和三角面片数的变化。',
 	curves: {

@@ -21,6 +21,7 @@ import type { Subject } from './subjects.ts';
 /** Camera: the whole ring, seen from above its horizon, fills the picture's height. Degrees, model units. */
 const FIELD_OF_VIEW = 20;
 const PLACE = [0, 3.9, 4.85] as const;
+const [NEAR, FAR] = [1, 20];
 
 /** Factor of a fragment on the picture when counting: 0.9⁸⁰⁰ is still a float. */
 const SHARE = 0.9;
@@ -32,7 +33,7 @@ export type Progress = (done: number, total: number) => void;
 export class Comparison {
 	readonly renderer = new WebGLRenderer({ antialias: false, powerPreference: 'high-performance' });
 	readonly stopwatch: Stopwatch;
-	readonly #camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 1, 20);
+	readonly #camera = new PerspectiveCamera(FIELD_OF_VIEW);
 	readonly #targets = new Map<string, WebGLRenderTarget>();
 	/** Number of frames drawn, by which lamps move. */
 	#step = 0;
@@ -49,16 +50,16 @@ export class Comparison {
 		subject.turn(this.#step++);
 		subject.prepare();
 		this.renderer.setRenderTarget(target);
-		this.renderer.render(subject.scene, this.#see(target));
+		this.renderer.render(subject.scene, this.#see(subject, target));
 	}
 
-	#see({ width, height }: { width: number; height: number }): PerspectiveCamera {
+	/** Camera on a subject, for a picture of this size. */
+	#see({ reach }: Subject, { width, height }: { width: number; height: number }): PerspectiveCamera {
 		const camera = this.#camera;
-		if (camera.aspect !== width / height) {
-			camera.aspect = width / height;
-			camera.updateProjectionMatrix();
-		}
-		camera.position.set(...PLACE);
+		camera.aspect = width / height;
+		[camera.near, camera.far] = [NEAR, FAR * reach];
+		camera.updateProjectionMatrix();
+		camera.position.set(...PLACE).multiplyScalar(reach);
 		camera.lookAt(0, 0, 0);
 		return camera;
 	}
@@ -154,7 +155,7 @@ export class Comparison {
 		});
 		const target = new WebGLRenderTarget(width, height, { type: FloatType });
 		subject.prepare();
-		const picture = renderFloats(this.renderer, subject.scene, this.#see(target), target, 1);
+		const picture = renderFloats(this.renderer, subject.scene, this.#see(subject, target), target, 1);
 		target.dispose();
 		for (const step of undo.reverse()) step();
 		return Float32Array.from({ length: width * height }, (_, i) =>
@@ -167,7 +168,7 @@ export class Comparison {
 		const target = new WebGLRenderTarget(width, height, { type: FloatType });
 		subject.turn(0);
 		subject.prepare();
-		const picture = renderFloats(this.renderer, subject.scene, this.#see(target), target);
+		const picture = renderFloats(this.renderer, subject.scene, this.#see(subject, target), target);
 		target.dispose();
 		return picture;
 	}

@@ -2,8 +2,9 @@
 
 import { median, ratio } from '../statistics.ts';
 import { Comparison } from './Comparison.ts';
-import { type BenchOptions, type Part, SHELLS } from './plan.ts';
-import type { BenchFigures, Cost, CostName, Growth, Method, Point, Result, Row } from './results.ts';
+import { makeHerd } from './herd.ts';
+import { type BenchOptions, CARD, PARTS, type Part, SHELLS } from './plan.ts';
+import type { BenchFigures, CardPoint, Cost, CostName, Growth, Method, Point, Result, Row } from './results.ts';
 import { type Extras, makeSubject, type Subject } from './subjects.ts';
 import { type BenchModels, loadBenchModels, type Torus } from './tori.ts';
 
@@ -48,6 +49,7 @@ function effort({ rounds, methods, triangles }: BenchOptions, part: Part): numbe
 		layers: few * (methods.length + 2) * triangles.length,
 		costs: (2 + 2 * rounds) * 12,
 		curves: few * 30,
+		card: few * CARD.bodies.length * CARD.shells.length * 10,
 	}[part];
 }
 
@@ -57,11 +59,13 @@ const half = (rounds: number) => Math.ceil(rounds / 2);
 export async function measure(options: BenchOptions, signal: AbortSignal, listener: Listener): Promise<BenchFigures> {
 	const started = performance.now();
 	listener.progress(0);
-	const besides = options.parts.some((part) => part === 'costs' || part === 'curves') ? [MIDDLE] : [];
-	const models = await loadBenchModels([...options.triangles, ...besides], options.methods);
 	const comparison = new Comparison();
+	const { device, clock, software } = comparison.stopwatch;
+	const parts = options.parts ?? PARTS.filter((part) => part !== 'card' || !software);
+	const besides = parts.some((part) => part === 'costs' || part === 'curves' || part === 'card') ? [MIDDLE] : [];
+	let models: BenchModels | undefined;
 	try {
-		const { device, clock } = comparison.stopwatch;
+		models = await loadBenchModels([...options.triangles, ...besides], options.methods);
 		const figures: BenchFigures = {
 			device,
 			browser: navigator.userAgent,
@@ -75,11 +79,12 @@ export async function measure(options: BenchOptions, signal: AbortSignal, listen
 			costs: [],
 			lights: [],
 			curves: { shells: [], pixels: [] },
+			card: [],
 		};
 		const bench = new Bench(options, comparison, models, signal);
-		const total = options.parts.reduce((sum, part) => sum + effort(options, part), 0);
+		const total = parts.reduce((sum, part) => sum + effort(options, part), 0);
 		let before = 0;
-		for (const part of options.parts) {
+		for (const part of parts) {
 			const share = effort(options, part);
 			bench.progress = (done, of) => listener.progress((before + (share * done) / of) / total, part);
 			await bench[part](figures, listener);
@@ -90,7 +95,7 @@ export async function measure(options: BenchOptions, signal: AbortSignal, listen
 		return figures;
 	} finally {
 		comparison.dispose();
-		models.dispose();
+		models?.dispose();
 	}
 }
 
@@ -169,6 +174,28 @@ class Bench {
 			const points = (those: Subject[][]): Point[] =>
 				those.flat().map((subject) => ({ ...subject.row, median_ms: median(times.get(subject) ?? []) }));
 			figures.curves = { shells: points(shells), pixels: points(pixels) };
+		});
+	}
+
+	async card(figures: BenchFigures): Promise<void> {
+		const torus = this.#torus();
+		const points = CARD.sizes.flatMap((size) => {
+			const [width, height] = [Math.round(this.options.width * size), Math.round(this.options.height * size)];
+			return CARD.shells.flatMap((shells) => CARD.bodies.map((bodies) => ({ width, height, shells, bodies })));
+		});
+		const subjects = points.map(({ bodies, ...size }) => {
+			const row: Row = { ...this.#row('ptm', MIDDLE), fins: true, ...size };
+			return bodies === 1 ? this.#subject(row, torus) : makeHerd(row, torus, bodies);
+		});
+		await this.#with([subjects], async () => {
+			const times = await this.#timeInTurn([subjects], half(this.options.rounds));
+			figures.card = subjects.map(
+				(subject, i): CardPoint => ({
+					...subject.row,
+					bodies: points[i]?.bodies ?? 1,
+					median_ms: median(times.get(subject) ?? []),
+				}),
+			);
 		});
 	}
 

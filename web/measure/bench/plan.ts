@@ -12,9 +12,19 @@ export const TORI = [
 /** Number of layers of the article's fur, and of shells in the table. */
 export const SHELLS = 16;
 
-/** Parts: the table; the table with triangles as sums over layers; cost of features; time against size. */
-export const PARTS = ['results', 'layers', 'costs', 'curves'] as const;
+/**
+ * Parts: the table; the table with triangles as sums over layers; cost of features; time against size; full pictures and
+ * herds, which only a graphics card draws in reasonable time.
+ */
+export const PARTS = ['results', 'layers', 'costs', 'curves', 'card'] as const;
 export type Part = (typeof PARTS)[number];
+
+/** Sizes of the part `card` over those of the picture (1080p and 4K by default), its shells and numbers of bodies. */
+export const CARD = {
+	sizes: [1.5, 3],
+	shells: [16, 32, 64],
+	bodies: [1, 100],
+} as const;
 
 export interface BenchOptions {
 	/** Rounds of the table and of costs; other parts have half as many. */
@@ -22,7 +32,8 @@ export interface BenchOptions {
 	/** Pixels. */
 	width: number;
 	height: number;
-	parts: readonly Part[];
+	/** Parts to measure; `undefined`: all that the device can draw in reasonable time. */
+	parts: readonly Part[] | undefined;
 	methods: readonly Method[];
 	/** Numbers of triangles in the table, out of `TORI`. */
 	triangles: readonly number[];
@@ -32,7 +43,7 @@ export const DEFAULTS: BenchOptions = {
 	rounds: 7,
 	width: 1280,
 	height: 720,
-	parts: PARTS,
+	parts: undefined,
 	methods: METHODS,
 	triangles: TORI.map(({ triangles }) => triangles),
 };

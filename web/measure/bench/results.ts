@@ -73,6 +73,11 @@ export interface Point extends Row {
 	median_ms: number;
 }
 
+/** Time of a full picture of one or many bodies with fins, PTM under a moving lamp. */
+export interface CardPoint extends Point {
+	bodies: number;
+}
+
 export interface BenchFigures {
 	/** Device as reported by the browser. */
 	device: string;
@@ -94,6 +99,8 @@ export interface BenchFigures {
 	lights: Cost[];
 	/** Time against the number of shells and against the size of the picture. */
 	curves: { shells: Point[]; pixels: Point[] };
+	/** Full pictures and herds; empty where the processor draws, unless asked for. */
+	card: CardPoint[];
 }
 
 /** Row of the article's Table 1, or the same measured here: frames per second with one number of triangles. */

@@ -39,6 +39,8 @@ export interface Extras {
 export interface Subject {
 	row: Row;
 	scene: Scene;
+	/** Size of the scene over that of one body. */
+	reach: number;
 	/** Places the lamps for frame `step`; still ones stay as in the first frame. */
 	turn(step: number): void;
 	/** Redraws maps that the picture looks up, if outdated. */
@@ -47,7 +49,7 @@ export interface Subject {
 }
 
 /** Irradiance of all lamps together. */
-const IRRADIANCE = 6;
+export const IRRADIANCE = 6;
 const SKIN = 0.35; // brightness of the skin over the roots' colour
 /** Speed of moving lamps, radians a frame. */
 const PACE = 0.37;
@@ -56,7 +58,7 @@ const PACE = 0.37;
 const SKY = [0.9, 0.3, 0.1, 0.05, 0.08, 0.04, 0.06, 0.03, 0.02];
 
 /** Vector from the body's middle to lamp `i` in frame `step`: around the body at varying height. */
-function lampAt(step: number, i: number, to: Vector3): Vector3 {
+export function lampAt(step: number, i: number, to: Vector3): Vector3 {
 	const angle = PACE * step + 2.4 * i;
 	return to.set(Math.cos(angle), 0.7 + 0.5 * Math.sin(1.7 * angle), Math.sin(angle)).normalize();
 }
@@ -109,6 +111,7 @@ export function makeSubject(
 	return {
 		row,
 		scene,
+		reach: 1,
 		turn,
 		prepare() {
 			updateFurs([lit], 0);
@@ -127,7 +130,7 @@ export function makeSubject(
 const lightOf = ({ method }: Row) => (method === 'ptm3' || method === 'ptm-colour' ? 'ptm' : method);
 
 /** Sphere around body and fur. */
-function boundsOf({ fur, surface }: Torus): Sphere {
+export function boundsOf({ fur, surface }: Torus): Sphere {
 	const body = new Sphere();
 	surface.computeBoundingSphere();
 	body.copy(surface.boundingSphere ?? body).applyMatrix4(fur.shells.matrix);

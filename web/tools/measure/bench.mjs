@@ -1,6 +1,7 @@
 /**
- * `npm run bench [-- --json FILE --browser NAME|PATH --rounds N --size WxH --parts LIST --methods LIST --triangles LIST
- * --quick --gpu --markdown]`: every method on every torus, in turn in a browser; prints the tables.
+ * `npm run bench [-- --json FILE --baseline FILE --browser NAME|PATH --rounds N --size WxH --parts LIST --methods LIST
+ * --triangles LIST --quick --gpu --markdown]`: every method on every torus, in turn in a browser; prints the tables, and
+ * beside a baseline what has become slower or faster.
  */
 import { existsSync, writeFileSync } from 'node:fs';
 import { dirname, resolve } from 'node:path';
@@ -9,6 +10,7 @@ import { ensureBrowser } from '../browser.mjs';
 import { ensureNode } from '../environment.mjs';
 import { command, Failure, say } from '../process.mjs';
 import { serve } from '../site/vite.mjs';
+import { against, readBaseline } from './baseline.mjs';
 import { findProgram, launch } from './launch.mjs';
 import { markdown, table } from './table.mjs';
 
@@ -21,6 +23,7 @@ import { markdown, table } from './table.mjs';
 
 const options = /** @type {const} */ ({
 	json: { type: 'string' },
+	baseline: { type: 'string' },
 	browser: { type: 'string' },
 	rounds: { type: 'string' },
 	size: { type: 'string' },
@@ -37,7 +40,7 @@ const ENDPOINT = '/bench-says';
 const SILENCE = 180_000;
 
 const LISTS = {
-	parts: ['results', 'layers', 'costs', 'curves'],
+	parts: ['results', 'layers', 'costs', 'curves', 'card'],
 	methods: ['unlit', 'lengyel', 'shadow-layers', 'ptm', 'ptm3', 'ptm-colour'],
 	triangles: ['512', '4608', '16896'],
 };
@@ -167,12 +170,15 @@ await command(async () => {
 	// Fail before the measurement, not a quarter of an hour later.
 	if (values.json && !existsSync(dirname(resolve(called, values.json))))
 		throw new Failure(`--json: ${values.json}: expected a file in a folder that is there`);
+	const baseline = values.baseline === undefined ? undefined : readBaseline(resolve(called, values.baseline));
 	const named = values.browser === undefined ? undefined : findProgram(values.browser);
 	await ensureNode();
 	const program = named ?? (await ensureBrowser());
 	say(`measuring in ${program}; with software rendering that takes about ${values.quick ? '2' : '15'} minutes`);
 	const { figures, sections } = await measure(program, query, values.gpu ?? false);
-	console.log(report(figures, sections, values.markdown ? markdown : table));
+	const written = values.markdown ? markdown : table;
+	console.log(report(figures, sections, written));
+	if (baseline) console.log(`\n${against(baseline, figures, written)}`);
 	if (values.json) {
 		try {
 			writeFileSync(resolve(called, values.json), `${JSON.stringify(figures, null, '\t')}\n`);
