@@ -79,10 +79,14 @@ describe('npm run bench', () => {
 	it.each([
 		[['--rounds', '0'], '--rounds: got 0, expected 1 to 99'],
 		[['--size', 'big'], '--size: got big, expected width and height, 16 to 9999 pixels, as in 1280x720'],
-		[['--parts', 'results,all'], '--parts: got results,all, expected some of results,layers,costs,curves'],
+		[['--parts', 'results,all'], '--parts: got results,all, expected some of results,layers,costs,curves,card'],
 		[['--triangles', '512,513'], '--triangles: got 512,513, expected some of 512,4608,16896'],
 		[['--browser', '/no/browser'], '--browser: got /no/browser, expected firefox, chromium or the path of a browser'],
 		[['--json', '/no/folder/out.json'], '--json: /no/folder/out.json: expected a file in a folder that is there'],
+		[
+			['--baseline', '/no/before.json'],
+			"--baseline: /no/before.json: ENOENT: no such file or directory, open '/no/before.json'",
+		],
 	])('%j is refused in one line before anything is measured', (args, words) => {
 		const command = fileURLToPath(new URL('../../../web/tools/measure/bench.mjs', import.meta.url));
 		const { status, stdout, stderr } = spawnSync(process.execPath, [command, ...args], { encoding: 'utf8' });

@@ -103,8 +103,7 @@ export function makeSubject(
 	const shells = new FurShells(surface, fur.shells, asset, material);
 	shells.shellCount = row.shells;
 	fins?.join(shells, fur.shells);
-	if (fins) scene.add(fins);
-	scene.add(shells);
+	scene.add(...(fins ? [fins] : []), shells);
 	const lit = { textures, shells, skin, motion: undefined, weather: undefined, method: undefined };
 	const method = furMethod(lit, lightOf(row), { renderer, light: lamps[0] });
 	method.apply();
