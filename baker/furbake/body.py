@@ -27,14 +27,14 @@ from furbake.surface.place.paint import brought, uncover, vertex_map, vertex_num
 from furbake.surface.place.thickness import length_by_thickness
 from furbake.surface.place.variation import noise, underside
 from furbake.surface.place.vertex_fur import VertexFur
-from furbake.surface.repair.simplify import shell_faces
 from furbake.surface.rig.kept import shown
 from furbake.surface.shapes import builtin, is_builtin
 
 Floats = NDArray[np.float64]
 
-ROOM = 8e6
-"""Bytes for shells and fins; larger models carry them on a simplified copy."""
+SHELL_FACES, MANY_FACES = 15_000, 20_000
+"""Faces of the simplified copy that carries shells and fins, and of the models that get one: each shell draws them all in
+every frame, and slightly larger models would gain little."""
 
 MAX_STROKES = 1000
 
@@ -75,7 +75,7 @@ def load_surface(model: str, max_faces: int | None = None, pose: tuple[str, floa
 def prepare(model: str, options: BakeOptions) -> Body:
     """Read `model` and lay its fur. Raises MeshError or OptionError, each with one sentence."""
     skin = load_surface(model, options.max_faces, None if options.pose is None else clip_at(options.pose))
-    ground = simplify(skin, shell_faces(ROOM, joints=skin.rig is not None and len(skin.rig.joints) > 0))
+    ground = simplify(skin, SHELL_FACES) if len(skin.faces) > MANY_FACES else skin
     size = sized(ground, skin.extent, options)
     maps = brought(ground)
     if options.length_map is not None:

@@ -14,15 +14,6 @@ from furbake.surface.soup import Soup
 TRIES = (3.0, 5.0, 8.0, 14.0)
 """Growing eagerness of the collapse (the library's own choice, 7, folds faces over): more only where less stalls."""
 
-VERTEX_BYTES, JOINT_BYTES = 32, 8
-"""Bytes of a shell or fin vertex, and of its joints and weights where the model has some."""
-
-COPIES = 1.9
-"""Faces of the shells per face below them: lapped patches overlap."""
-
-EDGES = 1.5
-"""Edges per face of a closed surface; each carries a fin of four vertices and six indices."""
-
 
 def decimate(soup: Soup, faces: int) -> Soup:
     """The soup with about `faces` faces, or more where it is too ragged; its numbers are carried over.
@@ -40,11 +31,3 @@ def decimate(soup: Soup, faces: int) -> Soup:
         )[:2]
         shape, now = np.asarray(points, dtype=np.float64), np.asarray(corners, dtype=np.int64).reshape(-1, 3)
     return carry(soup, shape * extent + low, now)
-
-
-def shell_faces(room: float, index_bytes: int = 4, joints: bool = False) -> int:
-    """How many faces the copy of a surface may have so that its shells and fins fit in `room` bytes."""
-    vertex = VERTEX_BYTES + (JOINT_BYTES if joints else 0)
-    shells = COPIES * (0.65 * vertex + 3 * index_bytes)
-    fins = EDGES * (4 * vertex + 6 * index_bytes)
-    return int(room / (shells + fins))

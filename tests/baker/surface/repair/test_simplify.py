@@ -9,7 +9,7 @@ import pytest
 import trimesh
 
 from furbake.surface.mesh import Surface, clean, simplify
-from furbake.surface.repair.simplify import decimate, shell_faces
+from furbake.surface.repair.simplify import decimate
 from furbake.surface.repair.transfer import apart, barycentric
 from furbake.surface.shapes import builtin
 from furbake.surface.soup import Soup
@@ -71,14 +71,6 @@ def test_result_repeats() -> None:
     np.testing.assert_array_equal(one.vertices, two.vertices)
     np.testing.assert_array_equal(one.faces, two.faces)
 
-
-@pytest.mark.parametrize(("joints", "vertex"), [(False, 32), (True, 40)])
-def test_shell_faces_fit(joints: bool, vertex: int) -> None:
-    faces = shell_faces(8e6, joints=joints)
-    # Shells: 1.9 faces of 3 indices and 0.65 vertices for one; fins: 1.5 quads.
-    weight = 1.9 * (0.65 * vertex + 12) + 1.5 * (4 * vertex + 24)
-    assert faces * weight <= 8e6 < (faces + 1) * weight
-    assert 20_000 < faces < 40_000
 
 
 def test_distance_to_a_triangle() -> None:
