@@ -33,8 +33,10 @@ from furbake.surface.shapes import builtin, is_builtin
 Floats = NDArray[np.float64]
 
 SHELL_FACES, MANY_FACES = 15_000, 20_000
-"""Faces of the simplified copy that carries shells and fins, and of the models that get one: each shell draws them all in
-every frame, and slightly larger models would gain little."""
+"""Faces of the copy that carries shells and fins, and of the models that get one.
+
+Every shell draws them all; models that are hardly larger would gain little.
+"""
 
 MAX_STROKES = 1000
 

@@ -72,7 +72,6 @@ def test_result_repeats() -> None:
     np.testing.assert_array_equal(one.faces, two.faces)
 
 
-
 def test_distance_to_a_triangle() -> None:
     triangle = np.array([[[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]])
     points = np.array([[0.2, 0.2, 0.5], [-1, 0, 0], [1, 1, 0], [2, 0, 0]])
