@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import logging
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
+from tempfile import NamedTemporaryFile
 from typing import Any
 
 from furbake.cluster.versions import ClusterError, compare, versions
@@ -46,7 +48,8 @@ def connected(scheduler: str, workers: int) -> Iterator[Any]:
         raise ClusterError(f"scheduler: got {scheduler!r}, expected local or an address such as tcp://10.0.0.1:8786")
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     try:
-        client = distributed.Client(scheduler, timeout=PATIENCE)
+        with warnings.catch_warnings(action="ignore"):  # on versions, which are compared below
+            client = distributed.Client(scheduler, timeout=PATIENCE)
     except (OSError, ValueError) as error:
         raise ClusterError(
             f"scheduler: nobody answers at {scheduler} ({type(error).__name__}), expected a Dask scheduler there"
@@ -62,13 +65,14 @@ def connected(scheduler: str, workers: int) -> Iterator[Any]:
         yield client
 
 
-def check_shared(client: Any, place: Path) -> None:
-    """Raise ClusterError where a worker does not see a file of this machine."""
-    for where, there in _asked(client, place.exists).items():
-        if not there:
-            raise ClusterError(
-                f"{where}: does not see {place.parent}, expected a folder that all machines share, or --send"
-            )
+def check_shared(client: Any, folder: Path) -> None:
+    """Raise ClusterError where a worker does not see a file that this machine puts where `folder` is or will be."""
+    there = next(place for place in (folder.absolute(), *folder.absolute().parents) if place.is_dir())
+    with NamedTemporaryFile(dir=there, prefix=".furbake-") as probe:
+        for where, seen in _asked(client, Path(probe.name).exists).items():
+            if not seen:
+                expected = "expected a folder that all machines share, or --send"
+                raise ClusterError(f"{where}: does not see what is in {there}, {expected}")
 
 
 def _asked(client: Any, question: Callable[[], Any]) -> Mapping[str, Any]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Future
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from queue import Empty, SimpleQueue
 from threading import Thread
@@ -43,7 +44,13 @@ class ClusterCrew:
         return len(self.running) < max(1, threads)
 
     def start(self, job: Job) -> None:
-        order = Order(job, self.versions, str(Path.cwd()), packed(job) if self.send else None, self.bound)
+        order = Order(
+            replace(job, out=job.out.absolute()),
+            self.versions,
+            str(Path.cwd()),
+            packed(job) if self.send else None,
+            self.bound,
+        )
         future = self.client.submit(bake_there, order, pure=False)
         self.running[job.name] = future
         future.add_done_callback(lambda _: self.events.put(Event("done", job)))
@@ -69,7 +76,7 @@ class ClusterCrew:
 def cluster_crew(scheduler: str, jobs: int, bound: int | None, shared: Path | None) -> Iterator[ClusterCrew]:
     """The crew of a scheduler.
 
-    jobs : workers of `local`; bound : bytes of each bake; shared : a file that all workers see, None: all is sent
+    jobs : workers of `local`; bound : bytes of each bake; shared : a folder that all machines see, None: all is sent
 
     Raises ClusterError.
     """

@@ -68,11 +68,12 @@ def contents(out: Path) -> dict[str, dict[str, bytes]]:
     }
 
 
-def one_by_one(made: Sequence[Path], out: Path) -> dict[str, dict[str, bytes]]:
+def one_by_one(made: Sequence[Path], out: Path, *options: object) -> dict[str, dict[str, bytes]]:
     """What `furbake bake` writes of each; nothing of those that it refuses."""
     out.mkdir()
     for model in made:
-        cli.main(["bake", str(model), "-o", str(out / model.stem), *SETTINGS, "--quiet", "--no-cache"])
+        given = [str(option) for option in options]
+        cli.main(["bake", str(model), "-o", str(out / model.stem), *SETTINGS, *given, "--quiet", "--no-cache"])
     return contents(out)
 
 

@@ -14,7 +14,6 @@ from typing import Any
 from furbake.asset.store import StoreError, atomic_file
 from furbake.batch import memory
 from furbake.batch.crew import Crew, LocalCrew
-from furbake.batch.journal import NAME as LOG
 from furbake.batch.journal import journal
 from furbake.batch.run import Row, Telling, run
 from furbake.cli.batch.listing import listed
@@ -30,14 +29,14 @@ from furbake.show.sheet import MARK, NAME, Cell, sheet, thumbnail
 
 def run_batch(args: SimpleNamespace) -> int:
     """Bake many models."""
-    out, start = Path(args.out).absolute(), time.perf_counter()
+    out, start = Path(args.out), time.perf_counter()
     if args.jobs is not None and args.jobs < 1:
         raise OptionError(f"jobs: got {args.jobs}, expected 1 or more")
     jobs = listed(args.models, out, args, pelt_cache(args))
     _check_place(out)
     with (
+        _crew(args, len(jobs)) as crew,
         journal(out) as log,
-        _crew(args, len(jobs), out / LOG) as crew,
         Table(len(jobs), args.quiet or args.json) as table,
     ):
 
@@ -75,8 +74,8 @@ def _check_place(out: Path) -> None:
 
 
 @contextmanager
-def _crew(args: SimpleNamespace, count: int, shared: Path) -> Iterator[Crew]:
-    """Who bakes: this machine, or the workers of a scheduler; shared : a file that these see unless all is sent."""
+def _crew(args: SimpleNamespace, count: int) -> Iterator[Crew]:
+    """Who bakes: this machine, or the workers of a scheduler."""
     if args.scheduler is None and args.send:
         raise OptionError("send: got no --scheduler, expected one to send to")
     jobs = min(args.jobs or cores(), count)
@@ -90,7 +89,7 @@ def _crew(args: SimpleNamespace, count: int, shared: Path) -> Iterator[Crew]:
             local.close()
         return
     bound = args.memory // jobs if args.memory and args.scheduler == "local" else args.memory
-    with cluster_crew(args.scheduler, jobs, bound, None if args.send else shared) as crew:
+    with cluster_crew(args.scheduler, jobs, bound, None if args.send else Path(args.out)) as crew:
         yield crew
 
 

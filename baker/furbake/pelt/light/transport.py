@@ -94,9 +94,8 @@ def sample(
     beams: Beams | None = None,
     progress: Callable[[float], None] = lambda fraction: None,
 ) -> Single:
-    """L of every stored texel under every light, (n, layers, size, size) float32: T·D + M of `sample_apart`.
-
-    beams : fields of each light in order, as `beams_here` makes them
+    """L of every stored texel under every light, (n, layers, size, size) float32: T·D + M of `sample_apart`;
+    T·D by way of `beams`, or here.
     """
     single, multiple, _ = _apart(fine, layers, size, lights, setting, beams=beams, progress=progress)
     for i, more in enumerate(multiple):
@@ -136,10 +135,9 @@ def _apart(
     progress: Callable[[float], None],
 ) -> tuple[Single, Single, Single | None]:
     """As `sample_apart`, M at half the resolution."""
-    half = (layers, size // 2, size // 2)
     single = np.empty((len(lights), layers, size, size), np.float32)
-    caught, reaching = (np.empty((len(lights), *half), np.float32) for _ in range(2))
-    floor = np.empty((len(lights), *half[1:]), np.float32)
+    caught, reaching = np.empty((2, len(lights), layers, size // 2, size // 2), np.float32)
+    floor = np.empty((len(lights), size // 2, size // 2), np.float32)
     beam = Beam(fine, layers, size, setting.radius)
     for i, fields in enumerate((beams or beams_here)(beam, lights)):
         single[i], caught[i], reaching[i], floor[i] = fields
