@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from concurrent.futures import Future
+from concurrent.futures import CancelledError, Future
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -11,11 +11,12 @@ from queue import Empty, SimpleQueue
 from threading import Thread
 from typing import Any
 
+from furbake.apart import CrashError
 from furbake.batch.crew import LOOK, Event
 from furbake.batch.job import Job
 from furbake.cluster.client import check_shared, connected, dask
 from furbake.cluster.parcel import keep, packed
-from furbake.cluster.versions import versions
+from furbake.cluster.versions import ClusterError, versions
 from furbake.cluster.work import Order, bake_there, let_go, lit_there
 from furbake.options import BakeOptions
 from furbake.pelt.light.transport import Array, Beam, Beams, Fields
@@ -40,17 +41,16 @@ class ClusterCrew:
         self.versions = versions()
 
     def room(self, job: Job) -> bool:  # noqa: ARG002 — any bake is like any other
-        threads: int = sum(self.client.nthreads().values())
+        try:
+            threads: int = sum(self.client.nthreads().values())
+        except OSError as error:
+            raise ClusterError(f"scheduler: lost ({type(error).__name__}), expected it until all is done") from None
         return len(self.running) < max(1, threads)
 
     def start(self, job: Job) -> None:
-        order = Order(
-            replace(job, out=job.out.absolute()),
-            self.versions,
-            str(Path.cwd()),
-            packed(job) if self.send else None,
-            self.bound,
-        )
+        parcel = packed(job) if self.send else None
+        there = replace(job, out=job.out.absolute())
+        order = Order(there, self.versions, str(Path.cwd()), parcel, self.bound)
         future = self.client.submit(bake_there, order, pure=False)
         self.running[job.name] = future
         future.add_done_callback(lambda _: self.events.put(Event("done", job)))
@@ -64,12 +64,22 @@ class ClusterCrew:
             baked, files = self.running.pop(job.name).result()
             if files:
                 keep(job, files)
-        except Exception as error:  # noqa: BLE001 — the batch goes on, and says what it was
-            return Event("done", job, error)
+        except (Exception, CancelledError) as error:  # noqa: BLE001 — the batch goes on, and says what it was
+            return Event("done", job, _understood(error))
         return Event("done", job, baked)
 
     def close(self) -> None:
         self.client.cancel(list(self.running.values()), force=True)
+
+
+def _understood(error: BaseException) -> Exception:
+    """An error of a unit; those of Dask as a sentence."""
+    if type(error).__module__.partition(".")[0] in {"distributed", "asyncio", "concurrent", "dask"}:
+        name = type(error).__name__
+        return ClusterError(f"workers: lost with it ({name}), expected memory for it there, and a scheduler that lives")
+    if isinstance(error, CrashError):
+        return ClusterError(f"workers: a process of theirs was ended ({error}), expected memory and time enough for it")
+    return error if isinstance(error, Exception) else RuntimeError(str(error))
 
 
 @contextmanager
@@ -139,5 +149,5 @@ class _Spread:
             number = order.pop(future)
             try:
                 found[number].set_result(future.result())
-            except Exception as error:  # noqa: BLE001 — raised where the fields are wanted
-                found[number].set_exception(error)
+            except (Exception, CancelledError) as error:  # noqa: BLE001 — raised where the fields are wanted
+                found[number].set_exception(_understood(error))

@@ -20,6 +20,7 @@ from furbake.cli.batch.listing import listed
 from furbake.cli.batch.table import Table, facts
 from furbake.cli.caches import pelt_cache
 from furbake.cli.command import INVALID, told
+from furbake.cli.interrupt import INTERRUPTED
 from furbake.cli.output import complain, say
 from furbake.cluster.crew import cluster_crew
 from furbake.cores import VARIABLE, cores
@@ -34,6 +35,7 @@ def run_batch(args: SimpleNamespace) -> int:
         raise OptionError(f"jobs: got {args.jobs}, expected 1 or more")
     jobs = listed(args.models, out, args, pelt_cache(args))
     _check_place(out)
+    ends: list[Row] = []
     with (
         _crew(args, len(jobs)) as crew,
         journal(out) as log,
@@ -41,16 +43,22 @@ def run_batch(args: SimpleNamespace) -> int:
     ):
 
         def ended(row: Row) -> None:
+            ends.append(row)
             table.row(row)
             if args.json:
                 say(json.dumps(_plain(row)), flush=True)
 
-        rows = run(jobs, log, crew, Telling(ended, table.event, _sentence))
+        try:
+            rows = run(jobs, log, crew, Telling(ended, table.event, _sentence))
+        except KeyboardInterrupt:
+            done = sum(row.status != "failed" for row in ends)
+            complain(f"interrupted: {done} of {len(jobs)} are done, the same command goes on from there")
+            return INTERRUPTED
     counts = {status: sum(row.status == status for row in rows) for status in ("baked", "fresh", "failed")}
     seconds = time.perf_counter() - start
     summary = (
-        f"{len(rows)} models: {counts['baked']} baked, {counts['fresh']} up to date, {counts['failed']} failed, "
-        f"{seconds:.1f} s"
+        f"{counts['baked']} baked, {counts['fresh']} up to date, {counts['failed']} failed "
+        f"of {len(rows)} models, {seconds:.1f} s"
     )
     _write_sheet(out, rows, summary)
     if args.json:
