@@ -1,4 +1,4 @@
-"""Whether a baked folder is what the same bake would write again."""
+"""Freshness of a baked folder: the same bake would write it again."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Those who bake: processes of this machine, as many at a time as the memory holds."""
+"""Crew of a batch: processes of this machine that bake, as many at a time as the memory holds."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ LOOK = 0.02
 """Seconds between two looks at the memory."""
 
 GROWN = 1.5
-"""How many times as much as it held a bake is thought to need that was ended for want of memory."""
+"""Factor on what a bake held that was ended for want of memory: its need at the next try."""
 
 MARGIN = 1.1
-"""The same beside what another bake of the same fur needed."""
+"""Factor on what another bake of the same fur needed."""
 
 
 class MemoryShortError(RuntimeError):
@@ -37,7 +37,7 @@ class Event(NamedTuple):
 
 
 class Crew(Protocol):
-    """Who bakes, told by the loop of a batch."""
+    """Processes or workers that bake; the loop of a batch says what and when."""
 
     def room(self, job: Job) -> bool:
         """True if this bake can begin now."""
@@ -46,7 +46,7 @@ class Crew(Protocol):
         """Begin it; what becomes of it is an event."""
 
     def next(self) -> Event | None:
-        """What has happened, after a short wait; None where nothing has."""
+        """The next event, after a short wait; None where nothing has happened."""
 
     def close(self) -> None:
         """End all that is running."""
@@ -62,7 +62,7 @@ class _Running:
 
     @property
     def number(self) -> int:
-        """Of its process; 0 before that has begun."""
+        """Number of its process; 0 before that has begun."""
         return 0 if self.process is None else self.process.process.pid
 
     def end(self) -> None:
@@ -75,8 +75,9 @@ class _Running:
 class LocalCrew:
     """Processes of this machine.
 
-    Each has the bytes reserved that a bake of its fur has needed, or else a guess; what one takes beyond that is
-    reserved as it comes. Where all of it would be more than the bound, the bake that began last is ended and put back.
+    Each bake reserves the bytes that another of its fur has needed, or else a guess, and more when it holds more. One
+    begins where the bound has room for its bytes. Where all processes hold more than the bound, the bake that began
+    last is ended and put back.
     """
 
     def __init__(self, jobs: int, bound: int) -> None:
@@ -88,7 +89,7 @@ class LocalCrew:
         self.needs: dict[str, int] = {}
 
     def room(self, job: Job) -> bool:
-        """True if fewer than `jobs` run and the bound holds this one, too; the only one always may."""
+        """True if fewer than `jobs` run and the bound has room; a bake alone always has it."""
         if not self.running:
             return True
         return len(self.running) < self.jobs and self._reserved() + self._need(job) <= self.bound
@@ -195,7 +196,7 @@ def _too_little(bound: int) -> MemoryShortError:
 
 
 def fur_of(job: Job) -> tuple[BakeOptions, float]:
-    """What two bakes in the same fur share."""
+    """Key of a fur: equal for two bakes in the same one."""
     return job.options.of_tile(), job.options.own_height
 
 

@@ -40,7 +40,7 @@ class Job:
 
 @dataclass(frozen=True)
 class Baked:
-    """What a bake tells: seconds, most bytes of memory, `bake.json`, notices, a small picture as a data URI."""
+    """Result of a bake: seconds, most bytes of memory, `bake.json`, notices, a small picture as a data URI."""
 
     seconds: float
     memory: int

@@ -1,4 +1,4 @@
-"""What a batch has done so far: a line for each bake that has ended, beside the folders that it wrote."""
+"""Record of a batch so far: a line for each bake that has ended, beside the folders that it wrote."""
 
 from __future__ import annotations
 

@@ -74,7 +74,7 @@ def run_bake(args: SimpleNamespace) -> int:
 
 
 def _spread(args: SimpleNamespace) -> AbstractContextManager[Spread | None]:
-    """Who lets light through the hairs: this process, or workers."""
+    """Workers that sample the light; None: this process does."""
     if args.scheduler is None:
         return nullcontext()
     from furbake.cluster.crew import spread_over  # noqa: PLC0415 — an optional extra

@@ -102,7 +102,7 @@ def cluster_crew(scheduler: str, jobs: int, bound: int | None, shared: Path | No
 
 @contextmanager
 def spread_over(scheduler: str, workers: int) -> Iterator[Spread]:
-    """Who lets light through the hairs of a bake: workers, some lights of a state at a time. Raises ClusterError."""
+    """Workers that sample the light of a bake, some lights of a state at a time. Raises ClusterError."""
     with connected(scheduler, workers) as client:
         try:
             yield _Spread(client)

@@ -1,4 +1,4 @@
-"""What must be the same on all machines, so that results are the same bytes."""
+"""Versions that must be the same on all machines, so that results are the same bytes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What workers do: bakes, and lights of a bake, each in a process of its own with the environment of the command."""
+"""Work of a worker: bakes, and lights of a bake, each in a process of its own with the environment of the command."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ NAME, MARK = "index.html", "<!-- Written by furbake batch. -->"
 """File of the sheet, and the words by which it is told from a page of somebody else."""
 
 SIDE, TILES, QUALITY = 200, 2, 80
-"""Of a small picture: pixels, repeats of the tile, and of WebP."""
+"""Side of a small picture in pixels, repeats of the tile on it, and quality of its WebP."""
 
 
 @dataclass(frozen=True)

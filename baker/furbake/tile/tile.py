@@ -101,7 +101,7 @@ class Tile:
         return fur.voxels(self.options.layers, self.options.size)
 
     def beam(self, state: int) -> Beam:
-        """What lets light through the fine voxels of a state."""
+        """Beams of light through the fine voxels of a state."""
         options = replace(self.options, coat=self.furs[state].coat)
         fine = self._voxels(self.furs[state])
         return Beam(fine, options.layers, options.size, setting_of(options).radius)

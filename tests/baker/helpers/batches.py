@@ -69,7 +69,7 @@ def contents(out: Path) -> dict[str, dict[str, bytes]]:
 
 
 def one_by_one(made: Sequence[Path], out: Path, *options: object) -> dict[str, dict[str, bytes]]:
-    """What `furbake bake` writes of each; nothing of those that it refuses."""
+    """Folders that `furbake bake` writes of each; none of those that it refuses."""
     out.mkdir()
     for model in made:
         given = [str(option) for option in options]

@@ -83,7 +83,7 @@ def _check_place(out: Path) -> None:
 
 @contextmanager
 def _crew(args: SimpleNamespace, count: int) -> Iterator[Crew]:
-    """Who bakes: this machine, or the workers of a scheduler."""
+    """Processes of this machine, or workers of a scheduler."""
     if args.scheduler is None and args.send:
         raise OptionError("send: got no --scheduler, expected one to send to")
     jobs = min(args.jobs or cores(), count)
