@@ -72,7 +72,7 @@ class Apart:
                     raise value
                 tell(*value)
         except (EOFError, BrokenPipeError, pickle.UnpicklingError):
-            raise CrashError(_ending(self.process.wait())) from None
+            raise CrashError(ending(self.process.wait())) from None
 
     def end(self) -> None:
         """End the process, whatever it does."""
@@ -84,7 +84,7 @@ class Apart:
                     pipe.close()
 
 
-def _ending(status: int) -> str:
+def ending(status: int) -> str:
     """Name of the signal that ended a process, or its exit status."""
     with suppress(ValueError):
         return signal.Signals(-status).name

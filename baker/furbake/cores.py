@@ -15,3 +15,8 @@ def cores() -> int:
         return int(given)
     affinity = getattr(os, "sched_getaffinity", None)  # a cluster gives a job some of a machine's cores
     return len(affinity(0)) if affinity else os.cpu_count() or 1
+
+
+def shared_cores(count: int) -> dict[str, str]:
+    """Environment of each of `count` bakes beside each other, unless `FURBAKE_THREADS` is set already."""
+    return {VARIABLE: os.environ.get(VARIABLE) or str(max(1, cores() // count))}

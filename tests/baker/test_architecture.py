@@ -48,7 +48,7 @@ FLOORS: dict[str, set[str]] = {
     "cluster": {"asset", "identity", "options", "tile", "apart", "batch", "pelt", "surface", "cores"},
     "groom": {"asset", "pelt", "options"},
     "show": {"asset", "pelt", "options", "identity", "tile", "page", "daylight"},
-    "study": {"asset", "pelt", "surface", "options", "tile", "groom", "page", "daylight"},
+    "study": {"apart", "asset", "pelt", "surface", "options", "tile", "groom", "page", "daylight"},
     "cli": {
         "asset",
         "pelt",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from queue import Empty, SimpleQueue
 from threading import Event as Flag
 from threading import Thread
@@ -12,6 +12,7 @@ from typing import Any, NamedTuple, Protocol
 from furbake.apart import Apart, CrashError
 from furbake.batch import memory
 from furbake.batch.job import Baked, Job, bake_apart
+from furbake.cores import shared_cores
 from furbake.options import BakeOptions
 
 LOOK = 0.02
@@ -83,6 +84,7 @@ class LocalCrew:
     def __init__(self, jobs: int, bound: int) -> None:
         """jobs : at the same time, at most; bound : bytes, of this process, too."""
         self.jobs, self.bound = jobs, bound
+        self.environment = shared_cores(jobs)
         self.events: SimpleQueue[Event] = SimpleQueue()
         self.running: dict[str, _Running] = {}
         self.needed: dict[Any, int] = {}
@@ -119,7 +121,8 @@ class LocalCrew:
                 process.process.kill()
 
         try:
-            done: Any = bake_apart(one.job, lambda *told: self.events.put(Event("step", one.job, told)), own)
+            job = replace(one.job, environment=self.environment)
+            done: Any = bake_apart(job, lambda *told: self.events.put(Event("step", one.job, told)), own)
         except Exception as error:  # noqa: BLE001 — the batch goes on, and says what it was
             done = error
         self.events.put(Event("done", one.job, done))

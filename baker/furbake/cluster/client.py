@@ -12,6 +12,7 @@ from tempfile import NamedTemporaryFile
 from typing import Any
 
 from furbake.cluster.versions import ClusterError, compare, versions
+from furbake.cores import shared_cores
 
 PATIENCE = 30
 """Seconds in which a scheduler answers and its first worker comes."""
@@ -38,7 +39,7 @@ def connected(scheduler: str, workers: int) -> Iterator[Any]:
         with (
             distributed.LocalCluster(
                 n_workers=workers, threads_per_worker=1, memory_limit=0, dashboard_address=None,
-                silence_logs=logging.CRITICAL,
+                silence_logs=logging.CRITICAL, env=shared_cores(workers),
             ) as cluster,
             distributed.Client(cluster) as client,
         ):  # fmt: skip
@@ -76,10 +77,15 @@ def check_shared(client: Any, folder: Path) -> None:
 
 
 def _asked(client: Any, question: Callable[[], Any]) -> Mapping[str, Any]:
-    """Answer of each worker. Raises ClusterError where one has none."""
-    found: Mapping[str, Any] = client.run(question, on_error="return")
-    for where, answer in found.items():
+    """Answer of each worker but of those that are lost meanwhile. Raises ClusterError where one has none, or all."""
+    found: dict[str, Any] = {}
+    for where, answer in client.run(question, on_error="return").items():
+        if isinstance(answer, OSError):  # its connection
+            continue
         if isinstance(answer, Exception):
             text = f"{type(answer).__name__}: {' '.join(str(answer).split())}"
             raise ClusterError(f"{where}: no furbake that answers ({text}), expected the same as here")
+        found[where] = answer
+    if not found:
+        raise ClusterError("workers: none answers, expected one or more")
     return found

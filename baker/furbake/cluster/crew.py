@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Sequence
 from concurrent.futures import CancelledError, Future
 from contextlib import contextmanager
@@ -20,6 +21,7 @@ from furbake.cluster.versions import ClusterError, versions
 from furbake.cluster.work import Order, bake_there, let_go, lit_there
 from furbake.options import BakeOptions
 from furbake.pelt.light.transport import Array, Beam, Beams, Fields
+from furbake.surface.limits import VARIABLE
 from furbake.tile.lighting import directions
 from furbake.tile.tile import Spread
 
@@ -49,7 +51,8 @@ class ClusterCrew:
 
     def start(self, job: Job) -> None:
         parcel = packed(job) if self.send else None
-        there = replace(job, out=job.out.absolute())
+        limits = {VARIABLE: os.environ[VARIABLE]} if VARIABLE in os.environ else {}
+        there = replace(job, out=job.out.absolute(), environment=limits)
         order = Order(there, self.versions, str(Path.cwd()), parcel, self.bound)
         future = self.client.submit(bake_there, order, pure=False)
         self.running[job.name] = future
@@ -139,15 +142,17 @@ class _Spread:
         self, options: BakeOptions, height: float, units: list[tuple[int, range]], found: list[Future[list[Fields]]]
     ) -> None:
         """Fetch each unit when it is done, so that a worker that is lost then costs nothing."""
-        order = {
-            self.client.submit(
-                lit_there, options, height, state, some, self.versions, pure=False, retries=RETRIES, priority=-number
-            ): number
-            for number, (state, some) in enumerate(units)
-        }
-        for future in dask().as_completed(list(order)):
-            number = order.pop(future)
-            try:
-                found[number].set_result(future.result())
-            except (Exception, CancelledError) as error:  # noqa: BLE001 — raised where the fields are wanted
-                found[number].set_exception(_understood(error))
+        try:
+            order = {
+                self.client.submit(
+                    lit_there, options, height, state, some, self.versions,
+                    pure=False, retries=RETRIES, priority=-number,
+                ): number
+                for number, (state, some) in enumerate(units)
+            }  # fmt: skip
+            for future in dask().as_completed(list(order)):
+                found[order.pop(future)].set_result(future.result())
+        except (Exception, CancelledError) as error:  # noqa: BLE001 — raised where the fields are wanted
+            for left in found:
+                if not left.done():
+                    left.set_exception(_understood(error))

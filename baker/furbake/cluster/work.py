@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -14,7 +13,7 @@ from furbake.batch.job import Baked, Job
 from furbake.cluster.client import dask
 from furbake.cluster.parcel import Parcel, unpacked, written
 from furbake.cluster.versions import ClusterError, compare, versions
-from furbake.cores import VARIABLE, cores
+from furbake.cores import shared_cores
 from furbake.options import BakeOptions
 from furbake.pelt.light.transport import Fields
 from furbake.tile.tile import lit
@@ -37,9 +36,9 @@ class Order:
 
 def bake_there(order: Order) -> tuple[Baked, dict[str, bytes]]:
     """Bake; the files of the folder too where they are sent. Raises what `bake` does, CrashError and ClusterError."""
-    where, threads = _worker()
+    where, environment = _worker()
     compare(where, versions(), order.versions)
-    job = replace(order.job, environment={VARIABLE: threads, **order.job.environment})
+    job = replace(order.job, environment={**environment, **order.job.environment})
     if order.parcel is not None:
         with unpacked(job, order.parcel) as there:
             return bake_within(there, order.bound), written(there)
@@ -54,11 +53,11 @@ _held: dict[int, Apart] = {}
 
 def lit_there(options: BakeOptions, height: float, state: int, some: range, ours: Mapping[str, str]) -> list[Fields]:
     """Fields of some lights, as of `lit`. Raises CrashError and ClusterError."""
-    where, threads = _worker()
+    where, environment = _worker()
     compare(where, versions(), ours)
     process = _held.get(get_ident())
     if process is None:
-        process = _held[get_ident()] = Apart({VARIABLE: threads})
+        process = _held[get_ident()] = Apart(environment)
     try:
         found: list[Fields] = process.call(lit, options, height, state, some.start, some.stop)
     except CrashError:
@@ -74,7 +73,7 @@ def let_go() -> None:
         _held.popitem()[1].end()
 
 
-def _worker() -> tuple[str, str]:
-    """Address of this worker, and the threads of each of its units, as text."""
+def _worker() -> tuple[str, dict[str, str]]:
+    """Address of this worker, and the environment of the processes of its units."""
     worker = dask().get_worker()
-    return str(worker.address), os.environ.get(VARIABLE) or str(max(1, cores() // worker.state.nthreads))
+    return str(worker.address), shared_cores(worker.state.nthreads)

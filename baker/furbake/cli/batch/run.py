@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -23,7 +22,7 @@ from furbake.cli.command import INVALID, told
 from furbake.cli.interrupt import INTERRUPTED
 from furbake.cli.output import complain, say
 from furbake.cluster.crew import cluster_crew
-from furbake.cores import VARIABLE, cores
+from furbake.cores import cores
 from furbake.options import OptionError
 from furbake.show.sheet import MARK, NAME, Cell, sheet, thumbnail
 
@@ -33,7 +32,8 @@ def run_batch(args: SimpleNamespace) -> int:
     out, start = Path(args.out), time.perf_counter()
     if args.jobs is not None and args.jobs < 1:
         raise OptionError(f"jobs: got {args.jobs}, expected 1 or more")
-    jobs = listed(args.models, out, args, pelt_cache(args))
+    cache = None if args.send and not args.cache else pelt_cache(args)
+    jobs = listed(args.models, out, args, cache)
     _check_place(out)
     ends: list[Row] = []
     with (
@@ -87,8 +87,6 @@ def _crew(args: SimpleNamespace, count: int) -> Iterator[Crew]:
     if args.scheduler is None and args.send:
         raise OptionError("send: got no --scheduler, expected one to send to")
     jobs = min(args.jobs or cores(), count)
-    if args.scheduler in (None, "local"):
-        os.environ.setdefault(VARIABLE, str(max(1, cores() // jobs)))
     if args.scheduler is None:
         local = LocalCrew(jobs, args.memory or memory.free())
         try:
