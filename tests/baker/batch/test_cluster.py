@@ -23,7 +23,7 @@ ALL = os.environ.get("FURBAKE_TEST_ALL") == "1"
 
 whole = pytest.mark.skipif(not ALL, reason="takes minutes: npm test -- --all")
 
-STATES = ("--states", "dry,wet", "--no-cache", "--quiet")
+QUIET = ("--no-cache", "--quiet")
 
 
 def furbake(*arguments: object, **more: str) -> subprocess.CompletedProcess[str]:
@@ -33,17 +33,15 @@ def furbake(*arguments: object, **more: str) -> subprocess.CompletedProcess[str]
 
 
 def test_workers(run: Callable[..., Any], tmp_path: Path) -> None:
-    """One bake on two; a batch of files that are sent, during which one is killed; one of another version."""
+    """One bake on two; then a batch of files that are sent, during which one of them is killed."""
     made = models(tmp_path / "models", 2, 1)
     (tmp_path / "comb.json").write_text('{"strokes": [{"points": [[0, 0, 1], [0, 1, 0]], "strength": 1}]}')
     (tmp_path / "list.toml").write_text("comb = 'comb.json'\n[[model]]\nfile = 'models/*.obj'\n")
     expected = one_by_one(made, tmp_path / "one", "--comb", tmp_path / "comb.json")
-    assert run("bake", "torus:8x8", "-o", tmp_path / "here", *TINY, *STATES).status == 0
-    (tmp_path / "numpy-0.1.dist-info").mkdir()
-    (tmp_path / "numpy-0.1.dist-info" / "METADATA").write_text("Metadata-Version: 2.1\nName: numpy\nVersion: 0.1\n")
+    assert run("bake", "torus:8x8", "-o", tmp_path / "here", *TINY, *QUIET).status == 0
     with workers(tmp_path / "workers", 2) as crew:
         there = ("--scheduler", crew.address)
-        found = furbake("bake", "torus:8x8", "-o", tmp_path / "there", *TINY, *STATES, *there)
+        found = furbake("bake", "torus:8x8", "-o", tmp_path / "there", *TINY, *QUIET, *there)
         assert found.returncode == 0, found.stderr
         assert files(tmp_path / "there") == files(tmp_path / "here")
 
@@ -56,13 +54,18 @@ def test_workers(run: Callable[..., Any], tmp_path: Path) -> None:
         assert contents(tmp_path / "out") == expected
         assert [row["name"] for row in rows if row.get("status") == "failed"] == ["bad00"]
 
+
+@whole
+def test_workers_of_another_version_are_refused(tmp_path: Path) -> None:
+    (tmp_path / "numpy-0.1.dist-info").mkdir()
+    (tmp_path / "numpy-0.1.dist-info" / "METADATA").write_text("Metadata-Version: 2.1\nName: numpy\nVersion: 0.1\n")
+    with workers(tmp_path / "workers", 0) as crew:
         crew.add(PYTHONPATH=str(tmp_path))
-        crew.processes[2].kill()
-        found = furbake("batch", "plane", "-o", tmp_path / "none", *there)
-        assert found.returncode == 2
-        assert found.stderr.startswith("furbake: error: tcp://")
-        assert found.stderr.endswith(f": numpy is 0.1, expected {versions()['numpy']} as here\n")
-        assert not (tmp_path / "none").exists()
+        found = furbake("batch", "plane", "-o", tmp_path / "out", "--scheduler", crew.address)
+    assert found.returncode == 2
+    assert found.stderr.startswith("furbake: error: tcp://")
+    assert found.stderr.endswith(f": numpy is 0.1, expected {versions()['numpy']} as here\n")
+    assert not (tmp_path / "out").exists()
 
 
 @whole
@@ -85,7 +88,7 @@ def test_ten_killed_workers_of_a_batch_cost_nothing(tmp_path: Path) -> None:
 
 @whole
 def test_ten_killed_workers_of_one_bake_cost_nothing(run: Callable[..., Any], tmp_path: Path) -> None:
-    size = ("--layers", "8", "--size", "32", "--lights", "32", *STATES)
+    size = ("--layers", "8", "--size", "32", "--lights", "32", "--states", "dry,wet", "--dirt", *QUIET)
     assert run("bake", "torus:8x8", "-o", tmp_path / "here", *size).status == 0
     chance, hit = Random(6), 0
     for turn in range(10):
@@ -119,11 +122,10 @@ def test_versions_that_differ(theirs: dict[str, str], expected: str) -> None:
 
 def test_without_dask(tmp_path: Path) -> None:
     (tmp_path / "distributed.py").write_text("raise ImportError")
-    for arguments in (("batch", "plane"), ("bake", "plane")):
-        found = furbake(*arguments, "-o", tmp_path / "out", "--scheduler", "local", PYTHONPATH=str(tmp_path))
-        assert found.returncode == 2
-        assert found.stderr == (
-            "furbake: error: distributed: not installed, expected pip install 'furbake[cluster]' "
-            "(in a clone, './baker[cluster]')\n"
-        )
-        assert not (tmp_path / "out").exists()
+    found = furbake("batch", "plane", "-o", tmp_path / "out", "--scheduler", "local", PYTHONPATH=str(tmp_path))
+    assert found.returncode == 2
+    assert found.stderr == (
+        "furbake: error: distributed: not installed, expected pip install 'furbake[cluster]' "
+        "(in a clone, './baker[cluster]')\n"
+    )
+    assert not (tmp_path / "out").exists()

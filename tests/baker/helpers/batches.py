@@ -120,7 +120,7 @@ def watched(batch: subprocess.Popen[str], until: float) -> tuple[bool, int]:
         most = max(most, resident(batch.pid))
         if batch.poll() is not None:
             return True, most
-        time.sleep(0.02)
+        time.sleep(0.04)
     os.kill(batch.pid, signal.SIGKILL)
     batch.wait()
     return False, most
