@@ -25,7 +25,7 @@ from furbake.surface.rig.follow import follow
 from furbake.surface.shapes import is_builtin
 from furbake.tile.kept import KeptPelts
 from furbake.tile.lighting import Sampled, write_samples
-from furbake.tile.tile import Fitted, Tile
+from furbake.tile.tile import Fitted, Spread, Tile
 
 STAGES = ("mesh", "strands", "volume", "light", "fit", "fins", "write")
 
@@ -70,6 +70,7 @@ def bake(
     force: bool = False,
     samples: Path | None = None,
     cache: Path | None = None,
+    spread: Spread | None = None,
     progress: Progress = lambda stage, fraction: None,
     notify: Notify = lambda notice: None,
 ) -> BakeResult:
@@ -77,6 +78,7 @@ def bake(
 
     samples : optional file for the physics itself, for others to check; the light is then sampled anew
     cache : optional folder of finished pelts: one of this very fur is taken from there, else kept there
+    spread : who lets the light through the hairs, if not this process
     progress : called with a stage of `STAGES` and the fraction of it that is done
     notify : called with each notice of the result once the mesh is read, before the light is sampled
 
@@ -91,7 +93,7 @@ def bake(
         notices = (*body.skin.notices, *body.notices)
         for notice in notices:
             notify(notice)
-        pelts = _Pelts(clock, options.of_tile(), body.length / body.tile, cache)
+        pelts = _Pelts(clock, options.of_tile(), body.length / body.tile, cache, spread)
         fitted = pelts.fitted(anew=samples is not None)
         with clock.stage("fins"):
             fins = _fins(body, options, fitted[0][0])
@@ -121,8 +123,11 @@ def bake(
 class _Pelts:
     """The pelts of a tile, made stage by stage or taken from a cache."""
 
-    def __init__(self, clock: _Clock, options: BakeOptions, height: float, cache: Path | None) -> None:
+    def __init__(
+        self, clock: _Clock, options: BakeOptions, height: float, cache: Path | None, spread: Spread | None
+    ) -> None:
         """options : of the tile; height : tile widths, of which the last bits vary from body to body."""
+        self.spread = spread
         self.clock, self.options, self.height = clock, options, float(f"{height:.{HEIGHT_DIGITS}g}")
         self.kept = None if cache is None else KeptPelts(cache, options, self.height)
         self.sampled: list[Sampled] = []
@@ -145,7 +150,7 @@ class _Pelts:
         with self.clock.stage("volume"):
             dry = self.dry
         with self.clock.stage("light") as step:
-            self.sampled = tile.sample(dry, step)
+            self.sampled = tile.sample(dry, step, self.spread)
         with self.clock.stage("fit") as step:
             fitted = tile.fit(self.sampled, step)
         if self.kept is not None:

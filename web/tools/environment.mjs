@@ -76,6 +76,7 @@ export function lockFile(dev) {
 function recipe(dev) {
 	const found = createHash('sha256');
 	for (const file of [join(root, 'baker', 'pyproject.toml'), lockFile(dev)]) found.update(readFileSync(file));
+	found.update(JSON.parse(readFileSync(join(root, 'package.json'), 'utf8')).version);
 	return `${found.digest('hex')} ${dev ? 'dev' : 'use'} ${root}`;
 }
 

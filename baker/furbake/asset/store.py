@@ -34,6 +34,10 @@ class StoreError(OSError):
     """A place that cannot be written; the message names it, what was got and what was expected."""
 
 
+class BusyError(StoreError):
+    """A place that another process is writing."""
+
+
 @contextmanager
 def atomic_folder(target: Path, force: bool = False) -> Iterator[Path]:
     """A new empty folder to write in, which becomes `target` when the block ends, and vanishes when it fails.
@@ -86,6 +90,24 @@ def atomic_file(target: Path) -> Iterator[BinaryIO]:
                 fresh.replace(target)
         finally:
             fresh.unlink(missing_ok=True)
+
+
+@contextmanager
+def alone(target: Path) -> Iterator[None]:
+    """Hold the lock of `target`, a file to be written bit by bit, in a folder that is made where it is missing.
+
+    Raises StoreError where the folder cannot be written, and where another process holds the lock.
+    """
+    _make_parents(str(target.parent), target.parent)
+    with _locked(str(target.parent), target):
+        yield
+
+
+def clear(target: Path) -> None:
+    """Clear away what a killed writer of `target` left, unless another process is writing it."""
+    target = Path(os.path.realpath(target))
+    with suppress(StoreError), _locked(str(target), target):
+        pass
 
 
 def check_free(target: Path, force: bool, name: str | None = None) -> None:
@@ -150,7 +172,7 @@ def _locked(name: str, target: Path, expected: str = "expected a folder that can
         try:
             lock.acquire()
         except Timeout:
-            raise StoreError(f"{name}: is being written by another process, expected to be alone there") from None
+            raise BusyError(f"{name}: is being written by another process, expected to be alone there") from None
     try:
         _recover(target)
         yield

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import time
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -12,18 +13,19 @@ from typing import Any
 from urllib.parse import quote
 
 from furbake.asset.inspect import summary
-from furbake.asset.read import AssetError, read_asset
+from furbake.asset.read import read_asset
 from furbake.asset.validate import check, validate
 from furbake.cli.caches import pelt_cache
+from furbake.cli.chosen import chosen, options_for
 from furbake.cli.command import INVALID
 from furbake.cli.output import complain, say
 from furbake.cli.progress import shown
+from furbake.cores import cores
+from furbake.freshness import fresh_record
 from furbake.groom.files import write_groom
 from furbake.groom.strands import STAGES as GROOM_STAGES
 from furbake.groom.strands import groom
-from furbake.identity import bake_key, library_versions
-from furbake.options import BakeOptions, OptionError, as_toml, override, preset, preset_names, preset_summary
-from furbake.pelt.hairs.states import WETNESS
+from furbake.options import BakeOptions, OptionError, as_toml, preset, preset_names, preset_summary
 from furbake.pipeline import STAGES, bake
 from furbake.show.lesson import STAGES as LESSON_STAGES
 from furbake.show.lesson import fresh as fresh_lesson
@@ -35,44 +37,16 @@ from furbake.study.verify import body
 from furbake.study.verify.colour import colour_lines, verify_colour
 from furbake.study.verify.tables import lines as body_lines
 from furbake.study.verify.tile import SAMPLES, lines, verify
-from furbake.surface.shapes import is_builtin
-
-GIVEN = (
-    "layers", "size", "lights", "basis", "coefficients", "bits", "curves", "length", "tile", "height", "seed", "flat",
-    "guide", "length_by_thickness", "fins", "uv", "max_faces", "length_map", "mask", "comb", "features", "directions",
-    "meshopt", "states", "dirt", "pose",
-)  # fmt: skip
-"""Options of the command that are options of the bake; one that is not given is the preset's."""
+from furbake.tile.tile import Spread
 
 VERIFY_STAGES = ("strands", "light", "trace")
 
 
-def chosen(args: SimpleNamespace) -> BakeOptions:
-    """The preset's options, overridden by every `--set`, then by the options of the command."""
-    options = preset(args.preset)
-    try:
-        options = override(options, dict(args.set))
-    except OptionError as error:
-        raise OptionError(f"set: {error}") from None
-    given = {name: getattr(args, name, None) for name in GIVEN}
-    if given["states"] == ("dry..wet",):
-        given["states"] = tuple(WETNESS)
-    options = replace(options, **{name: value for name, value in given.items() if value is not None})
-    if options.guide.endswith(".json"):  # strokes, and where there are none from nose to tail
-        if options.comb is not None:
-            raise OptionError(f"comb: got {options.comb} beside the strokes of --guide, expected one file of strokes")
-        options = replace(options, guide=BakeOptions.guide, comb=options.guide)
-    options.check()
-    return options
-
-
 def run_bake(args: SimpleNamespace) -> int:
     """Bake a mesh into a folder."""
-    options = chosen(args)
-    if args.length_by_thickness is None and not (options.length_by_thickness or options.flat or is_builtin(args.model)):
-        options = replace(options, auto_length=True)
+    options = options_for(args.model, args)
     out = Path(args.out)
-    if args.if_stale and (record := _fresh(args.model, out, options)):
+    if args.if_stale and (record := fresh_record(args.model, out, options)):
         if args.json:
             say(json.dumps({"folder": str(out), "baked": False, "seconds": {}, **record}))
         elif not args.quiet:
@@ -80,10 +54,11 @@ def run_bake(args: SimpleNamespace) -> int:
         return 0
     samples, cache = Path(args.samples) if args.samples else None, pelt_cache(args)
     start = time.perf_counter()
-    with shown(STAGES, args.quiet) as progress:
+    with _spread(args) as spread, shown(STAGES, args.quiet) as progress:
         result = bake(
             args.model, out, options, force=args.force or args.if_stale, samples=samples, progress=progress,
-            cache=cache, notify=(lambda notice: None) if args.quiet else (lambda notice: complain(f"note: {notice}")),
+            cache=cache, spread=spread,
+            notify=(lambda notice: None) if args.quiet else (lambda notice: complain(f"note: {notice}")),
         )  # fmt: skip
     if args.json:
         say(json.dumps({"folder": str(out), "baked": True, "seconds": result.seconds, **result.record}))
@@ -98,6 +73,15 @@ def run_bake(args: SimpleNamespace) -> int:
     return 0
 
 
+def _spread(args: SimpleNamespace) -> AbstractContextManager[Spread | None]:
+    """Workers that sample the light; None: this process does."""
+    if args.scheduler is None:
+        return nullcontext()
+    from furbake.cluster.crew import spread_over  # noqa: PLC0415 — an optional extra
+
+    return spread_over(args.scheduler, cores())
+
+
 def _on_the_page(out: Path) -> str:
     """Way to show a baked folder on the demo page: its address below the page's, or a drop."""
     folders = out.resolve().parts
@@ -105,17 +89,6 @@ def _on_the_page(out: Path) -> str:
         start = len(folders) - folders[::-1].index("public")
         return f"?model={quote('/'.join(folders[start:]))} in its address"
     return f"drop the folder {out} on the page"
-
-
-def _fresh(model: str, out: Path, options: BakeOptions) -> dict[str, Any] | None:
-    """The record of a whole bake of the same options, versions and input in `out`, if there is one."""
-    try:
-        record = read_asset(out).record
-        whole = all((out / name).stat().st_size == size for name, size in record["asset"]["bytes"].items())
-        made_alike = record["libraries"] == library_versions() and record["key"] == bake_key(model, options)
-        return record if whole and made_alike else None
-    except (AssetError, OSError, LookupError, TypeError, AttributeError):
-        return None
 
 
 def run_inspect(args: SimpleNamespace) -> int:

@@ -10,6 +10,8 @@ from furbake.options.knobs import BITS, KNOBS, MAX_FACES
 
 QUIET = "no progress, no summary"
 
+SCHEDULER = "workers of this machine, or those of the Dask scheduler at an address, do the work"
+
 
 def ranged(text: str, knob: str) -> str:
     """Help with the range of a knob."""
@@ -89,6 +91,7 @@ BAKE = [
     option("--samples", metavar="FILE.npz", type=PLACE, help="write the sampled physics too, for others to check"),
     option("--cache", metavar="DIR", type=PLACE, help="where finished pelts are kept (default: the user's cache)"),
     switch("--no-cache", "neither take a finished pelt nor keep this one"),
+    option("--scheduler", metavar="local|tcp://HOST:PORT", help=SCHEDULER),
     switch("--force", "replace DIR if it is a bake"),
     switch("--if-stale", "only if DIR differs in options, input or versions; implies --force"),
     switch("--json", "print one JSON object with the record and the seconds of every stage"),

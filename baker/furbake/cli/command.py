@@ -15,6 +15,7 @@ INVALID, BAD_INPUT = 1, 2
 
 COMMANDS = {
     "bake": Entry("arguments", "bake a mesh into a folder: 20 s to 2 min on two cores, by --layers and --size"),
+    "batch": Entry("batch.arguments", "bake many meshes, several at a time, and a contact sheet of them"),
     "inspect": Entry("arguments", "say what is in a baked folder"),
     "validate": Entry("arguments", "check a baked folder: exit 1 and a list if it is bad"),
     "presets": Entry("arguments", "list the presets, or all knobs of one as TOML to copy"),
@@ -55,13 +56,13 @@ def run(argv: Sequence[str] | None) -> int:
         drop_output()
         return INVALID
     except Exception as error:
-        if (text := _told(error)) is None:
+        if (text := told(error)) is None:
             raise
         return _fail(text)
     return status
 
 
-def _told(error: Exception) -> str | None:
+def told(error: Exception) -> str | None:
     """An error of the user's as a sentence; None for one of furbake's own."""
     with importing():
         from furbake.cli.failures import TOLD  # noqa: PLC0415 — imports all that can fail

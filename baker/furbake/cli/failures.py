@@ -3,10 +3,16 @@
 from furbake.asset.planes import PlaneError
 from furbake.asset.read import AssetError
 from furbake.asset.store import StoreError
+from furbake.batch.crew import MemoryShortError
+from furbake.cluster.versions import ClusterError
 from furbake.groom.files import GroomError
 from furbake.options import OptionError
 from furbake.page import PageError
 from furbake.study.verify.pathtrace import VerifyError
 from furbake.surface.mesh import MeshError
 
-TOLD = (OptionError, MeshError, StoreError, AssetError, PlaneError, VerifyError, GroomError, PageError)
+TOLD = (
+    OptionError, MeshError, StoreError, AssetError, PlaneError, VerifyError, GroomError, PageError, ClusterError,
+    MemoryShortError,
+)  # fmt: skip
+"""Errors whose message is a sentence for the user."""

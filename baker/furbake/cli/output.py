@@ -34,9 +34,9 @@ def printable(text: str) -> str:
     )
 
 
-def say(text: str, end: str = "\n") -> None:
+def say(text: str, end: str = "\n", *, flush: bool = False) -> None:
     """Print to standard output."""
-    print(printable(text), end=end)
+    print(printable(text), end=end, flush=flush)
 
 
 def complain(text: str) -> None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import click
 
 from furbake.options.knobs import Knob
+from furbake.surface.limits import UNITS
 
 
 class Whole(click.ParamType[int]):
@@ -39,6 +41,20 @@ class Number(click.ParamType[float]):
             return float(value)
         except ValueError:
             self.fail(f"got {value!r}, expected a number", param, ctx)
+
+
+class Size(click.ParamType[int]):
+    """A number of bytes, with a unit or without."""
+
+    name = "BYTES"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
+        """The number. Fails for anything else."""
+        found = re.fullmatch(r"(\d+(?:\.\d+)?)([KMG]?)B?", str(value).strip().upper(), re.ASCII)
+        bytes_ = int(float(found[1]) * UNITS[found[2]]) if found else 0
+        if bytes_ < 1:
+            self.fail(f"got {value!r}, expected a number of bytes such as 8G or 500M", param, ctx)
+        return bytes_
 
 
 class Share(Number):
@@ -119,5 +135,5 @@ class Place(click.ParamType[str]):
         return str(value)
 
 
-WHOLE, NUMBER, SHARE, DIRECTION, SETTING = Whole(), Number(), Share(), Direction(), Setting()
+WHOLE, NUMBER, SIZE, SHARE, DIRECTION, SETTING = Whole(), Number(), Size(), Share(), Direction(), Setting()
 GUIDE, NAMES, PLACE = Guide(), Names(), Place()

@@ -18,13 +18,13 @@ meet the same neighbours at first: `shared_depth` is what they share of their op
 
 from __future__ import annotations
 
-import os
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from furbake.cores import cores
 from furbake.pelt.bent import MIN_FACTOR, MONOMIALS
 from furbake.pelt.curves import lean_direction
 from furbake.pelt.hairs.strands import Coat, Strands
@@ -129,7 +129,7 @@ def seen_from(
     slabs = Slabs(sigma, stored.thick, tangent)
     filled = np.float32(fine.height * SOLID_SLAB / coat.opacity) * fine.sigma.mean((1, 2)).astype(np.float32)
     along = [beam.along(light) for light in lights]
-    with ThreadPoolExecutor(os.cpu_count()) as workers:
+    with ThreadPoolExecutor(cores()) as workers:
         passed, floor = (np.stack(each) for each in zip(*workers.map(beam.reach, lights), strict=True))
         caught, reaching = (even(np.stack(each)) for each in zip(*map(beam.caught, passed, along), strict=True))
         skin = 0.0 if beta is None else coat.skin

@@ -11,7 +11,6 @@ from above at the outline, too, and beside them the fin's own view would be half
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -19,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from furbake.cores import cores
 from furbake.pelt.curves import at_heights
 from furbake.pelt.hairs.dirt import Crumbs, soiled
 from furbake.pelt.hairs.drawn import extinction
@@ -170,7 +170,7 @@ class WholeFur:
             lit: Single = self.breadth * clear
             return single, self._even(lit * width) / hair, self._even(lit) / hair, pool(skin, self.even[1])
 
-        with ThreadPoolExecutor(os.cpu_count()) as workers:
+        with ThreadPoolExecutor(cores()) as workers:
             single, caught, reaching, floor = (np.stack(part) for part in zip(*workers.map(beam, lights), strict=True))
         tangent = mean_direction([self._even(self.breadth * self.tangent[..., axis]) for axis in range(3)])
         multiple = scatter(

@@ -14,7 +14,7 @@ from furbake.options import BakeOptions
 from furbake.pelt.hairs.states import Fur, PeltState
 from furbake.pelt.hairs.strands import Strands, grow
 from furbake.pelt.hairs.volume import Volume, coarsen, fine_shape, voxelise
-from furbake.pelt.light.transport import LOWEST, LOWEST_FLAT, Setting, hemisphere, sample
+from furbake.pelt.light.transport import LOWEST, LOWEST_FLAT, Beams, Setting, hemisphere, sample
 from furbake.pelt.means import Measured, measure
 
 Floats = NDArray[np.float64]
@@ -61,30 +61,45 @@ def light(
     options: BakeOptions,
     step: Callable[[float], None] = lambda fraction: None,
     held_out: int | None = None,
+    beams: Beams | None = None,
 ) -> Lighting:
-    """Sample the oversampled volume under the lights of the fit and others between them, by default half as many."""
-    lowest = LOWEST_FLAT if options.flat else LOWEST
-    fitted = hemisphere(options.lights, lowest=lowest)
-    others = hemisphere(held_out or max(8, options.lights // 2), turn=1.0, lowest=lowest)
-    lights = np.concatenate([fitted, others])
-    apart = np.arange(len(lights)) >= len(fitted)
+    """Sample the oversampled volume under the lights of the fit and others between them, by default half as many.
+
+    beams : as of `sample`
+    """
+    lights = directions(options, held_out)
+    apart = np.arange(len(lights)) >= options.lights
     if options.curves == "none" or options.flat:
-        return Lighting(lights, apart, under(lights, fine, options, step))
+        return Lighting(lights, apart, under(lights, fine, options, step, beams))
     with ThreadPoolExecutor(1) as beside:  # each of the two has gaps in which a core would wait
         measured = beside.submit(measure, fine, options.layers, options.size, options.coat)
-        samples = under(lights, fine, options, lambda fraction: step(FINE_SHARE * fraction))
+        samples = under(lights, fine, options, lambda fraction: step(FINE_SHARE * fraction), beams)
         bodies = measured.result()
     step(1.0)
     return Lighting(lights, apart, samples, bodies)
 
 
+def directions(options: BakeOptions, held_out: int | None = None) -> Floats:
+    """Lights of the fit, then others between them, by default half as many, (n, 3)."""
+    lowest = LOWEST_FLAT if options.flat else LOWEST
+    fitted = hemisphere(options.lights, lowest=lowest)
+    return np.concatenate([fitted, hemisphere(held_out or max(8, options.lights // 2), turn=1.0, lowest=lowest)])
+
+
+def setting_of(options: BakeOptions) -> Setting:
+    """Hairs, skin and body under the lights, as these options have it sampled."""
+    return Setting(options.coat.albedo, options.coat.skin, options.flat)
+
+
 def under(
-    lights: Floats, fine: Volume, options: BakeOptions, step: Callable[[float], None] = lambda fraction: None
+    lights: Floats,
+    fine: Volume,
+    options: BakeOptions,
+    step: Callable[[float], None] = lambda fraction: None,
+    beams: Beams | None = None,
 ) -> Single:
     """L of the stored texels under `lights` (n, 3), (n, K, N, N), as these options have it sampled."""
-    coat, layers, size = options.coat, options.layers, options.size
-    setting = Setting(coat.albedo, coat.skin, options.flat)
-    return sample(fine, layers, size, lights, setting, progress=step)
+    return sample(fine, options.layers, options.size, lights, setting_of(options), beams=beams, progress=step)
 
 
 def parts(step: Callable[[float], None], count: int) -> Iterator[Callable[[float], None]]:
@@ -97,12 +112,19 @@ def parts(step: Callable[[float], None], count: int) -> Iterator[Callable[[float
 
 
 def sampled(
-    fur: Fur, fine: Volume, options: BakeOptions, step: Callable[[float], None] = lambda fraction: None
+    fur: Fur,
+    fine: Volume,
+    options: BakeOptions,
+    step: Callable[[float], None] = lambda fraction: None,
+    beams: Beams | None = None,
 ) -> Sampled:
-    """A state of the fur as stored slabs, and the light in it; fine : its oversampled volume."""
+    """A state of the fur as stored slabs, and the light in it.
+
+    fine : its oversampled volume; beams : as of `sample`
+    """
     options = replace(options, coat=fur.coat)
     # Mud has no curves of its own.
-    lighting = light(fine, replace(options, curves="none") if fur.state.dirt else options, step)
+    lighting = light(fine, replace(options, curves="none") if fur.state.dirt else options, step, beams=beams)
     return Sampled(fur.state, coarsen(fine, options.layers, options.size), lighting)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 from furbake.options import BakeOptions
@@ -13,14 +14,18 @@ from furbake.pelt.eye import EyeLaw, fit_eye
 from furbake.pelt.hairs.states import Fur, chosen, in_state
 from furbake.pelt.hairs.strands import Strands, grow
 from furbake.pelt.hairs.volume import Volume
+from furbake.pelt.light.transport import Beam, Beams, Fields, beams_here
 from furbake.pelt.pelt import Pelt
 from furbake.tile.fitting import fit_pelts
-from furbake.tile.lighting import Sampled, parts, sampled
+from furbake.tile.lighting import Sampled, directions, parts, sampled, setting_of
 from furbake.tile.sides import fit_sides
 
 Step = Callable[[float], None]
 Fitted = list[tuple[Pelt, dict[str, Any]]]
 """Pelts of all states, dry first, and the figures of each that `bake.json` reports."""
+
+Spread = Callable[[BakeOptions, float, int], Sequence[Beams]]
+"""From options and height of a tile and the number of its states to who lets light through each of them."""
 
 
 @dataclass(frozen=True)
@@ -51,10 +56,15 @@ class Tile:
         """The oversampled volume of the dry state, for `sample` and `fit_fins`."""
         return self._voxels(self.furs[0])
 
-    def sample(self, dry: Volume, step: Step) -> list[Sampled]:
-        """Stored slabs of all states and the light in them."""
-        share = zip(self.furs, parts(step, len(self.furs)), strict=True)
-        return [sampled(fur, self._volume(fur, dry), self.options, part) for fur, part in share]
+    def sample(self, dry: Volume, step: Step, spread: Spread | None = None) -> list[Sampled]:
+        """Stored slabs of all states and the light in them.
+
+        spread : who lets light through the hairs, if not this process
+        """
+        count = len(self.furs)
+        beams = [None] * count if spread is None else spread(self.options, self.height, count)
+        share = zip(self.furs, parts(step, count), beams, strict=True)
+        return [sampled(fur, self._volume(fur, dry), self.options, part, some) for fur, part, some in share]
 
     def fit(self, samples: Sequence[Sampled], step: Step) -> Fitted:
         """Pelts of all states; the first has the laws of bent hairs and of light and eye."""
@@ -89,3 +99,19 @@ class Tile:
 
     def _voxels(self, fur: Fur) -> Volume:
         return fur.voxels(self.options.layers, self.options.size)
+
+    def beam(self, state: int) -> Beam:
+        """Beams of light through the fine voxels of a state."""
+        options = replace(self.options, coat=self.furs[state].coat)
+        fine = self._voxels(self.furs[state])
+        return Beam(fine, options.layers, options.size, setting_of(options).radius)
+
+
+@lru_cache(1)
+def _beam(options: BakeOptions, height: float, state: int) -> Beam:
+    return Tile.grow(options, height).beam(state)
+
+
+def lit(options: BakeOptions, height: float, state: int, first: int, last: int) -> list[Fields]:
+    """Fields of some of the lights of a state, made from nothing but its options; the voxels stay for the next call."""
+    return list(beams_here(_beam(options, height, state), directions(options)[first:last]))

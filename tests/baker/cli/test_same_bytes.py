@@ -12,6 +12,9 @@ from helpers.command import CUBE, TINY, files
 SMALL = (*TINY, "--set", "coat.guard.count=20", "--set", "coat.under.count=20")
 
 
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "FURBAKE_THREADS")
+
+
 def test_same_bytes_everywhere(tmp_path: Path) -> None:
     (tmp_path / "model").mkdir()
     model = tmp_path / "model" / "four.obj"
@@ -23,7 +26,7 @@ def test_same_bytes_everywhere(tmp_path: Path) -> None:
     for threads, hashes, language, place in settings:
         folder = tmp_path / place
         folder.mkdir(exist_ok=True)
-        counts = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), threads)
+        counts = dict.fromkeys(THREADS, threads)
         changed = {"PYTHONHASHSEED": hashes, "LC_ALL": language, "LANG": language, "TZ": f"UTC-{threads}"}
         command = [sys.executable, "-m", "furbake.cli", "bake", model, "-o", f"out{hashes}", *SMALL, "--quiet"]
         subprocess.run(command, cwd=folder, env=os.environ | counts | changed, check=True)

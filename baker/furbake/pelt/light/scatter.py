@@ -12,7 +12,6 @@ All is linear in the light that comes in, and in the unit of L, so that it adds 
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -20,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from furbake.cores import cores
 from furbake.pelt.light.crossing import Crossing, hemisphere_rule
 from furbake.pelt.light.fibre import sine
 
@@ -229,7 +229,7 @@ class Medium:
         perpendicular = _perpendicular(arriving.flux, self.tangent) * (share * np.float32(np.pi / 2))
         found = Arriving(np.zeros_like(arriving.phi), np.zeros_like(arriving.flux), np.zeros_like(arriving.floor))
         to_eye, irradiance = np.zeros_like(arriving.phi), arriving.floor.copy()
-        with ThreadPoolExecutor(os.cpu_count()) as pool:
+        with ThreadPoolExecutor(cores()) as pool:
             for travel in (-self.directions, self.directions):
                 upward = travel[0, 2] > 0
                 enters = irradiance * np.float32(self.skin / np.pi) if upward else found.floor

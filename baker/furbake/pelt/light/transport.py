@@ -11,7 +11,6 @@ slabs with the hairs as thin and as long as on the body.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -19,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from furbake.cores import cores
 from furbake.pelt.hairs.drawn import through_own
 from furbake.pelt.hairs.volume import Volume, doubled, joined, parted, pool, slab_means
 from furbake.pelt.light.depth import Depth
@@ -46,6 +46,10 @@ MERGED = 2
 
 CHUNK = 2**16
 """Voxels that are worked on together: a core's cache holds what is between."""
+
+Fields = tuple[Single, Single, Single, Single]
+Beams = Callable[["Beam", Array], Iterator[Fields]]
+"""One light through the oversampled volume, as of `Beam`; all lights, in order."""
 
 SINGLE_SHARE = 0.8
 """Share of the time that single scattering takes, for the progress."""
@@ -87,10 +91,13 @@ def sample(
     lights: Array,
     setting: Setting = Setting(),
     *,
+    beams: Beams | None = None,
     progress: Callable[[float], None] = lambda fraction: None,
 ) -> Single:
-    """L of every stored texel under every light, (n, layers, size, size) float32: T·D + M of `sample_apart`."""
-    single, multiple, _ = _apart(fine, layers, size, lights, setting, progress=progress)
+    """L of every stored texel under every light, (n, layers, size, size) float32: T·D + M of `sample_apart`;
+    T·D by way of `beams`, or here.
+    """
+    single, multiple, _ = _apart(fine, layers, size, lights, setting, beams=beams, progress=progress)
     for i, more in enumerate(multiple):
         single[i] += doubled(more)
     return single
@@ -124,18 +131,17 @@ def _apart(
     setting: Setting,
     *,
     darker: tuple[float, NDArray[np.intp]] | None = None,
+    beams: Beams | None = None,
     progress: Callable[[float], None],
 ) -> tuple[Single, Single, Single | None]:
     """As `sample_apart`, M at half the resolution."""
-    half = (layers, size // 2, size // 2)
     single = np.empty((len(lights), layers, size, size), np.float32)
-    caught, reaching = (np.empty((len(lights), *half), np.float32) for _ in range(2))
-    floor = np.empty((len(lights), *half[1:]), np.float32)
+    caught, reaching = np.empty((2, len(lights), layers, size // 2, size // 2), np.float32)
+    floor = np.empty((len(lights), size // 2, size // 2), np.float32)
     beam = Beam(fine, layers, size, setting.radius)
-    with ThreadPoolExecutor(os.cpu_count()) as workers:
-        for i, fields in enumerate(workers.map(beam, lights)):
-            single[i], caught[i], reaching[i], floor[i] = fields
-            progress((i + 1) / len(lights) * SINGLE_SHARE)
+    for i, fields in enumerate((beams or beams_here)(beam, lights)):
+        single[i], caught[i], reaching[i], floor[i] = fields
+        progress((i + 1) / len(lights) * SINGLE_SHARE)
     slabs, light = beam.slabs(), Unscattered(lights, caught, reaching, floor)
     albedo, skin = setting.albedo, 0.0 if setting.flat else setting.skin
 
@@ -192,6 +198,12 @@ def mean_direction(parts: list[Single]) -> Single:
     return vectors
 
 
+def beams_here(beam: Beam, lights: Array) -> Iterator[Fields]:
+    """Fields of each light, with a thread for each core."""
+    with ThreadPoolExecutor(cores()) as workers:
+        yield from workers.map(beam, lights)
+
+
 class Beam:
     """One light through the oversampled volume, before anything is scattered twice."""
 
@@ -219,7 +231,7 @@ class Beam:
         self.merged = MERGED if per_slab >= 2 * MERGED and per_slab % MERGED == 0 else 1
         self.radius = fine.radius
 
-    def __call__(self, light: Array) -> tuple[Single, Single, Single, Single]:
+    def __call__(self, light: Array) -> Fields:
         """T·D averaged down, (K, N, N); T·sin θ and T on average over the hairs, (K, N/2, N/2); the skin's irradiance.
 
         A hair that the light runs along catches less of it and shades less: its σ counts times the sine between the

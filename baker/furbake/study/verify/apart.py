@@ -8,19 +8,16 @@ from __future__ import annotations
 import multiprocessing
 import signal
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from multiprocessing.connection import Connection
 from typing import Any
 
+from furbake.apart import CrashError, ending
 from furbake.study.verify import truth
 from furbake.study.verify.cells import Cell, Frame
 from furbake.study.verify.pathtrace import VerifyError
 
 Step = Callable[[float], None]
-
-
-class CrashError(RuntimeError):
-    """A process that ended without an answer; the message names the signal or the exit status."""
 
 
 def trace(
@@ -66,7 +63,7 @@ def apart(function: Callable[..., Any], *arguments: Any, step: Step, **options: 
                 return value
     except EOFError:
         process.join()
-        raise CrashError(_ending(process.exitcode)) from None
+        raise CrashError(ending(process.exitcode or 0)) from None
     finally:
         answers.close()
         if process.pid is not None:
@@ -82,13 +79,6 @@ def _work(answers: Connection, function: Callable[..., Any], arguments: Any, opt
         answers.send(("error", error))
     else:
         answers.send(("done", done))
-
-
-def _ending(status: int | None) -> str:
-    """Name of the signal that ended a process, or its exit status."""
-    with suppress(ValueError):
-        return signal.Signals(-(status or 0)).name
-    return f"exit status {status}"
 
 
 @contextmanager

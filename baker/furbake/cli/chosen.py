@@ -1,0 +1,44 @@
+"""From arguments of the command to the options of a bake."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+from furbake.options import BakeOptions, OptionError, override, preset
+from furbake.pelt.hairs.states import WETNESS
+from furbake.surface.shapes import is_builtin
+
+GIVEN = (
+    "layers", "size", "lights", "basis", "coefficients", "bits", "curves", "length", "tile", "height", "seed", "flat",
+    "guide", "length_by_thickness", "fins", "uv", "max_faces", "length_map", "mask", "comb", "features", "directions",
+    "meshopt", "states", "dirt", "pose",
+)  # fmt: skip
+"""Options of the command that are options of the bake; one that is not given is the preset's."""
+
+
+def chosen(args: SimpleNamespace) -> BakeOptions:
+    """The preset's options, overridden by every `--set`, then by the options of the command."""
+    options = preset(args.preset)
+    try:
+        options = override(options, dict(args.set))
+    except OptionError as error:
+        raise OptionError(f"set: {error}") from None
+    given = {name: getattr(args, name, None) for name in GIVEN}
+    if given["states"] == ("dry..wet",):
+        given["states"] = tuple(WETNESS)
+    options = replace(options, **{name: value for name, value in given.items() if value is not None})
+    if options.guide.endswith(".json"):  # strokes, and where there are none from nose to tail
+        if options.comb is not None:
+            raise OptionError(f"comb: got {options.comb} beside the strokes of --guide, expected one file of strokes")
+        options = replace(options, guide=BakeOptions.guide, comb=options.guide)
+    options.check()
+    return options
+
+
+def options_for(model: str, args: SimpleNamespace) -> BakeOptions:
+    """As `chosen`, of a bake of this model: the length of fur on a file follows its thickness unless that is said."""
+    options = chosen(args)
+    if args.length_by_thickness is None and not (options.length_by_thickness or options.flat or is_builtin(model)):
+        options = replace(options, auto_length=True)
+    return options
