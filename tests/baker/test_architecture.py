@@ -32,6 +32,7 @@ FLOORS: dict[str, set[str]] = {
     "surface/place": {f"surface/{name}" for name in ("mesh", "charts", "colours", "repair", "lay", "files")},
     "asset": {"pelt", "surface"},
     "options": {"pelt", "lazy", "surface/files", "surface/limits", "surface/soup"},
+    "rti": {"asset", "pelt", "surface"},
     "identity": {"options", "surface"},
     "size": {"surface", "options"},
     "body": {"asset", "surface", "options", "size"},
@@ -42,7 +43,7 @@ FLOORS: dict[str, set[str]] = {
     "daylight": set(),
     "pipeline": {"asset", "pelt", "surface", "options", "identity", "body", "tile"},
     "groom": {"asset", "pelt", "options"},
-    "show": {"asset", "pelt", "options", "identity", "tile", "page", "daylight"},
+    "show": {"asset", "pelt", "options", "identity", "tile", "page", "daylight", "rti"},
     "study": {"asset", "pelt", "surface", "options", "tile", "groom", "page", "daylight"},
     "cli": {
         "asset",
@@ -57,6 +58,7 @@ FLOORS: dict[str, set[str]] = {
         "show",
         "study",
         "page",
+        "rti",
     },
     "": {"asset", "surface", "options", "pipeline", "lazy"},
 }

@@ -19,7 +19,10 @@ COMMANDS = {
     "validate": Entry("arguments", "check a baked folder: exit 1 and a list if it is bad"),
     "presets": Entry("arguments", "list the presets, or all knobs of one as TOML to copy"),
     "report": Entry("arguments", "write DIR/report.html: how good the bake is, and where it is not"),
-    "swatch": Entry("arguments", "picture of a baked pelt, or of a preset's"),
+    "swatch": Entry(
+        "rti.arguments", "picture of a baked pelt, of a preset's, or of what museums have: .ptm, .lp, relight"
+    ),
+    "export": Entry("rti.arguments", "write a pelt from above for RTI viewers: PTM, relight"),
     "lesson": Entry("arguments", "data of the lesson on the page Learn"),
     "verify": Entry("studies", "compare a bake with a path tracer (Mitsuba 3)"),
     "compare": Entry("studies", "table of presets and bases, measured anew, as Markdown"),

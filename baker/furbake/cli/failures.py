@@ -6,7 +6,8 @@ from furbake.asset.store import StoreError
 from furbake.groom.files import GroomError
 from furbake.options import OptionError
 from furbake.page import PageError
+from furbake.rti.relit import RtiError
 from furbake.study.verify.pathtrace import VerifyError
 from furbake.surface.mesh import MeshError
 
-TOLD = (OptionError, MeshError, StoreError, AssetError, PlaneError, VerifyError, GroomError, PageError)
+TOLD = (OptionError, MeshError, StoreError, AssetError, PlaneError, VerifyError, GroomError, PageError, RtiError)
