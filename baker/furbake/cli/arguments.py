@@ -86,6 +86,10 @@ BAKE = [
     unset_switch("--flat", "a flat patch under a point at infinity, for checks"),
     option("--states", metavar="dry..wet|dry,NAME", type=NAMES, help="wet states too: all five, or some"),
     unset_switch("--dirt", "a dirty state too"),
+    option(
+        "--swatch", metavar="FILE.lp|FILE.ptm|info.json", type=PLACE,
+        help="real fur or cloth under many lamps, as a thin skin: the tile is made of it, not grown",
+    ),
     option("--samples", metavar="FILE.npz", type=PLACE, help="write the sampled physics too, for others to check"),
     option("--cache", metavar="DIR", type=PLACE, help="where finished pelts are kept (default: the user's cache)"),
     switch("--no-cache", "neither take a finished pelt nor keep this one"),

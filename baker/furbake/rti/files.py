@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from furbake.rti.lp import find, read_lp
 from furbake.rti.ptm import read_ptm
 from furbake.rti.relight import INFO, read_relight
 from furbake.rti.relit import Relit, RtiError
@@ -21,6 +22,16 @@ def is_rti(path: Path) -> bool:
     if path.is_dir():
         return (path / INFO).exists() and not (path / "model.gltf").exists()
     return bool(path.suffix)
+
+
+def members(path: Path) -> list[Path]:
+    """The other files that are read with one: photographs of a list, planes of relight. Raises RtiError."""
+    kind = suffix_of(path)
+    if kind == LP:
+        found = (find(path, name) for name in read_lp(path).names)
+        return [place for place in found if place is not None]
+    folder = path if path.is_dir() else path.parent
+    return sorted(folder.glob("plane_*.*")) if kind == JSON else []
 
 
 def read_relit(path: Path) -> Relit:

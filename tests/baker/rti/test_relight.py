@@ -31,7 +31,10 @@ def made(kind: str) -> relit.Relit:
 @pytest.mark.parametrize("kind", ["lrgb", "rgb"])
 def test_what_is_written_is_what_relight_s_viewer_shows(tmp_path: Path, kind: str) -> None:
     own = made(kind)
-    assert write_relight(tmp_path, own, "png") == ["info.json", *(f"plane_{i}.png" for i in range(3 if kind == "lrgb" else 6))]
+    assert write_relight(tmp_path, own, "png") == [
+        "info.json",
+        *(f"plane_{i}.png" for i in range(3 if kind == "lrgb" else 6)),
+    ]
     again = read_relight(tmp_path)
     for light in lamps(6):
         shown = relight_under(tmp_path, light)
