@@ -32,7 +32,7 @@ FLOORS: dict[str, set[str]] = {
     "surface/place": {f"surface/{name}" for name in ("mesh", "charts", "colours", "repair", "lay", "files")},
     "asset": {"pelt", "surface"},
     "options": {"pelt", "lazy", "surface/files", "surface/limits", "surface/soup"},
-    "rti": {"asset", "pelt", "surface"},
+    "rti": {"asset", "pelt", "surface", "daylight"},
     "identity": {"options", "surface", "rti"},
     "size": {"surface", "options"},
     "body": {"asset", "surface", "options", "size"},

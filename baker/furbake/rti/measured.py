@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
+from furbake.daylight import PAGE
 from furbake.pelt.fin import overlap
 from furbake.pelt.light.transport import hemisphere
 from furbake.rti.files import LP, is_rti, read_relit, suffix_of
@@ -37,8 +38,8 @@ GRAZING = 0.5
 AGREEMENT = 0.5
 """Correlation of the heights that two halves of the grazing lamps tell, from which they are believed."""
 
-WHITE = 4.0
-"""L of a white matt surface under a lamp straight above it, where π times the radiance is the irradiance."""
+WHITE = 4 * np.pi / PAGE.lamp[1]
+"""L of what a photograph has as white: nobody knows its exposure, so the page's lamp shows it as the photograph does."""
 
 LAMPS, UNSEEN = 64, 32
 """Lamps under which a PTM is looked at, and others for the figures."""
