@@ -39,7 +39,7 @@ AGREEMENT = 0.5
 """Correlation of the heights that two halves of the grazing lamps tell, from which they are believed."""
 
 WHITE = 4 * np.pi / PAGE.lamp[1]
-"""L of what a photograph has as white: nobody knows its exposure, so the page's lamp shows it as the photograph does."""
+"""L of white in a photograph: nobody knows its exposure, so the page's lamp shows it as the photograph does."""
 
 LAMPS, UNSEEN = 64, 32
 """Lamps under which a PTM is looked at, and others for the figures."""

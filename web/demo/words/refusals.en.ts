@@ -56,6 +56,19 @@ export const en = {
 		`its mesh is packed by Draco, which this page does not unpack. The baker does:\n${command}`,
 	requires: (extensions: string) => `it requires ${extensions}, which this page does not know; export it without`,
 	badPicture: (path: string) => `${path}: it is not a picture that this browser can read`,
+
+	// Pictures of museums.
+	relit: {
+		noPtm: (_: string) => 'it is not a PTM file, despite its name',
+		ptmKind: (got: string) =>
+			`it is a PTM of another kind (${got}); expected PTM_1.2 as RGB, LRGB, JPEG_RGB or JPEG_LRGB`,
+		header: (_: string) => 'its header is damaged; expected size, scales and biases of a PTM',
+		short: (_: string) => 'the end is missing: it was not copied or downloaded completely',
+		plane: (name: string) => `plane ${name} is missing, damaged or of another size`,
+		large: (size: string) => `it has ${size} pixels, more than this page opens`,
+		relightKind: (got: string) => `its kind is unknown (${got}); expected ptm, hsh, sh, rbf or bilinear of relight`,
+		info: (_: string) => 'info.json is damaged; expected the one that relight writes',
+	},
 };
 
 export type Refusals = typeof en;
