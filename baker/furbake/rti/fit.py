@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.pelt.texels.basis import DEGREE, PTM, Functions, smooth_terms
+from furbake.pelt.texels.basis import DEGREE, PTM, Basis, Functions, smooth_terms
 from furbake.pelt.texels.eigen import eigen
 from furbake.pelt.texels.fit import decibels
 from furbake.rti import relit
@@ -36,8 +36,13 @@ BAND = 2**22
 JUDGED = 2**15
 """Pixels of each photograph by which fits are judged, and the range of their bytes is found."""
 
-ALONE, FOLDS = 24, 12
-"""Photographs up to which each is left out alone; beyond, one in so many at a time."""
+ALONE, MANY = 24, 120
+"""Photographs up to which each is left out alone; up to which `FOLDS` parts are, and of more `FEW`, one at a time."""
+
+FOLDS, FEW = 12, 4
+
+CURVED = 150
+"""Lamps by which light curves are found at the most."""
 
 EIGEN = (3, 4, 5, 6)
 
@@ -124,6 +129,20 @@ def _header(photographs: Photographs, inverse: Real, kind: str) -> tuple[Array, 
     return byte_header(each.min(0).astype(np.float64), each.max(0).astype(np.float64))
 
 
+Predict = Callable[[Single, Array, Array, Basis], Single]
+"""Photographs under new lamps, from photographs, their lamps, and the light curves that suit them."""
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A way to fit: its name, numbers per pixel, and lamps that it needs."""
+
+    name: str
+    numbers: int
+    lamps: int
+    predict: Predict
+
+
 @dataclass(frozen=True)
 class Figure:
     """A fit of a set of photographs: its name, numbers per pixel, and decibels over lamps.
@@ -140,24 +159,20 @@ class Figure:
 def held_out(photographs: Photographs) -> list[Figure]:
     """Fits judged on lamps that were left out, one after the other: peak signal-to-noise of the photographs' bytes."""
     samples = photographs.sampled(JUDGED).astype(np.float32)
-    lights = photographs.lights
-    fits: list[tuple[str, int, Callable[[Single, Array, Array], Single]]] = [
-        ("ptm rgb", 3 * TERMS, lambda seen, at, new: _predicted(seen, PTM, at, new)),
-        ("ptm lrgb", TERMS + 3, _predicted_lrgb),
-        *((f"eigen {count}", 3 * count, _predicted_eigen(count)) for count in EIGEN),
+    lights, folds = photographs.lights, _folds(len(photographs.lights))
+    least = len(lights) - max(map(len, folds))
+    errors = {fit: 0.0 for fit in FITS if least >= fit.lamps}
+    for out in folds:
+        kept = np.delete(np.arange(len(lights)), out)
+        curves = _curves(samples[kept], lights[kept])
+        for fit in errors:
+            guess = fit.predict(samples[kept], lights[kept], lights[out], curves)
+            np.clip(guess, 0, FULL, out=guess)
+            errors[fit] += float(((guess - samples[out]) ** 2).mean(dtype=np.float64)) * len(out)
+    return [
+        Figure(fit.name, fit.numbers, decibels(error / len(lights) / FULL**2), left_out=True)
+        for fit, error in errors.items()
     ]
-    found = []
-    for name, numbers, predict in fits:
-        errors = []
-        for out in _folds(len(lights)):
-            kept = np.delete(np.arange(len(lights)), out)
-            if len(kept) < (TERMS if name.startswith("ptm") else numbers // 3):
-                break
-            guess = np.clip(predict(samples[kept], lights[kept], lights[out]), 0, FULL)
-            errors.append(float(((guess - samples[out]) ** 2).mean(dtype=np.float64)) * len(out))
-        else:
-            found.append(Figure(name, numbers, decibels(sum(errors) / len(lights) / FULL**2), left_out=True))
-    return found
 
 
 def beside(photographs: Photographs, others: dict[str, Relit]) -> list[Figure]:
@@ -182,19 +197,8 @@ def _folds(count: int) -> list[list[int]]:
     """Photographs that are left out together."""
     if count <= ALONE:
         return [[i] for i in range(count)]
-    return [list(range(first, count, FOLDS)) for first in range(FOLDS)]
-
-
-def _predicted(seen: Single, basis: Functions, lights: Array, new: Array) -> Single:
-    """Photographs (m, pixels, 3) under new lights (m, 3), from those that are seen (n, pixels, 3)."""
-    mixed = (basis(new) @ np.linalg.pinv(basis(lights))).astype(np.float32)
-    return np.asarray(np.tensordot(mixed, seen, 1))
-
-
-def _predicted_lrgb(seen: Single, lights: Array, new: Array) -> Single:
-    values, colour = _fit_lrgb(iter(seen), np.linalg.pinv(PTM(lights)))
-    light = np.tensordot(PTM(new).astype(np.float32), values, (1, 1))
-    return np.asarray(np.maximum(light, 0)[..., None] * colour / FULL)
+    folds = FOLDS if count <= MANY else FEW
+    return [list(range(first, count, folds)) for first in range(folds)]
 
 
 def smoothness(lamps: int) -> int:
@@ -202,13 +206,40 @@ def smoothness(lamps: int) -> int:
     return next((degree for degree in range(DEGREE, 2, -1) if smooth_terms(degree) <= ENOUGH * lamps), 2)
 
 
-def _predicted_eigen(count: int) -> Callable[[Single, Array, Array], Single]:
-    def predict(seen: Single, lights: Array, new: Array) -> Single:
-        flat = seen.reshape(len(seen), -1)
-        basis = eigen(flat, np.ones(flat.shape[1], np.float32), lights, count, smoothness(len(lights)))
-        return _predicted(seen, basis, lights, new)
+def _curves(seen: Single, lights: Array) -> Basis:
+    """The light curves that suit photographs (n, pixels, 3) best, the strongest first: the first few suit best, too."""
+    some = slice(None, None, -(-len(lights) // CURVED))
+    flat, lights = seen[some].reshape(-1, seen[0].size), lights[some]
+    count = min(max(EIGEN), len(lights))
+    return eigen(flat, np.ones(flat.shape[1], np.float32), lights, count, smoothness(len(lights)))
+
+
+def _mixed(seen: Single, basis: Functions, lights: Array, new: Array) -> Single:
+    """Photographs (m, pixels, 3) under new lights (m, 3), from those that are seen (n, pixels, 3)."""
+    shares = (basis(new) @ np.linalg.pinv(basis(lights))).astype(np.float32)
+    return np.asarray((shares @ seen.reshape(len(seen), -1)).reshape(-1, *seen.shape[1:]))
+
+
+def _by_rgb(seen: Single, lights: Array, new: Array, _: Basis) -> Single:
+    return _mixed(seen, PTM, lights, new)
+
+
+def _by_lrgb(seen: Single, lights: Array, new: Array, _: Basis) -> Single:
+    values, colour = _fit_lrgb(iter(seen), np.linalg.pinv(PTM(lights)))
+    light = PTM(new).astype(np.float32) @ values.T
+    return np.asarray(np.maximum(light, 0)[..., None] * colour / np.float32(FULL))
+
+
+def _by_curves(count: int) -> Predict:
+    def predict(seen: Single, lights: Array, new: Array, curves: Basis) -> Single:
+        some = Basis("eigen", curves.degree, None if curves.matrix is None else curves.matrix[:count])
+        return _mixed(seen, some, lights, new)
 
     return predict
 
 
-__all__ = ["LRGB", "RGB", "Figure", "beside", "fit_photographs", "held_out"]
+FITS = (
+    Fit("ptm rgb", 3 * TERMS, TERMS, _by_rgb),
+    Fit("ptm lrgb", TERMS + 3, TERMS, _by_lrgb),
+    *(Fit(f"eigen {count}", 3 * count, count, _by_curves(count)) for count in EIGEN),
+)

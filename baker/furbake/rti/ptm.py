@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Callable
 from contextlib import suppress
@@ -26,6 +25,9 @@ VERSIONS = ("PTM_1.2", "PTM_1.1")
 
 PLANES = {"RGB": 18, "LRGB": 9, "JPEG_RGB": 18, "JPEG_LRGB": 9}
 """Kinds that are read, and their bytes per pixel."""
+
+GREATEST = 1e9
+"""Bound of all numbers of a header."""
 
 WORD = 64
 """Characters of a number in the header at the most."""
@@ -138,7 +140,7 @@ class _Words:
         text = self.word(wanted)
         with suppress(ValueError):
             value = kind(text)
-            if math.isfinite(value):
+            if abs(value) <= GREATEST:
                 return value
         raise RtiError(f"{self.name}: got {text!r}, expected {wanted}")
 

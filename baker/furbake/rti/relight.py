@@ -12,7 +12,7 @@ import numpy as np
 
 from furbake.asset.planes import write_jpeg, write_png
 from furbake.rti import bases
-from furbake.rti.ptm import read_bytes
+from furbake.rti.ptm import GREATEST, read_bytes
 from furbake.rti.relit import LRGB, RGB, TERMS, Array, Bytes, Relit, RtiError, Weights, alike
 from furbake.surface.colours import decode
 from furbake.surface.limits import Budget
@@ -112,6 +112,8 @@ def _measured(info: dict[str, Any], kind: str, space: str, planes: int) -> Weigh
 
     table = _numbers(info["basis"], (planes + 1) * count * 3).reshape(planes + 1, count, 3)
     ranges = _numbers(info["materials"][0]["range"], planes)
+    if (np.abs(ranges) < 1 / GREATEST).any():
+        raise ValueError("a range of 0")
     table = np.concatenate([table[:1], (table[1:] - 127) / ranges[:, None, None]])
     if space == "mrgb":
         return lambda lights: np.einsum("nm,pmk->npk", shares(lights), table)
@@ -160,8 +162,8 @@ def _numbers(values: Any, count: int | None = None) -> Array:
     array = np.array(values, np.float64)
     if array.ndim != 1 or (count is not None and len(array) != count) or len(array) > 100 * MOST_FUNCTIONS:
         raise ValueError(f"a list of shape {array.shape}, expected {count} numbers")
-    if not np.isfinite(array).all():
-        raise ValueError("NaN or infinity")
+    if not (np.abs(array) < GREATEST).all():
+        raise ValueError(f"a number that is not below {GREATEST:g}")
     return array
 
 

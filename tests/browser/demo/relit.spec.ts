@@ -1,5 +1,6 @@
 import type { Page } from '@playwright/test';
-import { expect, open, picture, state, test } from '../harness.ts';
+import { decode } from 'fast-png';
+import { expect, open, state, test } from '../harness.ts';
 
 test.use({ viewport: { width: 200, height: 150 } });
 
@@ -60,7 +61,7 @@ const PLACES = [
 
 /** Shown and specified colours of these places. */
 async function compared(page: Page, light: Light): Promise<[shown: number[], wanted: number[]][]> {
-	const { width, height, data } = await picture(page);
+	const { width, height, data, channels } = decode(await page.screenshot());
 	const box = (await page.locator('#picture').getAttribute('data-box'))?.split(',').map(Number) as number[];
 	const [left = 0, top = 0, wide = 0, high = 0] = box;
 	return PLACES.map(([x, y]) => {
@@ -68,7 +69,7 @@ async function compared(page: Page, light: Light): Promise<[shown: number[], wan
 		const row = Math.round(top + (1 - (y + 0.5) / HEIGHT) * high);
 		expect(column).toBeLessThan(width);
 		expect(row).toBeLessThan(height);
-		const at = (row * width + column) * 4;
+		const at = (row * width + column) * channels;
 		return [[...data.slice(at, at + 3)], specified(light, x, y)];
 	});
 }
