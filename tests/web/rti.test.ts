@@ -33,8 +33,7 @@ const dot = (bytes: readonly number[], light: Light) =>
 	terms(light).reduce((sum, term, i) => sum + term * (SCALE[i] ?? 0) * ((bytes[i] ?? 0) - (BIAS[i] ?? 0)), 0) / 255;
 
 function everywhere(check: (light: Light, x: number, y: number) => void): void {
-	for (const light of LIGHTS)
-		for (let y = 0; y < HEIGHT; y++) for (let x = 0; x < WIDTH; x++) check(light, x, y);
+	for (const light of LIGHTS) for (let y = 0; y < HEIGHT; y++) for (let x = 0; x < WIDTH; x++) check(light, x, y);
 }
 
 describe('a PTM', () => {
@@ -163,7 +162,9 @@ describe('a folder of relight', () => {
 						return total + (share / sum) * (plane === 0 ? stored / 255 : (stored - 127) / 200);
 					}, 0),
 				);
-				const wanted = mixed.slice(1).reduce((total, weight, p) => total + weight * 0.8 * (byte(p, x, y) - 0.2), mixed[0] ?? 0);
+				const wanted = mixed
+					.slice(1)
+					.reduce((total, weight, p) => total + weight * 0.8 * (byte(p, x, y) - 0.2), mixed[0] ?? 0);
 				expect(value).toBeCloseTo(clamp(wanted), 9);
 			});
 		});
@@ -175,7 +176,16 @@ describe('a folder of relight', () => {
 		['too many planes', { nplanes: 1e9 }, 'info'],
 		['numbers that are none', { materials: [{ scale: 'x' }] }, 'info'],
 		['no materials', { materials: undefined }, 'info'],
-		['a plane that is missing', { nplanes: 12, colorspace: 'rgb', type: 'hsh', materials: [{ scale: Array(12).fill(1), bias: Array(12).fill(0) }] }, 'plane'],
+		[
+			'a plane that is missing',
+			{
+				nplanes: 12,
+				colorspace: 'rgb',
+				type: 'hsh',
+				materials: [{ scale: Array(12).fill(1), bias: Array(12).fill(0) }],
+			},
+			'plane',
+		],
 	])('is refused for %s', async (_, changes, problem) => {
 		const error = await read(changes).catch((reason) => reason);
 		expect(error).toBeInstanceOf(RelitError);

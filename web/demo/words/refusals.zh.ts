@@ -2,7 +2,7 @@
 
 import type { Refusals } from './refusals.en.ts';
 
-const EXPECTED = '烘焙好的文件夹、其 zip 压缩包或 .glb 文件';
+const EXPECTED = '烘焙好的文件夹、其 zip 压缩包、.glb 或 .ptm 文件';
 
 const megabytes = (bytes: number) => `${Number((bytes / 1e6).toFixed(1))} MB`;
 
