@@ -5,13 +5,14 @@ Such files are made by hand and on other machines: names have spaces and folders
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from furbake.rti.ptm import read_bytes
+from furbake.rti.ptm import GREATEST, read_bytes
 from furbake.rti.relit import Array, RtiError
 from furbake.surface.files import beside, nearby
 
@@ -70,8 +71,8 @@ def _entry(line: str, number: int, name: str) -> tuple[str, Array]:
     photograph = own[0].strip().strip("\"'")
     if not photograph or "\0" in photograph:
         raise RtiError(f"{what}, with the photograph's name")
-    length = float(np.linalg.norm(light))
-    if not 1e-9 < length < 1e9:
+    length = math.hypot(*light)
+    if not 1 / GREATEST < length < GREATEST:
         raise RtiError(f"{what}, with a direction to the lamp")
     return photograph, light / length
 
