@@ -11,6 +11,7 @@ from typing import Any
 
 from furbake.options import BakeOptions
 from furbake.options.bake_options import FILES, OF_VERTICES
+from furbake.rti.files import members
 from furbake.surface.files import read_regular
 from furbake.surface.limits import Budget
 from furbake.surface.mesh import Surface
@@ -64,6 +65,8 @@ def bake_key(model: str, options: BakeOptions) -> str:
     """SHA-256 of everything that decides the result: version, options, input. A differing key means a stale asset."""
     named = [getattr(options, name) for name in FILES]
     files = [name for name in named if name is not None and not name.startswith(OF_VERTICES)]
+    if options.swatch is not None:
+        files += [str(path) for path in members(Path(options.swatch))]
     parts = {
         "furbake": version("furbake"),
         "options": options.as_record(),

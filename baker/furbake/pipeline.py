@@ -17,7 +17,7 @@ from furbake.asset.rig.motion import Motion
 from furbake.asset.store import atomic_file, atomic_folder
 from furbake.body import Body, prepare
 from furbake.identity import bake_key, describe_input, library_versions
-from furbake.options import BakeOptions
+from furbake.options import BakeOptions, OptionError
 from furbake.pelt.hairs.volume import Volume
 from furbake.pelt.pelt import Pelt
 from furbake.surface.place.fins import Fins, build_fins
@@ -25,6 +25,7 @@ from furbake.surface.rig.follow import follow
 from furbake.surface.shapes import is_builtin
 from furbake.tile.kept import KeptPelts
 from furbake.tile.lighting import Sampled, write_samples
+from furbake.tile.measured import measured_pelts
 from furbake.tile.tile import Fitted, Spread, Tile
 
 STAGES = ("mesh", "strands", "volume", "light", "fit", "fins", "write")
@@ -86,6 +87,8 @@ def bake(
     """
     options = options or BakeOptions()
     options.check()
+    if samples is not None and options.swatch is not None:
+        raise OptionError(f"samples: got {samples} beside a swatch, expected fur that is grown")
     clock = _Clock(progress)
     with atomic_folder(out, force) as folder, atomic_file(samples) if samples else nullcontext() as archive:
         with clock.stage("mesh"):
@@ -95,6 +98,8 @@ def bake(
             notify(notice)
         pelts = _Pelts(clock, options.of_tile(), body.length / body.tile, cache, spread)
         fitted = pelts.fitted(anew=samples is not None)
+        for notice in pelts.notices:
+            notify(notice)
         with clock.stage("fins"):
             fins = _fins(body, options, fitted[0][0])
             if fins is not None:
@@ -110,14 +115,15 @@ def bake(
                 fins=fins,
                 ground=None if body.ground is body.skin else body.ground,
                 features=body.features,
-                bare=None if is_builtin(model) else options.ramp.root,
+                bare=None if is_builtin(model) else fitted[0][0].ramp.root,
                 motion=_motion(body),
+                tinted=options.swatch is None,
             )
             record["asset"] = write_gltf(folder, furry, options.meshopt)
             (folder / "bake.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
             if archive is not None:
                 write_samples(archive, pelts.sampled[0], pelts.tile.strands)
-    return BakeResult(out, record, clock.seconds, notices)
+    return BakeResult(out, record, clock.seconds, (*notices, *pelts.notices))
 
 
 class _Pelts:
@@ -131,6 +137,7 @@ class _Pelts:
         self.clock, self.options, self.height = clock, options, float(f"{height:.{HEIGHT_DIGITS}g}")
         self.kept = None if cache is None else KeptPelts(cache, options, self.height)
         self.sampled: list[Sampled] = []
+        self.notices: tuple[str, ...] = ()
 
     @cached_property
     def tile(self) -> Tile:
@@ -142,6 +149,10 @@ class _Pelts:
 
     def fitted(self, *, anew: bool) -> Fitted:
         """Pelts of all states, without fins; anew : whatever the cache has."""
+        if self.options.swatch is not None:
+            with self.clock.stage("fit"):
+                made, self.notices = measured_pelts(Path(self.options.swatch), self.options, self.height)
+            return made
         found = self.kept.pelts() if self.kept is not None and not anew else None
         if found is not None:
             return found
@@ -168,8 +179,8 @@ class _Pelts:
 
 
 def _fins(body: Body, options: BakeOptions, dry: Pelt) -> Fins | None:
-    """Fins of a body; None where they are not wanted, and on a body that is all creases."""
-    if not options.fins:
+    """Fins of a body; None where they are not wanted or not known, and on a body that is all creases."""
+    if not options.fins or options.swatch is not None:
         return None
     lean = float(dry.drift[-1, 1])
     fins = build_fins(body.ground, body.direction, body.tile, lean, options.seed, body.length)

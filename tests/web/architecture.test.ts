@@ -25,7 +25,7 @@ const MAX_FILES = 15;
 /** Lines of a function; a longer one has a comment in front of it, `Long: ` and the reason. */
 const MAX_LINES = 60;
 /** Rooms of the demo from the ground up; those of one floor do not import each other. Files of a room may, in no circle. */
-const rooms = [['words'], ['state', 'clips'], ['say'], ['open', 'stage'], ['model'], ['hands'], ['panel']];
+const rooms = [['words'], ['state', 'clips'], ['say'], ['open', 'stage'], ['rti'], ['model'], ['hands'], ['panel']];
 const pages = ['demo', 'learn', 'bench'];
 /** What pages share, and what knows none of them. */
 const shared = ['page', 'measure'];
@@ -173,6 +173,13 @@ describe('the pages', () => {
 		(path) => {
 			for (const name of imports(path))
 				expect(name).toMatch(/^(three(\/addons\/.*)?$|(measure|page)\/|fur\/(index|reference)\.ts$)/);
+		},
+	);
+
+	it.each(below('rti'))(
+		'%s relights pictures for any page: it takes its own room, what any page may have, three',
+		(path) => {
+			for (const name of imports(path)) expect(name).toMatch(/^(rti\/|page\/|three$)/);
 		},
 	);
 

@@ -69,6 +69,7 @@ class FurModel:
     features : further opaque meshes of the scene; where they stand on the skin they are put there
     bare : linear colour of a skin that brings no colour at all; None: white
     motion : what moves skin and ground; None: nothing. Where its rig has a pose all of the above is in it
+    tinted : whether the fur takes the colour of the skin below it; else it has its own alone
     """
 
     skin: Surface
@@ -81,6 +82,7 @@ class FurModel:
     features: tuple[Feature, ...] = ()
     bare: RGB | None = None
     motion: Motion | None = None
+    tinted: bool = True
 
 
 def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
@@ -103,7 +105,7 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     below = Stand(ground, *place, motion, None if motion is None else motion.ground)
     own = bare_colour(surface, fur, model.bare)
     skin = skin_primitives(body, own, fur.colour if model.ground is None else None, buffer, looks)
-    fur = fur_colour(surface, own, fur)
+    fur = fur_colour(surface, own, fur, model.tinted)
 
     uv = shifted_by_tiles(charts)
     tiles = tiles_across(uv, *([] if fins is None else [fins.uv]))

@@ -133,6 +133,15 @@ def write_webp(path: Path, pixels: NDArray[np.uint8], quality: int) -> None:
     _write(path, spec, pixels)
 
 
+def write_jpeg(path: Path, pixels: NDArray[np.uint8], quality: int) -> None:
+    """Write (height, width, 3) bytes with JPEG's losses, colours as fine as brightness. Raises PlaneError."""
+    height, width, channels = pixels.shape
+    spec = oiio.ImageSpec(width, height, channels, pixels.dtype.name)
+    spec.attribute("compression", f"jpeg:{quality}")
+    spec.attribute("jpeg:subsampling", "4:4:4")
+    _write(path, spec, pixels)
+
+
 def _write_png(
     path: Path, pixels: NDArray[np.uint8] | NDArray[np.uint16], srgb: bool, strategy: str | None = None
 ) -> None:

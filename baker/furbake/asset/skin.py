@@ -117,13 +117,15 @@ def skin_primitives(
     ]
 
 
-def fur_colour(surface: Surface, own: RGB, fur: VertexFur) -> VertexFur:
+def fur_colour(surface: Surface, own: RGB, fur: VertexFur, tinted: bool = True) -> VertexFur:
     """The fur with the whole colour of the skin below it, or none where the skin's first material has it.
 
     own : as of `skin_primitives`; it colours no fur
+    tinted : False for fur that is white, whatever the skin
     """
     first = _material(surface.skin[0], surface).factor[:3] if surface.skin else own
     whole = np.array(surface.colour) * (np.ones(3) if fur.colour is None else fur.colour)
+    whole = whole if tinted else np.ones(3)
     same = bool((np.abs(whole - np.array(first)) < ALIKE).all())
     return replace(fur, colour=None if same else np.broadcast_to(whole, (len(fur.lengths), 3)))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from furbake.cli.parsing import Argument, Command, action, option, switch, unset_switch
-from furbake.cli.values import DIRECTION, GUIDE, NAMES, NUMBER, PLACE, SETTING, WHOLE
+from furbake.cli.values import GUIDE, NAMES, NUMBER, PLACE, SETTING, WHOLE
 from furbake.options.knobs import BITS, KNOBS, MAX_FACES
 
 QUIET = "no progress, no summary"
@@ -88,6 +88,10 @@ BAKE = [
     unset_switch("--flat", "a flat patch under a point at infinity, for checks"),
     option("--states", metavar="dry..wet|dry,NAME", type=NAMES, help="wet states too: all five, or some"),
     unset_switch("--dirt", "a dirty state too"),
+    option(
+        "--swatch", metavar="FILE.lp|FILE.ptm|info.json", type=PLACE,
+        help="real fur or cloth under many lamps, as a thin skin: the tile is made of it, not grown",
+    ),
     option("--samples", metavar="FILE.npz", type=PLACE, help="write the sampled physics too, for others to check"),
     option("--cache", metavar="DIR", type=PLACE, help="where finished pelts are kept (default: the user's cache)"),
     switch("--no-cache", "neither take a finished pelt nor keep this one"),
@@ -107,17 +111,6 @@ REPORT = [
 PRESETS = [
     Argument("name", "NAME", "a preset or a .toml file", type=PLACE, required=False),
     switch("--json", "as one JSON object with all their options"),
-]
-
-SWATCH = [
-    folder("a baked folder; without it a preset is baked for this", required=False),
-    *preset_options(None),
-    out("FILE.png", "picture to write"),
-    option("--light", type=DIRECTION, help="towards the lamp: right, up, at you"),
-    option("--state", metavar="NAME", help="dry (default), damp, moist, wet, soaked or dirty"),
-    option("--tiles", metavar="T", type=WHOLE, default=3, help="repeats of the tile along a side (default: 3)"),
-    option("--pixels", metavar="P", type=WHOLE, default=512, help="side of the picture (default: 512)"),
-    switch("--quiet", QUIET),
 ]
 
 LESSON = [
@@ -144,7 +137,6 @@ COMMANDS = {
         Command("validate", "DIR", action("actions", "run_validate"), [folder()]),
         Command("presets", "[NAME]", action("actions", "run_presets"), PRESETS),
         Command("report", "DIR", action("actions", "run_report"), REPORT),
-        Command("swatch", "DIR -o FILE.png", action("actions", "run_swatch"), SWATCH),
         Command("lesson", "-o DIR", action("actions", "run_lesson"), LESSON),
         Command("groom", "DIR -o FILE.npz", action("actions", "run_groom"), GROOM),
     )

@@ -6,13 +6,14 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 from furbake.options import BakeOptions, OptionError, override, preset
+from furbake.options.bake_options import THIN
 from furbake.pelt.hairs.states import WETNESS
 from furbake.surface.shapes import is_builtin
 
 GIVEN = (
     "layers", "size", "lights", "basis", "coefficients", "bits", "curves", "length", "tile", "height", "seed", "flat",
     "guide", "length_by_thickness", "fins", "uv", "max_faces", "length_map", "mask", "comb", "features", "directions",
-    "meshopt", "states", "dirt", "pose",
+    "meshopt", "states", "dirt", "pose", "swatch",
 )  # fmt: skip
 """Options of the command that are options of the bake; one that is not given is the preset's."""
 
@@ -27,6 +28,8 @@ def chosen(args: SimpleNamespace) -> BakeOptions:
     given = {name: getattr(args, name, None) for name in GIVEN}
     if given["states"] == ("dry..wet",):
         given["states"] = tuple(WETNESS)
+    if given["swatch"] is not None:
+        options = replace(options, **THIN)
     options = replace(options, **{name: value for name, value in given.items() if value is not None})
     if options.guide.endswith(".json"):  # strokes, and where there are none from nose to tail
         if options.comb is not None:

@@ -20,7 +20,9 @@ COMMANDS = {
     "validate": Entry("arguments", "check a baked folder: exit 1 and a list if it is bad"),
     "presets": Entry("arguments", "list the presets, or all knobs of one as TOML to copy"),
     "report": Entry("arguments", "write DIR/report.html: how good the bake is, and where it is not"),
-    "swatch": Entry("arguments", "picture of a baked pelt, or of a preset's"),
+    "swatch": Entry(
+        "rti.arguments", "picture of a baked pelt, of a preset's, or of what museums have: .ptm, .lp, relight"
+    ),
     "lesson": Entry("arguments", "data of the lesson on the page Learn"),
     "verify": Entry("studies", "compare a bake with a path tracer (Mitsuba 3)"),
     "compare": Entry("studies", "table of presets and bases, measured anew, as Markdown"),
@@ -29,6 +31,7 @@ COMMANDS = {
     "bend": Entry("studies", "table of how right the light on bent fur is, as Markdown"),
     "patches": Entry("studies", "table of how lapped patches cover models, as Markdown"),
     "groom": Entry("arguments", "write the strands of a baked fur on its body"),
+    "export": Entry("rti.arguments", "write a pelt from above for RTI viewers: PTM, relight"),
 }
 
 FURBAKE = Group("furbake", COMMANDS, help="Bakes fur that can be relit in real time, from any mesh.")

@@ -8,11 +8,12 @@ from furbake.cluster.versions import ClusterError
 from furbake.groom.files import GroomError
 from furbake.options import OptionError
 from furbake.page import PageError
+from furbake.rti.relit import RtiError
 from furbake.study.verify.pathtrace import VerifyError
 from furbake.surface.mesh import MeshError
 
 TOLD = (
     OptionError, MeshError, StoreError, AssetError, PlaneError, VerifyError, GroomError, PageError, ClusterError,
-    MemoryShortError,
+    MemoryShortError, RtiError,
 )  # fmt: skip
 """Errors whose message is a sentence for the user."""

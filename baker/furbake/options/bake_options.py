@@ -17,14 +17,18 @@ CurvesKind = Literal["slab", "none"]
 Guide = Literal["nose-tail", "down"]
 Uv = Literal["lapped", "own"]
 
-FILES = ("length_map", "mask", "comb", "features")
+FILES = ("length_map", "mask", "comb", "features", "swatch")
 """Options that name files."""
 
 OF_VERTICES = "vertex:"
 """Prefix of a `length_map` or `mask` that names a channel of the vertex colours, or an attribute, not a file."""
 
 
-LATER = ("directions", "states", "dirt", "auto_length", "pose")
+THIN: dict[str, Any] = {"layers": 1, "height_share": 0.05}
+"""Options of fur that is photographed, where the command is not given others: photographs show the top alone."""
+
+
+LATER = ("directions", "states", "dirt", "auto_length", "pose", "swatch")
 """Options that early records do not have."""
 
 OF_BODY = (
@@ -94,6 +98,8 @@ class BakeOptions:
     """JSON file of strokes along which the fur is laid."""
     features: str | None = None
     """JSON file of eyes, a nose and the like."""
+    swatch: str | None = None
+    """`.lp`, `.ptm` or `info.json` of real fur or cloth under many lamps, from which the tile is made, not grown."""
     fins: bool = True
     """Quads on the edges that show the fur from the side, where shells are seen edge-on."""
     meshopt: bool = True
@@ -142,6 +148,8 @@ class BakeOptions:
             raise OptionError(f"states: got {','.join(self.states)}, expected {expected}")
         if self.dirt and self.coefficients < 4:
             raise OptionError("dirt: got 3 coefficients, which leave no room for the share of mud, expected 4 to 6")
+        if self.swatch is not None and (len(self.states) > 1 or self.dirt):
+            raise OptionError(f"swatch: got {self.swatch} beside wet or dirty states, expected dry fur alone")
         hairs = self.coat.guard.count + self.coat.under.count
         knobs.within("coat.guard.count + coat.under.count", hairs, 1, KNOBS["coat.guard.count"].high)
 
@@ -185,6 +193,8 @@ class BakeOptions:
 
         Raises OptionError for anything else.
         """
+        if record.get("swatch") is not None:
+            raise OptionError(f"options: got fur that was photographed ({record['swatch']}), expected grown hairs")
         try:
             options = build({"curves": "none", "bits": 8, "meshopt": False, **record})
             options.check()

@@ -97,6 +97,15 @@ def decode(picture: Picture) -> Bytes | None:
         return None
 
 
+def picture_size(picture: Picture) -> tuple[int, int] | None:
+    """(width, height) by the file's header alone, or None where it has none."""
+    try:
+        with _any_size(), Image.open(io.BytesIO(picture.data), formats=FORMATS) as image:
+            return image.size
+    except Exception:  # noqa: BLE001 — as above
+        return None
+
+
 @contextmanager
 def _any_size() -> Iterator[None]:
     """Switch off Pillow's own bound on pixels, so that ours can be higher."""

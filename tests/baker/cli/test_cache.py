@@ -118,5 +118,5 @@ def test_a_tile_sees_nothing_of_its_body() -> None:
     own = names - set(OF_BODY)
     assert own == {
         "layers", "size", "lights", "basis", "coefficients", "curves", "seed", "flat", "coat", "ramp", "colour_plane",
-        "directions", "states", "dirt", "bits",
+        "directions", "states", "dirt", "bits", "swatch",
     }, "a new option is the tile's own until it is named in OF_BODY: say here which it is"  # fmt: skip

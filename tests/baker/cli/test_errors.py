@@ -134,7 +134,7 @@ BAD_COMMANDS = {
         "presets",
         "cat",
     ): "preset: got 'cat', expected one of bunny, fox, mole, paper, sheep, teddy, wolf, or a .toml file",
-    ("swatch", "folder"): "-o: missing, expected furbake swatch DIR -o FILE.png",
+    ("swatch", "folder"): "-o: missing, expected furbake swatch DIR|FILE -o FILE.png",
     ("swatch", "nope", "-o", "x.png"): "nope: no such folder, expected a folder that furbake wrote",
     ("swatch", "folder", "-o", "x.png", "--preset", "fox"): "swatch: got 'folder' and --preset or --set, expected",
     ("swatch", "--preset", "cat", "-o", "x.png"): "preset: got 'cat', expected one of",

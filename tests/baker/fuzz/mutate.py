@@ -57,7 +57,9 @@ def change(name: str, data: bytes, chance: Random) -> bytes:
             return bz2.compress(of_text(bz2.decompress(data), chance))
         if name.endswith(".ply"):
             return of_ply(data, chance)
-        if name.endswith((".obj", ".mtl", ".off")) or data.startswith(b"solid"):
+        if name.endswith(".ptm"):
+            return of_ptm(data, chance)
+        if name.endswith((".obj", ".mtl", ".off", ".lp")) or data.startswith(b"solid"):
             return of_text(data, chance)
     except Exception:
         return of_bytes(data, chance)  # broken already
@@ -186,6 +188,15 @@ def of_ply(data: bytes, chance: Random) -> bytes:
     if chance.random() < 0.6:
         return of_text(head, chance) + end + body
     return head + end + (of_text if b"ascii" in head else of_bytes)(body, chance)
+
+
+def of_ptm(data: bytes, chance: Random) -> bytes:
+    """The header by its words, six lines or fourteen; the rest as bytes."""
+    lines = data.split(b"\n", 14 if b"JPEG" in data[:40] else 6)
+    if chance.random() < 0.7:
+        head = b"\n".join(lines[:-1])
+        return of_text(head, chance) + b"\n" + lines[-1]
+    return b"\n".join([*lines[:-1], of_bytes(lines[-1], chance)])
 
 
 def of_archive(kind: str, data: bytes, chance: Random) -> bytes:

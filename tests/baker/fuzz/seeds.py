@@ -21,6 +21,7 @@ from PIL import Image
 
 from furbake import BakeOptions, bake
 from furbake.pelt.hairs.strands import Coat, Hairs
+from helpers import museum
 
 
 @dataclass(frozen=True)
@@ -235,6 +236,33 @@ def baked(folder: Path, model: str) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in out.iterdir()}
 
 
+def relit(folder: Path) -> list[Seed]:
+    """Files of museums."""
+    planes = np.random.default_rng(3).integers(0, 256, (museum.H, museum.W, 9), dtype=np.uint8)
+    scale, bias = [0.5, 0.75, 0.25, 1.0, 0.5, 2.0], [167, 97, 120, 128, 30, 0]
+    plain = planes.tobytes()
+    found = [
+        Seed(f"ptm {kind.lower()}", "a.ptm", {"a.ptm": museum.head(kind, museum.W, museum.H, scale, bias) + body})
+        for kind, body in (("LRGB", plain), ("RGB", plain * 2))
+    ]
+    found.append(Seed("ptm jpeg", "a.ptm", {"a.ptm": museum.jpeg_ptm(planes, scale, bias)[0]}))
+    place = folder / "photographs"
+    place.mkdir()
+    museum.photographed(place, museum.lamps(9), "jpg", width=6, height=5)
+    found.append(Seed("lp", "set.lp", {path.name: path.read_bytes() for path in place.iterdir()}))
+    for kind, space, material in (
+        ("ptm", "lrgb", {}),
+        ("rbf", "mrgb", {"range": [200.0] * 9}),
+        ("bilinear", "mycc", {"range": [200.0] * 9}),
+    ):
+        info = {"type": kind, "colorspace": space, "nplanes": 9, "format": "png", "width": 5, "height": 6}
+        info |= {"materials": [{"scale": [1.0] * 9, "bias": [0.1] * 9, **material}], "yccplanes": [5, 2, 2]}
+        info |= {"lights": [0.0, 0.6, 0.8] * 4, "sigma": 0.3, "resolution": 2, "basis": [100] * 120}
+        pictures = {f"plane_{i}.png": picture() for i in range(3)}
+        found.append(Seed(f"relight {kind}", "info.json", {"info.json": json.dumps(info).encode()} | pictures))
+    return found
+
+
 def seeds(folder: Path) -> list[Seed]:
     """All seeds; `folder` is for what is written on the way."""
     found = []
@@ -262,4 +290,4 @@ def seeds(folder: Path) -> list[Seed]:
     character = folder / "character.glb"
     character.write_bytes(packed(*scene(True)))
     found.append(Seed("baked character", "", baked(folder, str(character))))
-    return found
+    return found + relit(folder)

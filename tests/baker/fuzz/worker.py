@@ -20,6 +20,7 @@ import warnings
 from pathlib import Path
 from random import Random
 
+import numpy as np
 from fuzz.mutate import mutated
 from fuzz.seeds import Seed, seeds
 
@@ -28,13 +29,18 @@ from furbake.asset.owned import strangers
 from furbake.asset.read import AssetError, read_asset
 from furbake.asset.validate import validate
 from furbake.identity import input_hash
+from furbake.rti.files import members, read_relit
+from furbake.rti.fit import fit_photographs, held_out
+from furbake.rti.measured import measure
+from furbake.rti.photographs import read_photographs
+from furbake.rti.relit import RtiError
 from furbake.surface.mesh import MeshError, load_mesh
 
 GIB = 2**30
 HANG, BLOCKED = 20, 300
 """Seconds of work in which every input is read or refused, and of waiting, which other work on the machine adds to."""
 
-MOST_FACES = 2000
+MOST_FACES, MOST_TEXELS = 2000, 10_000
 
 
 class BadRefusalError(Exception):
@@ -54,10 +60,30 @@ def read(folder: Path, seed: Seed) -> None:
     path = folder / seed.main
     if not path.exists():
         return
+    if path.suffix in {".ptm", ".lp"} or path.name == "info.json":
+        relight(path)
+        return
     input_hash(str(path))
     try:
         load_mesh(path, MOST_FACES)
     except MeshError as error:
+        told(error)
+
+
+def relight(path: Path) -> None:
+    """Read and relight, and make a tile of it, as `swatch` and `bake --swatch` do."""
+    try:
+        members(path)
+        if path.suffix == ".lp":
+            photographs = read_photographs(path)
+            found = fit_photographs(photographs)
+            held_out(photographs)
+        else:
+            found = read_relit(path)
+        found.picture(np.array([0.6, -0.3, 0.7]))
+        if found.width * found.height < MOST_TEXELS:
+            measure(path, 2, 8)
+    except (RtiError, MeshError) as error:
         told(error)
 
 

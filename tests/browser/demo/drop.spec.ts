@@ -120,7 +120,7 @@ test('what is dropped or chosen is shown, or a sentence says why not and the mod
 	await open(page, '?model=torus-512&light=-.8,.5,.3&camera=20,38,1&shells=4&still=1');
 	const torus = await bare(page);
 
-	const sign = page.getByText('Drop a baked folder, its zip, or a .glb');
+	const sign = page.getByText('Drop a baked folder, its zip, a .glb or a .ptm');
 	await hold(page, folder, ['dragEnter', 'dragOver']);
 	await expect(sign).toBeVisible();
 	await hold(page, folder, ['dragOver'], -9);
@@ -129,7 +129,7 @@ test('what is dropped or chosen is shown, or a sentence says why not and the mod
 	// The first drop fetches what opens them; after it nothing is fetched any more.
 	let fetched: number | undefined;
 	const broken: [what: Files, sentence: string][] = [
-		[{ 'cat.txt': text('cat') }, 'it is text (.txt); expected a baked folder, its zip, or a .glb'],
+		[{ 'cat.txt': text('cat') }, 'it is text (.txt); expected a baked folder, its zip, a .glb or a .ptm'],
 		[
 			{ 'cat.obj': text('v 0 0 0') },
 			'it is a mesh without fur (.obj). The baker reads it:\nnpm run bake -- cat.obj -o public/models/cat',

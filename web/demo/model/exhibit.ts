@@ -2,6 +2,7 @@
 
 import { FUR_VERSION } from '../../fur/index.ts';
 import { facing } from '../../measure/facing.ts';
+import type { Relit } from '../../rti/relit.ts';
 import type { OwnModel } from '../open/drop.ts';
 import { notice, withdraw } from '../say/notice.ts';
 import type { Progress } from '../say/progress.ts';
@@ -153,11 +154,13 @@ export class Exhibit {
 	}
 
 	#firstLight(): Triple {
-		return this.#surroundings.sun ?? firstView(this.entry, 1, this.#front).light;
+		const { first } = this.#picture.stage.model ?? {};
+		return first?.light ?? this.#surroundings.sun ?? firstView(this.entry, 1, this.#front).light;
 	}
 
 	#firstCamera(): Triple {
-		return firstView(this.entry, this.#store.get().crowd, this.#front).camera;
+		const { first } = this.#picture.stage.model ?? {};
+		return first?.camera ?? firstView(this.entry, this.#store.get().crowd, this.#front).camera;
 	}
 
 	/** Changes the environment; says why and keeps the one before where that fails. */
@@ -198,7 +201,9 @@ export class Exhibit {
 			const folder = folderOf(name, this.menu, document.baseURI);
 			if (!folder && !own) throw new Error(words.notAFolder);
 			const source = own?.source ?? sourceAt(folder as URL, manager);
-			const model = await loadModel(source, stage.limits, first ? { skin } : {});
+			const model = own?.relit
+				? await this.#pictured(own.relit)
+				: await loadModel(source, stage.limits, first ? { skin } : {});
 			if (late()) return model.dispose();
 			if (own) this.#store.change({ model: undefined });
 			if (model !== early) this.#present(model, shown);
@@ -216,10 +221,18 @@ export class Exhibit {
 		this.changed();
 	}
 
+	/** A museum's picture as a model. */
+	async #pictured(picture: Relit): Promise<Model> {
+		const { stage } = this.#picture;
+		const { relitModel } = await import('../rti/relitModel.ts');
+		return relitModel(picture, stage.key, stage.limits.size);
+	}
+
 	/** Says why a model has no fur, where that is so. */
 	#describe({ fur, newer, clips }: Model, own: OwnModel | undefined, name: string): void {
 		const title = this.title ?? name;
 		if (newer) notice(dropWords.newer(title, newer, FUR_VERSION), 'note', 'model');
+		else if (own?.relit) return;
 		else if (own?.command) {
 			const advice = [dropWords.bakeIt(title, own.command), ...(clips ? [dropWords.willMove] : [])];
 			notice(advice.join('\n'), 'advice', 'model');

@@ -26,7 +26,7 @@ export interface Opener {
 
 /** Extensions and types: phones know few of the extensions. */
 const ACCEPTED =
-	'.zip,.glb,.gltf,.bin,.png,.json,application/zip,application/x-zip-compressed,model/gltf-binary,model/gltf+json,application/octet-stream';
+	'.zip,.glb,.gltf,.bin,.png,.jpg,.json,.ptm,application/zip,application/x-zip-compressed,model/gltf-binary,model/gltf+json,application/octet-stream';
 
 /**
  * @param target receives the drops

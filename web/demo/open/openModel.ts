@@ -1,6 +1,7 @@
 /** Dropped or chosen files → a model that can be loaded. This module is loaded with the first of them. */
 
 import type { Language } from '../../page/language.ts';
+import type { Relit } from '../../rti/relit.ts';
 import { en as dropEn } from '../words/drop.en.ts';
 import { zh as dropZh } from '../words/drop.zh.ts';
 import { en } from '../words/refusals.en.ts';
@@ -10,6 +11,7 @@ import { type Handed, type Opened, open } from './entries.ts';
 import { type Container, type Files, findModel, LIMITS, type Limits, type OwnSource, sourceOf } from './files.ts';
 import { inspect } from './inspect.ts';
 import { Refused } from './refusal.ts';
+import { findRelit, openRelit } from './relit.ts';
 import { unzip } from './zip.ts';
 
 /** Model from the visitor's machine. */
@@ -19,6 +21,8 @@ export interface OwnModel {
 	source: OwnSource;
 	/** Command that bakes it, for a model without fur. */
 	command?: string;
+	/** Picture of a museum that is relit, in place of a model. */
+	relit?: Relit;
 }
 
 const KINDS: [kind: 'mesh' | 'picture' | 'text' | 'archive', extensions: RegExp][] = [
@@ -66,6 +70,7 @@ async function modelOf({ name, container, files }: Opened, limits: Limits): Prom
 	const bare = name.replace(/\.[^.]*$/, '');
 	if (extension === 'zip' || (extension === '' && /zip/.test(file.type)))
 		return modelIn(bare, await unzip(file, limits), 'zip', limits);
+	if (extension === 'ptm') return { name: bare, ...(await relitIn(files, name)) };
 	if (extension === 'glb' || extension === 'gltf') return modelIn(bare, files, container, limits);
 	if (/^(plane\d|fin\d|colour|direction|fin-?colour)\.png$|^bake\.json$|^model\.bin$/.test(name))
 		throw new Refused((words) => words.plane);
@@ -77,7 +82,15 @@ async function modelOf({ name, container, files }: Opened, limits: Limits): Prom
 async function modelIn(name: string, files: Files, container: Container, limits: Limits): Promise<OwnModel> {
 	const sum = [...files.values()].reduce((total, { size }) => total + size, 0);
 	if (sum > limits.bytes) throw new Refused((words) => words.tooLarge(sum, limits.bytes));
+	const picture = findRelit(files);
+	if (picture) return { name, ...(await relitIn(files, picture)) };
 	const path = findModel(files);
 	const { furry } = await inspect(files, path, container);
 	return { name, source: sourceOf(files, path, container), ...(furry ? {} : { command: bakeCommand(path) }) };
+}
+
+async function relitIn(files: Files, path: string): Promise<Pick<OwnModel, 'relit' | 'source'>> {
+	const relit = await openRelit(files, path);
+	files.clear();
+	return { relit, source: { path, url: '', release() {} } };
 }

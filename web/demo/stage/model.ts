@@ -3,6 +3,7 @@
 import { type Box3, Mesh, type Object3D } from 'three';
 import type { Fur } from '../../fur/index.ts';
 import type { ClipPlayer } from '../clips/ClipPlayer.ts';
+import type { Triple } from '../state/view.ts';
 
 export interface Model {
 	object: Object3D;
@@ -16,6 +17,8 @@ export interface Model {
 	box: Box3;
 	/** radius of the sphere around the box's centre that holds the skin */
 	readonly radius: number;
+	/** first view and light of a picture that is relit; undefined for a body */
+	first?: { camera: Triple; light: Triple };
 	dispose(): void;
 }
 

@@ -1,6 +1,6 @@
 /** Reasons for refusal; each follows "NAME cannot be shown: ". */
 
-const EXPECTED = 'a baked folder, its zip, or a .glb';
+const EXPECTED = 'a baked folder, its zip, a .glb or a .ptm';
 
 /** Megabytes of 10⁶ bytes, as file managers count. */
 const megabytes = (bytes: number) => `${Number((bytes / 1e6).toFixed(1))} MB`;
@@ -56,6 +56,19 @@ export const en = {
 		`its mesh is packed by Draco, which this page does not unpack. The baker does:\n${command}`,
 	requires: (extensions: string) => `it requires ${extensions}, which this page does not know; export it without`,
 	badPicture: (path: string) => `${path}: it is not a picture that this browser can read`,
+
+	// Pictures of museums.
+	relit: {
+		noPtm: (_: string) => 'it is not a PTM file, despite its name',
+		ptmKind: (got: string) =>
+			`it is a PTM of another kind (${got}); expected PTM_1.2 as RGB, LRGB, JPEG_RGB or JPEG_LRGB`,
+		header: (_: string) => 'its header is damaged; expected size, scales and biases of a PTM',
+		short: (_: string) => 'the end is missing: it was not copied or downloaded completely',
+		plane: (name: string) => `${name}: this plane is missing, damaged or of another size`,
+		large: (size: string) => `it has ${size} pixels, more than this page opens`,
+		relightKind: (got: string) => `its kind is unknown (${got}); expected ptm, hsh, sh, rbf or bilinear of relight`,
+		info: (_: string) => 'info.json is damaged; expected the one that relight writes',
+	},
 };
 
 export type Refusals = typeof en;

@@ -2,7 +2,7 @@
 
 import type { Refusals } from './refusals.en.ts';
 
-const EXPECTED = '烘焙好的文件夹、其 zip 压缩包或 .glb 文件';
+const EXPECTED = '烘焙好的文件夹、其 zip 压缩包、.glb 或 .ptm 文件';
 
 const megabytes = (bytes: number) => `${Number((bytes / 1e6).toFixed(1))} MB`;
 
@@ -48,4 +48,15 @@ export const zh: Refusals = {
 	draco: (command) => `网格用 Draco 压缩，本页无法解压，烘焙器可以：\n${command}`,
 	requires: (extensions) => `它需要 ${extensions}，本页不支持；请在导出时去掉`,
 	badPicture: (path) => `${path}：不是本浏览器能读取的图片`,
+
+	relit: {
+		noPtm: () => '它不是 PTM 文件，尽管扩展名如此',
+		ptmKind: (got) => `这是其他类型的 PTM（${got}）；应为 PTM_1.2 的 RGB、LRGB、JPEG_RGB 或 JPEG_LRGB`,
+		header: () => '文件头已损坏；应有 PTM 的尺寸、比例和偏移',
+		short: () => '结尾缺失，复制或下载不完整',
+		plane: (name) => `图层 ${name} 缺失、已损坏或尺寸不符`,
+		large: (size) => `它有 ${size} 像素，超过本页能打开的大小`,
+		relightKind: (got) => `无法识别其类型（${got}）；应为 relight 的 ptm、hsh、sh、rbf 或 bilinear`,
+		info: () => 'info.json 已损坏；应为 relight 写出的文件',
+	},
 };

@@ -19,13 +19,19 @@ DARK = 0.01
 """Share of the mean curves' mean square: slabs darker than that hardly count in the start of the rounds."""
 
 
-def eigen(samples: NDArray[np.floating], weights: NDArray[np.floating], lights: Array, coefficients: int) -> Basis:
+def eigen(
+    samples: NDArray[np.floating],
+    weights: NDArray[np.floating],
+    lights: Array,
+    coefficients: int,
+    degree: int = DEGREE,
+) -> Basis:
     """Left singular vectors of the α-weighted samples, made smooth.
 
-    samples : (n, texels), weights : (texels,), lights : (n, 3)
+    samples : (n, texels), weights : (texels,), lights : (n, 3), degree : of the smooth functions
     """
     weighted = samples * np.sqrt(weights)
-    return _smoothed(_strongest((weighted @ weighted.T).astype(np.float64), coefficients), lights)
+    return _smoothed(_strongest((weighted @ weighted.T).astype(np.float64), coefficients), lights, degree)
 
 
 def eigen_of_slabs(samples: NDArray[np.floating], alpha: Array, lights: Array, mean: Array, coefficients: int) -> Basis:
@@ -76,8 +82,8 @@ def _strongest(gram: Array, count: int) -> Array:
     return np.asarray(curves * np.where(curves.sum(0) < 0, -1.0, 1.0))
 
 
-def _smoothed(curves: Array, lights: Array) -> Basis:
+def _smoothed(curves: Array, lights: Array, degree: int = DEGREE) -> Basis:
     """The nearest curves that are sums of the smooth functions."""
-    terms = smooth(lights)
+    terms = smooth(lights, degree)
     matrix = np.linalg.solve(terms.T @ terms + RIDGE * np.eye(terms.shape[1]), terms.T @ curves).T
-    return Basis("eigen", DEGREE, np.asarray(matrix, np.float64))
+    return Basis("eigen", degree, np.asarray(matrix, np.float64))

@@ -80,7 +80,7 @@ describe('what opens', () => {
 });
 
 describe('what does not', () => {
-	const expected = 'expected a baked folder, its zip, or a .glb';
+	const expected = 'expected a baked folder, its zip, a .glb or a .ptm';
 	it.each<[name: string, part: string | Uint8Array, sentence: string]>([
 		[
 			'cat.obj',

@@ -62,7 +62,11 @@ describe('a zip', () => {
 	});
 
 	it.each<[what: string, zip: Blob, sentence: string]>([
-		['empty as a file', blob(new Uint8Array()), 'it is an empty file; expected a baked folder, its zip, or a .glb'],
+		[
+			'empty as a file',
+			blob(new Uint8Array()),
+			'it is an empty file; expected a baked folder, its zip, a .glb or a .ptm',
+		],
 		['empty as a zip', blob(zipped({})), 'the zip is empty; expected a baked folder with model.gltf'],
 		['of empty folders', blob(zipped({ 'a/': '' })), 'the zip is empty; expected a baked folder with model.gltf'],
 		['by its name alone', blob(text('These are words, and no zip.')), 'it is not a zip file, despite its name'],

@@ -1,0 +1,1 @@
+"""Reflectance transformation imaging: pictures that are relit, in the formats of museums."""

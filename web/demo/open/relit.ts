@@ -1,0 +1,36 @@
+/** Pictures of museums among dropped files: PTM, or a folder of relight. */
+
+import { decode } from '../../rti/decode.ts';
+import { parsePtm } from '../../rti/ptm.ts';
+import { parseRelight } from '../../rti/relight.ts';
+import { type Relit, RelitError } from '../../rti/relit.ts';
+import type { Files } from './files.ts';
+import { Refused } from './refusal.ts';
+
+const INFO = /(^|\/)info\.json$/i;
+
+/** Path of the one picture that is relit; undefined where there is none, or a model beside it. */
+export function findRelit(files: Files): string | undefined {
+	const paths = [...files.keys()];
+	if (paths.some((path) => /\.(gltf|glb)$/i.test(path))) return undefined;
+	const found = paths.filter((path) => /\.ptm$/i.test(path) || (INFO.test(path) && planeBeside(files, path)));
+	return found.sort((a, b) => a.split('/').length - b.split('/').length)[0];
+}
+
+const folderOf = (path: string) => path.slice(0, path.lastIndexOf('/') + 1);
+const planeBeside = (files: Files, path: string) =>
+	['jpg', 'png'].some((suffix) => files.has(`${folderOf(path)}plane_0.${suffix}`));
+
+/** @throws Refused that says what is wrong with it */
+export async function openRelit(files: Files, path: string): Promise<Relit> {
+	const file = files.get(path) as Blob;
+	try {
+		return INFO.test(path)
+			? await parseRelight(await file.text(), (name) => files.get(folderOf(path) + name), decode)
+			: await parsePtm(new Uint8Array(await file.arrayBuffer()), decode);
+	} catch (error) {
+		if (!(error instanceof RelitError)) throw error;
+		const { problem, detail } = error;
+		throw new Refused((words) => words.relit[problem](detail));
+	}
+}
