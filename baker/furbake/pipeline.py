@@ -106,24 +106,28 @@ def bake(
                 fitted = pelts.with_fins(fitted)
         with clock.stage("write"):
             record = _record(model, options, body, fitted)
-            furry = FurModel(
-                skin=body.skin,
-                charts=body.charts,
-                fur=body.fur,
-                pelts=tuple(pelt for pelt, _ in fitted),
-                length=body.length,
-                fins=fins,
-                ground=None if body.ground is body.skin else body.ground,
-                features=body.features,
-                bare=None if is_builtin(model) else fitted[0][0].ramp.root,
-                motion=_motion(body),
-                tinted=options.swatch is None,
-            )
-            record["asset"] = write_gltf(folder, furry, options.meshopt)
+            record["asset"] = write_gltf(folder, _furry(model, options, body, fitted, fins), options.meshopt)
             (folder / "bake.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
             if archive is not None:
                 write_samples(archive, pelts.sampled[0], pelts.tile.strands)
     return BakeResult(out, record, clock.seconds, (*notices, *pelts.notices))
+
+
+def _furry(model: str, options: BakeOptions, body: Body, fitted: Fitted, fins: Fins | None) -> FurModel:
+    """All that the folder shows."""
+    return FurModel(
+        skin=body.skin,
+        charts=body.charts,
+        fur=body.fur,
+        pelts=tuple(pelt for pelt, _ in fitted),
+        length=body.length,
+        fins=fins,
+        ground=None if body.ground is body.skin else body.ground,
+        features=body.features,
+        bare=None if is_builtin(model) else fitted[0][0].ramp.root,
+        motion=_motion(body),
+        tinted=options.swatch is None,
+    )
 
 
 class _Pelts:

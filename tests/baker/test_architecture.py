@@ -46,7 +46,7 @@ FLOORS: dict[str, set[str]] = {
     "pipeline": {"asset", "pelt", "surface", "options", "identity", "body", "tile"},
     "freshness": {"asset", "identity", "options"},
     "batch": {"asset", "pelt", "surface", "options", "cores", "apart", "freshness", "identity", "pipeline", "show"},
-    "cluster": {"asset", "identity", "options", "tile", "apart", "batch", "pelt", "surface", "cores"},
+    "cluster": {"asset", "identity", "options", "tile", "apart", "batch", "pelt", "surface", "cores", "rti"},
     "groom": {"asset", "pelt", "options"},
     "show": {"asset", "pelt", "options", "identity", "tile", "page", "daylight", "rti"},
     "study": {"apart", "asset", "pelt", "surface", "options", "tile", "groom", "page", "daylight"},

@@ -15,6 +15,8 @@ from furbake.asset.store import atomic_folder
 from furbake.batch.job import Job
 from furbake.identity import bake_key
 from furbake.options.bake_options import FILES, OF_VERTICES
+from furbake.rti.files import members
+from furbake.rti.relit import RtiError
 from furbake.surface.files import read_regular
 from furbake.surface.limits import Budget
 from furbake.surface.read.companions import companions
@@ -48,6 +50,11 @@ def packed(job: Job) -> Parcel:
         if value is not None and not value.startswith(OF_VERTICES):
             places[name] = f"{name}/{Path(value).name}"
             add(places[name], Path(value))
+    if job.options.swatch is not None:
+        swatch = Path(job.options.swatch)
+        with suppress(RtiError):
+            for file in members(swatch):
+                add(f"swatch/{file.relative_to(swatch.parent).as_posix()}", file)
     return Parcel(files, places)
 
 
