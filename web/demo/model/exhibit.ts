@@ -2,10 +2,11 @@
 
 import { FUR_VERSION } from '../../fur/index.ts';
 import { facing } from '../../measure/facing.ts';
+import { loadModel, sourceAt } from '../../scene/load.ts';
+import type { Model } from '../../scene/model.ts';
 import type { OwnModel } from '../open/drop.ts';
 import { notice, withdraw } from '../say/notice.ts';
 import type { Progress } from '../say/progress.ts';
-import type { Model } from '../stage/model.ts';
 import type { Picture } from '../stage/picture.ts';
 import type { Store } from '../state/store.ts';
 import type { EnvironmentName, Triple, View } from '../state/view.ts';
@@ -14,7 +15,6 @@ import { zh } from '../words/drop.zh.ts';
 import { language, words } from '../words/index.ts';
 import { Dressing } from './dressing.ts';
 import { Dynamics } from './dynamics.ts';
-import { loadModel, sourceAt } from './load.ts';
 import { Looks } from './looks.ts';
 import { firstView, folderOf, loadMenu, type MenuEntry, offered } from './menu.ts';
 import { Pending } from './pending.ts';

@@ -1,8 +1,8 @@
 /** A model in memory, as the stage shows it. */
 
 import { type Box3, Mesh, type Object3D } from 'three';
-import type { Fur } from '../../fur/index.ts';
-import type { ClipPlayer } from '../clips/ClipPlayer.ts';
+import type { Fur } from '../fur/index.ts';
+import type { ClipPlayer } from './clips/ClipPlayer.ts';
 
 export interface Model {
 	object: Object3D;
