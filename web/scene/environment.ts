@@ -8,7 +8,8 @@ import { type FurLamp, furEnvironment } from '../fur/index.ts';
 import { luminance, visitEnvironment } from '../fur/reference.ts';
 import { blurred, groundAlbedo } from './panorama.ts';
 
-const FILES = {
+/** Modules of the panoramas' files, by name. */
+export const PANORAMAS = {
 	studio: () => import('@pmndrs/assets/hdri/studio.exr.js'),
 	city: () => import('@pmndrs/assets/hdri/city.exr.js'),
 	sky: () => import('@pmndrs/assets/hdri/sky.exr.js'),
@@ -17,7 +18,7 @@ const FILES = {
 } satisfies Record<string, () => Promise<{ default: string }>>;
 
 /** Name of an environment. */
-export type EnvironmentName = keyof typeof FILES;
+export type EnvironmentName = keyof typeof PANORAMAS;
 
 /** Total light of every environment, radiance times solid angle: as bright as the page's own sky. */
 const TOTAL_LIGHT = 9.75;
@@ -43,7 +44,7 @@ export interface Environment {
 /** @param azimuth of the environment's sun, if any: radians about the upright axis from x towards z */
 export async function loadEnvironment(name: EnvironmentName, azimuth: number): Promise<Environment> {
 	const [{ default: file }, { EXRLoader }] = await Promise.all([
-		FILES[name](),
+		PANORAMAS[name](),
 		import('three/addons/loaders/EXRLoader.js'),
 	]);
 	const texture = await new EXRLoader().setDataType(FloatType).loadAsync(file);
