@@ -123,7 +123,6 @@ export class FurPicture {
 			changed = true;
 		}
 		if (fur?.update(elapsed)) changed = true;
-		if (this.lamp.visible && this.lamp.glide(this.camera, elapsed)) changed = true;
 		return changed;
 	}
 

@@ -110,9 +110,10 @@ export class FurView extends Base implements Face {
 		});
 		this.#session = session;
 		this.#label();
-		if (!session.works) return this.#fail(this.#words.noWebGL2, 'this browser has no WebGL2');
-		this.#surround();
-		this.#aim();
+		if (session.works) {
+			this.#surround();
+			this.#aim();
+		} else this.#fail(this.#words.noWebGL2, 'this browser has no WebGL2');
 	}
 
 	disconnectedCallback(): void {
@@ -195,7 +196,8 @@ export class FurView extends Base implements Face {
 		const { src, preset } = this;
 		if (!src) {
 			session.clear();
-			return this.#setState('idle');
+			this.#setState('idle');
+			return;
 		}
 		this.#setState('loading');
 		try {

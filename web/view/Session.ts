@@ -133,6 +133,7 @@ export class Session implements Drawn {
 		if (!shown) return;
 		const { width, height } = this.#canvas;
 		this.picture.fit(width / height);
+		this.picture.lamp.glide(camera, Number.POSITIVE_INFINITY);
 		this.#shared.painter.render(scene, camera, this.#canvas);
 	}
 

@@ -1,8 +1,8 @@
-/** Decoder of compressed meshes for `<fur-view>`, without WebAssembly. */
+/** `<fur-view>` as one file: its place on the site, and its decoder of compressed meshes, without WebAssembly. */
 import { join } from 'node:path';
 import { Failure, root } from '../process.mjs';
 
-/** @import { Plugin } from 'vite' */
+/** @import { Connect, Plugin, Rolldown } from 'vite' */
 
 /** Decoder that meshoptimizer keeps as its reference: the same interface, in plain JavaScript. */
 export const REFERENCE = join(root, 'node_modules', 'meshoptimizer', 'meshopt_decoder_reference.js');
@@ -33,5 +33,50 @@ export function decoderPlugin() {
 		enforce: 'pre',
 		resolveId: (id) => (id === 'three/addons/libs/meshopt_decoder.module.js' ? REFERENCE : undefined),
 		transform: (code, id) => (id === REFERENCE ? { code: endingDecoder(code), map: null } : undefined),
+	};
+}
+
+const FILE = 'fur-view.js';
+const CONFIG = join(root, 'web', 'vite.view.config.ts');
+
+/** @returns {Promise<Map<string, string>>} the module and the licences in it, by their names */
+async function buildView() {
+	const { build } = await import('vite');
+	const built = await build({ configFile: CONFIG, logLevel: 'error', build: { write: false } });
+	const { output } = /** @type {Rolldown.RolldownOutput} */ (built);
+	return new Map(output.map((file) => [file.fileName, file.type === 'chunk' ? file.code : `${file.source}`]));
+}
+
+/**
+ * Puts the module on the site, where its page takes it from and visitors copy it; it is built on demand while one develops.
+ *
+ * @returns {Plugin}
+ */
+export function viewPlugin() {
+	/** @type {ReturnType<typeof buildView> | undefined} */
+	let files;
+	return {
+		name: 'furbake-view',
+		configureServer({ middlewares, watcher }) {
+			watcher.on('change', () => {
+				files = undefined;
+			});
+			/** @type {Connect.NextHandleFunction} */
+			const serve = async (request, response, next) => {
+				const { pathname } = new URL(request.url ?? '/', 'http://localhost');
+				if (pathname !== `/${FILE}`) return next();
+				try {
+					files ??= buildView();
+					response.setHeader('Content-Type', 'text/javascript').end((await files).get(FILE));
+				} catch (error) {
+					files = undefined;
+					next(error);
+				}
+			};
+			middlewares.use(serve);
+		},
+		async generateBundle() {
+			for (const [fileName, source] of await buildView()) this.emitFile({ type: 'asset', fileName, source });
+		},
 	};
 }
