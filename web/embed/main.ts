@@ -20,7 +20,6 @@ function copyable(place: HTMLElement, what: string): (text: string) => void {
 		document.createElement('code'),
 		document.createElement('button'),
 	];
-	pre.tabIndex = 0;
 	pre.append(code);
 	button.type = 'button';
 	button.textContent = words.copy;

@@ -9,6 +9,9 @@ const ARROWS: Record<string, [right: number, up: number]> = {
 	ArrowDown: [0, -1],
 };
 
+/** Pixels that a finger moves in a tap. */
+const SLACK = 10;
+
 /** Calls back for arrow keys while `target` is focused. */
 export function arrows(
 	target: GlobalEventHandlers,
@@ -60,6 +63,7 @@ export function listenToDrags(
 	canvas.addEventListener('pointerup', (event) => {
 		// A tap is a drag of length 0.
 		if (event.pointerId !== touched?.id || dragging !== undefined) return;
+		if (Math.hypot(event.clientX - touched.x, event.clientY - touched.y) > SLACK) return;
 		follow(event);
 		end();
 	});

@@ -16,6 +16,12 @@ const TEXTS = ['src', 'preset', 'clip', 'environment', 'alt'] as const;
 const SWITCHES = ['controls', 'paused'] as const;
 const TRIPLES = ['light', 'camera'] as const;
 
+/** Sets an attribute as a property does: frameworks hand over whatever they have. */
+function set(view: HTMLElement, name: string, value: Triple | string | null | undefined): void {
+	if (value === null || value === undefined) view.removeAttribute(name);
+	else view.setAttribute(name, typeof value === 'string' ? value : format(value));
+}
+
 /** As the types promise it; attributes and properties of one name are defined below the class. */
 export interface FurView extends Pick<Face, (typeof TEXTS)[number] | (typeof SWITCHES)[number]> {}
 
@@ -73,16 +79,16 @@ export class FurView extends Base implements Face {
 		return wanted ?? parseLight(this.getAttribute('light')) ?? [...DEFAULT_LIGHT];
 	}
 
-	set light(direction: Triple) {
-		this.setAttribute('light', format(direction));
+	set light(direction: Triple | string) {
+		set(this, 'light', direction);
 	}
 
 	get camera(): Triple {
 		return this.#session?.picture.camera.orbit ?? parseCamera(this.getAttribute('camera')) ?? [...DEFAULT_CAMERA];
 	}
 
-	set camera(orbit: Triple) {
-		this.setAttribute('camera', format(orbit));
+	set camera(orbit: Triple | string) {
+		set(this, 'camera', orbit);
 	}
 
 	get clips(): readonly string[] {
@@ -292,7 +298,7 @@ for (const name of TEXTS)
 			return this.getAttribute(name) ?? '';
 		},
 		set(this: FurView, value: string) {
-			this.setAttribute(name, value);
+			set(this, name, value);
 		},
 	});
 

@@ -85,6 +85,8 @@ export function frame(host: HTMLElement): Frame {
 	const reason = made('p', '');
 	const words = made('div', 'words', slot('fallback', reason));
 	words.setAttribute('role', 'status');
+	// Long words in a small view scroll by keyboard, too.
+	words.tabIndex = 0;
 	const poster = made('div', 'poster', slot('poster'));
 	const [turn, play, reset] = [button(), button(), button()] as const;
 	turn.append(icon('turn'));

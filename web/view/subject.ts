@@ -1,7 +1,7 @@
 /** A model and the fur that it wears, from their addresses. */
 
 import type { LoadingManager } from 'three';
-import { dressFur, type Fur, type FurLimits } from '../fur/index.ts';
+import { dressFur, type FurLimits } from '../fur/index.ts';
 import { loadModel, loadPelt } from '../scene/load.ts';
 import type { Model } from '../scene/model.ts';
 import type { Shown } from './FurPicture.ts';
@@ -68,15 +68,15 @@ export async function dress(model: Model, pelt: Pelt, limits: FurLimits, manager
 	const own = await loadPelt({ url: pelt.url, manager }, limits);
 	const fur = dressFur(model.fur, own, { ...(pelt.tips !== undefined && { tips: pelt.tips }) });
 	model.fur.visible = false;
-	return { model, fur, gloss: pelt.gloss, dispose: () => disposeInTurn([fur, model, own]) };
+	const dispose = () => {
+		// Never drawn, the model's own geometry frees nothing on the GPU: that which was drawn does, while it has its attributes.
+		for (const part of [fur.shells, fur.fins]) part?.dispose();
+		for (const part of [fur, model, own]) part.dispose();
+	};
+	return { model, fur, gloss: pelt.gloss, dispose };
 }
 
 /** A model in its own fur. */
 export function plain(model: Model): Shown {
 	return { model, fur: model.fur, dispose: () => model.dispose() };
-}
-
-/** Frees fur before what it borrows from. */
-function disposeInTurn(parts: (Fur | Model)[]): void {
-	for (const part of parts) part.dispose();
 }

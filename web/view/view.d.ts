@@ -21,9 +21,11 @@ export interface FurView extends HTMLElement {
 	/** Address of a baked `model.gltf`, or of its folder. */
 	src: string;
 	/** Direction from the model to the lamp, world axes: x right, y up, z towards the first camera. */
-	light: Triple;
+	get light(): Triple;
+	set light(direction: Triple | string);
 	/** Azimuth and elevation in degrees, distance in units of the one at which the model fits. */
-	camera: Triple;
+	get camera(): Triple;
+	set camera(orbit: Triple | string);
 	/** Fur to wear: a name of the list `models.json` beside the model's folder, or the address of a pelt. */
 	preset: string;
 	/** Clip to play; without one the model holds still. */

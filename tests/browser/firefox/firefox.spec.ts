@@ -86,6 +86,27 @@ test('a drag takes the light to the other side', async () => {
 	await expect.poll(async () => (([a, b]) => b - a)(await halves())).toBeGreaterThan(3);
 });
 
+test('the tag is lit by drags, and each view has its own light', async () => {
+	await page.goto(`${site}embed.html?lang=en`);
+	await page.waitForFunction(() => document.documentElement.dataset.state === 'ready', { timeout: 60_000 });
+	// The page's own layout is another test's.
+	await page.evaluate(() => {
+		const sheet = new CSSStyleSheet();
+		sheet.replaceSync('#try { position: fixed; z-index: 9; inset: 0; aspect-ratio: auto }');
+		document.adoptedStyleSheets = [sheet];
+		document.querySelector('#try')?.setAttribute('light', '-1,0.2,0.3');
+	});
+	await expect.poll(async () => (([left, right]) => left - right)(await halves())).toBeGreaterThan(3);
+	await page.mouse.move(150, 150);
+	await page.mouse.down();
+	await page.mouse.move(330, 160, { steps: 6 });
+	await page.mouse.up();
+	await expect.poll(async () => (([left, right]) => right - left)(await halves())).toBeGreaterThan(3);
+	const lights = await page.$$eval('fur-view', (views) => views.map((view) => view.getAttribute('light')));
+	expect(Number(lights[0]?.split(',')[0])).toBeGreaterThan(0.5);
+	expect(lights[1]).toBe('0.7,0.5,0.5');
+});
+
 test('two methods stand side by side', async () => {
 	await open(`${TORUS}&light=-1,.2,.3`);
 	const alone = await halves();
