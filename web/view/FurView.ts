@@ -4,23 +4,13 @@ import { DEFAULT_CAMERA, DEFAULT_LIGHT } from '../page/light.ts';
 import { ATTRIBUTES, format, parseCamera, parseLight, type Triple } from './attributes.ts';
 import { type Frame, frame } from './frame.ts';
 import { listenToHands } from './hands.ts';
+import { defineProperties, SWITCHES, set, TEXTS, TRIPLES } from './properties.ts';
 import { Session } from './Session.ts';
 import type { FurView as Face, FurViewState } from './view.d.ts';
 import { type Words, wordsFor } from './words.ts';
 
 /** Node has no elements, and may import this module all the same. */
 const Base = (globalThis.HTMLElement ?? class {}) as typeof HTMLElement;
-
-/** Attributes that are properties of the same name. */
-const TEXTS = ['src', 'preset', 'clip', 'environment', 'alt'] as const;
-const SWITCHES = ['controls', 'paused'] as const;
-const TRIPLES = ['light', 'camera'] as const;
-
-/** Sets an attribute as a property does: frameworks hand over whatever they have. */
-function set(view: HTMLElement, name: string, value: Triple | string | null | undefined): void {
-	if (value === null || value === undefined) view.removeAttribute(name);
-	else view.setAttribute(name, typeof value === 'string' ? value : format(value));
-}
 
 /** As the types promise it; attributes and properties of one name are defined below the class. */
 export interface FurView extends Pick<Face, (typeof TEXTS)[number] | (typeof SWITCHES)[number]> {}
@@ -48,7 +38,7 @@ export class FurView extends Base implements Face {
 		const { canvas, turn, play, reset } = this.#frame;
 		listenToHands(canvas, {
 			turns: () => this.#turns,
-			picture: () => (this.#state === 'ready' ? this.#session?.picture : undefined),
+			picture: () => (this.#session?.picture.shown ? this.#session.picture : undefined),
 			lit: () => this.#moved(),
 			turned: () => {
 				this.#write('camera', format(this.camera));
@@ -163,7 +153,11 @@ export class FurView extends Base implements Face {
 
 	#setState(state: FurViewState): void {
 		this.#state = state;
-		this.#frame.root.dataset.state = state;
+		const { dataset } = this.#frame.root;
+		dataset.state = state;
+		// A picture stays while the next one is loading.
+		if (state === 'ready') dataset.shown = '';
+		else if (state !== 'loading') delete dataset.shown;
 	}
 
 	/** Says what the controls do, and shows those that there are. */
@@ -290,26 +284,4 @@ export class FurView extends Base implements Face {
 	}
 }
 
-for (const name of TEXTS)
-	Object.defineProperty(FurView.prototype, name, {
-		configurable: true,
-		enumerable: true,
-		get(this: FurView) {
-			return this.getAttribute(name) ?? '';
-		},
-		set(this: FurView, value: string) {
-			set(this, name, value);
-		},
-	});
-
-for (const name of SWITCHES)
-	Object.defineProperty(FurView.prototype, name, {
-		configurable: true,
-		enumerable: true,
-		get(this: FurView) {
-			return this.hasAttribute(name);
-		},
-		set(this: FurView, value: boolean) {
-			this.toggleAttribute(name, Boolean(value));
-		},
-	});
+defineProperties(FurView.prototype);

@@ -289,8 +289,17 @@ test('what cannot be had is told in words and by an event; a later address cance
 	await withView(page, (view) => {
 		Object.assign(view, { preset: 'mouse', environment: 'moon', clip: 'Go' });
 	});
-	await expect.poll(heard).toHaveLength(0);
-	await until(page, 'ready');
+	// The picture stays meanwhile.
+	await expect(page.getByText('soon')).toBeHidden();
+	const said: string[] = [];
+	await expect.poll(async () => said.push(...(await heard())) && said.at(-1)).toBe('ready');
+	expect(said).toEqual(
+		expect.arrayContaining([
+			'fur-view: environment: got moon, expected one of studio, city, sky, sunset, forest',
+			'fur-view: clip: got Go, and a model without clips',
+			'fur-view: preset: got mouse, expected one of paper, bunny, fox, wolf, sheep, teddy, mole',
+		]),
+	);
 });
 
 test('a clip plays until it is paused, and is held where less motion is asked for', async ({ page, watch }) => {
