@@ -5,6 +5,7 @@ import { guidePlugin } from './tools/site/guide.mjs';
 import { lesson } from './tools/site/lesson.mjs';
 import { licencesPlugin } from './tools/site/licences.mjs';
 import { fontsPlugin, headersPlugin, shaderPlugin, sharePlugin } from './tools/site/plugins.mjs';
+import { viewPlugin } from './tools/site/view.mjs';
 
 const at = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 const pages = readdirSync(at('.')).filter((name) => name.endsWith('.html'));
@@ -24,6 +25,7 @@ export default defineConfig({
 		shaderPlugin(),
 		fontsPlugin(),
 		licencesPlugin(),
+		viewPlugin(),
 		headersPlugin(),
 		sharePlugin(process.env.SITE_URL),
 	],

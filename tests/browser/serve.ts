@@ -44,7 +44,7 @@ const builtPages = (dist: string): Plugin => ({
 			if (pathname === '/sources.html') request.url = `/index.html${search}`;
 			const path = pathname === '/' ? '/index.html' : pathname;
 			const file = join(dist, decodeURIComponent(path));
-			const built = /^\/((assets|inPage)\/.+|[\w-]+\.html)$/.test(path);
+			const built = /^\/((assets|inPage)\/.+|fur-view\.js|[\w-]+\.html)$/.test(path);
 			if (!built || !statSync(file, { throwIfNoEntry: false })?.isFile()) return next();
 			response.setHeader('Content-Type', TYPES[extname(file)] ?? 'application/octet-stream');
 			response.end(readFileSync(file));

@@ -25,10 +25,10 @@ const MAX_FILES = 15;
 /** Lines of a function; a longer one has a comment in front of it, `Long: ` and the reason. */
 const MAX_LINES = 60;
 /** Rooms of the demo from the ground up; those of one floor do not import each other. Files of a room may, in no circle. */
-const rooms = [['words'], ['state', 'clips'], ['say'], ['open', 'stage'], ['rti'], ['model'], ['hands'], ['panel']];
-const pages = ['demo', 'learn', 'bench'];
+const rooms = [['words'], ['state'], ['say'], ['open', 'stage'], ['rti'], ['model'], ['hands'], ['panel']];
+const pages = ['demo', 'learn', 'bench', 'embed'];
 /** What pages share, and what knows none of them. */
-const shared = ['page', 'measure'];
+const shared = ['page', 'scene', 'view', 'measure'];
 
 const files = readdirSync(web, { recursive: true, encoding: 'utf8' }).map((path) => path.split(sep).join('/'));
 const below = (folder: string) => files.filter((path) => path.startsWith(`${folder}/`) && path.endsWith('.ts'));
@@ -180,6 +180,14 @@ describe('the pages', () => {
 		'%s relights pictures for any page: it takes its own room, what any page may have, three',
 		(path) => {
 			for (const name of imports(path)) expect(name).toMatch(/^(rti\/|page\/|three$)/);
+		},
+	);
+
+	it.each(below('scene'))(
+		'%s shows furry models on any page: it takes packages, its own room, `page/` and the library',
+		(path) => {
+			for (const name of imports(path))
+				expect(name).toMatch(/^(three(\/addons\/.*)?$|@pmndrs\/|(scene|page)\/|fur\/(index|reference)\.ts$)/);
 		},
 	);
 

@@ -1,8 +1,8 @@
 /** Context and type of the lesson's steps. */
 
 import type { Language } from '../page/language.ts';
+import type { Painter } from '../scene/Painter.ts';
 import type { SharedLight } from './light.ts';
-import type { Painter } from './painter.ts';
 import type { Words } from './words/index.ts';
 
 export interface Lesson {

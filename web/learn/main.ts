@@ -4,11 +4,11 @@ import 'katex/dist/katex.min.css';
 import { element, setState } from '../page/element.ts';
 import { fillHeader } from '../page/header.ts';
 import { fillIn, type Language, languageOf } from '../page/language.ts';
+import { MARGIN, Painter } from '../scene/Painter.ts';
 import { action } from './controls.ts';
 import { fillContents } from './guide/contents.ts';
 import type { Lesson, Mount } from './lesson.ts';
 import { SharedLight } from './light.ts';
-import { MARGIN, Painter } from './painter.ts';
 import { WORDS } from './words/index.ts';
 
 const texts: Record<Language, () => Promise<{ default: string }>> = {

@@ -15,10 +15,11 @@ import { fitFurShadow } from '../fur/index.ts';
 import { backdrop } from '../page/backdrop.ts';
 import { daylightSky, KEY_COLOUR } from '../page/daylight.ts';
 import { Lamp, lampDistance } from '../page/lamp.ts';
+import { listenToDrags } from '../scene/drag.ts';
+import type { Picture } from '../scene/Painter.ts';
 import { figureCanvas } from './controls.ts';
-import { lightByHand, lightByKeys, listenToDrags } from './drag.ts';
+import { lightByHand, lightByKeys } from './drag.ts';
 import type { Lesson } from './lesson.ts';
-import type { Picture } from './painter.ts';
 
 /** Vertical field of view, degrees. */
 export const FIELD_OF_VIEW = 24;

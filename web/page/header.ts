@@ -6,6 +6,7 @@ const PAGES = {
 	demo: { file: './', en: 'Demo', zh: '演示' },
 	learn: { file: './learn.html', en: 'Learn', zh: '学习' },
 	bench: { file: './bench.html', en: 'Bench', zh: '测速' },
+	embed: { file: './embed.html', en: 'Embed', zh: '嵌入' },
 	docs: { file: './docs/', en: 'Docs', zh: '文档' },
 } as const;
 

@@ -5,6 +5,11 @@ import { MathUtils, Object3D, Spherical, Vector3 } from 'three';
 /** x, y, z. */
 export type Triple = [number, number, number];
 
+/** First light, from the side: light from the front is flat. */
+export const DEFAULT_LIGHT: Triple = [-0.82, 0.57, -0.02];
+/** First camera: azimuth and elevation in degrees, distance in units of the one at which the model fits. */
+export const DEFAULT_CAMERA: Triple = [0, 8, 1];
+
 const easing = 0.06; // time constant of the light behind a finger, seconds
 const round = 26; // seconds of one turn while drifting
 const arrived = 1e-4; // radians

@@ -2,7 +2,7 @@
 
 import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
-import { CLIPS, type Clip, type Files, rigged } from '../../web/demo/clips/rigged.ts';
+import { CLIPS, type Clip, type Files, rigged } from '../../web/scene/clips/rigged.ts';
 import { expect, open, settled, state, test } from '../harness.ts';
 import { drawNothing } from '../inPage/gpu.ts';
 

@@ -57,7 +57,7 @@ test('every control is reached by the Tab key, and says what it is', async ({ pa
 		reached.add(name.trim());
 	}
 	expect(reached).not.toContain('no name');
-	const header = ['furbake', 'Demo', 'Learn', 'Bench', '中文'];
+	const header = ['furbake', 'Demo', 'Learn', 'Bench', 'Embed', '中文'];
 	const panel = ['Fur', 'Body', 'Model', 'Preset', 'Crowd', 'Light', 'Method', 'Split with', 'Lights', 'Environment'];
 	const hair = ['Hair', 'Auto shells', 'Shells', 'Fins', 'Length', 'Density', 'Root', 'Tip', 'Colours as baked'];
 	const buttons = ['Copy link', 'Save picture', 'Reset', 'Turn camera', 'Line between PTM and Unlit'];

@@ -86,6 +86,31 @@ test('a drag takes the light to the other side', async () => {
 	await expect.poll(async () => (([a, b]) => b - a)(await halves())).toBeGreaterThan(3);
 });
 
+test('the tag is lit by drags, and each view has its own light', async () => {
+	await page.setViewport({ width: 120, height: 90 });
+	await page.goto(`${site}404.html`);
+	await page.evaluate(async () => {
+		const sheet = new CSSStyleSheet();
+		sheet.replaceSync('fur-view { width: 120px; height: 90px }');
+		document.adoptedStyleSheets = [sheet];
+		const view = '<fur-view src="models/torus-512" camera="20,38,0.9" light="-1,0.2,0.3"></fur-view>';
+		document.body.replaceChildren();
+		document.body.insertAdjacentHTML('beforeend', view + view);
+		await import(`${document.baseURI.replace(/[^/]*$/, '')}fur-view.js`);
+	});
+	const ready = () => (document.querySelector('fur-view') as { state?: string } | null)?.state === 'ready';
+	await page.waitForFunction(ready, { timeout: 60_000 });
+	await expect.poll(async () => (([left, right]) => left - right)(await halves())).toBeGreaterThan(3);
+	await page.mouse.move(60, 45);
+	await page.mouse.down();
+	await page.mouse.move(112, 50, { steps: 3 });
+	await page.mouse.up();
+	await expect.poll(async () => (([left, right]) => right - left)(await halves())).toBeGreaterThan(3);
+	const lights = await page.$$eval('fur-view', (views) => views.map((view) => view.getAttribute('light')));
+	expect(Number(lights[0]?.split(',')[0])).toBeGreaterThan(0.5);
+	expect(lights[1]).toBe('-1,0.2,0.3');
+});
+
 test('two methods stand side by side', async () => {
 	await open(`${TORUS}&light=-1,.2,.3`);
 	const alone = await halves();

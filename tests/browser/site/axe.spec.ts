@@ -13,6 +13,7 @@ const PAGES: [file: string, query: string, width: number, height: number][] = [
 	// So high that all figures are in it, and built.
 	['learn.html', '?still=1', 700, 18_000],
 	['bench.html', '?methods=magic', 900, 500],
+	['embed.html', '?', 700, 900],
 	['404.html', '?', 900, 500],
 	// With tables and code that scroll.
 	['docs/options.html', '?', 390, 800],

@@ -127,7 +127,9 @@ test('the built docs are read without a script, on a phone, too', async ({ page 
 
 test('every built page holds the policy, its own files and what a shared link shows', () => {
 	const pages = readdirSync(dist).filter((name) => name.endsWith('.html'));
-	expect(pages).toEqual(expect.arrayContaining(['404.html', 'bench.html', 'example.html', 'index.html', 'learn.html']));
+	expect(pages).toEqual(
+		expect.arrayContaining(['404.html', 'bench.html', 'embed.html', 'example.html', 'index.html', 'learn.html']),
+	);
 	const policies = pages.map((name) => {
 		const html = readFileSync(join(dist, name), 'utf8');
 		const [head = ''] = html.split('</head>');

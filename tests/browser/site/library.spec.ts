@@ -19,6 +19,9 @@ const npm = (...args: string[]) =>
 /** Bytes of the loader in an app, minified, through gzip. */
 const LOADER = 60e3;
 
+/** Bytes of `<fur-view>` with three.js inside, through gzip. */
+const VIEW = 260e3;
+
 /** A folder of someone else's, in which the package is installed as it would be from a registry. */
 let app = '';
 let packed: string[] = [];
@@ -66,10 +69,12 @@ test('the package holds the library, its types and its licences, and nothing els
 			'lib/reference.d.ts',
 			'lib/shared.js',
 			'lib/licenses.md',
+			'lib/fur-view.js',
+			'lib/fur-view.licenses.md',
 		]),
 	);
 	const others = packed.filter((path) => !/^lib\/.*\.d\.ts$/.test(path));
-	expect(others).toHaveLength(7);
+	expect(others).toHaveLength(9);
 	const parts = licencesIn(readFileSync(join(app, 'node_modules', 'furbake', 'lib', 'licenses.md'), 'utf8'));
 	expect([...parts.keys()]).toEqual(['@cfworker/json-schema', 'fflate']);
 	for (const [name, text] of parts) expect(text, name).toContain('Permission is hereby granted');
@@ -79,6 +84,7 @@ test('the package holds the library, its types and its licences, and nothing els
 const USES = `
 import { dressFur, type Fur, FurMotion, FurWeather, furMethod, updateFurs } from 'furbake';
 import { type Basis, lightMoments } from 'furbake/reference';
+import { FurView } from 'furbake/view';
 
 export function grow(fur: Fur, pelt: Fur): () => boolean {
 	const other = dressFur(fur, pelt);
@@ -87,6 +93,16 @@ export function grow(fur: Fur, pelt: Fur): () => boolean {
 	furMethod(fur, 'lengyel').apply();
 	fur.length = 0.5 * fur.asset.length;
 	return () => fur.update(0.1) || updateFurs([fur, other], 0);
+}
+
+export function follow(): void {
+	const view = document.querySelector('fur-view');
+	view?.addEventListener('lightchange', ({ detail }) => {
+		view.light = detail.light;
+	});
+	view?.addEventListener('error', ({ message }) => message.trim());
+	const made: FurView = new FurView();
+	made.camera = '0,8,1';
 }
 
 const basis: Basis = { kind: 'ptm' };
@@ -112,6 +128,26 @@ test('an app that loads fur and no more has few bytes of the library', async () 
 	expect(bytes).toBeLessThan(LOADER);
 	// Shaders come without their comments.
 	expect(/\/\/ \w/.test(code)).toBe(false);
+});
+
+test('the tag is one light file with its licences, imports nothing, and is nothing to Node', async () => {
+	const lib = join(app, 'node_modules', 'furbake', 'lib');
+	const code = readFileSync(join(lib, 'fur-view.js'), 'utf8');
+	const bytes = gzipSync(code).length;
+	process.stdout.write(`     fur-view.js: ${(bytes / 1e3).toFixed(1)} kB\n`);
+	expect(bytes).toBeLessThan(VIEW);
+	expect(/\bimport\(/.test(code), 'fetches further modules').toBe(false);
+	expect(code.includes('WebAssembly.instantiate'), 'needs WebAssembly').toBe(false);
+	const parts = licencesIn(readFileSync(join(lib, 'fur-view.licenses.md'), 'utf8'));
+	expect([...parts.keys()]).toEqual(
+		expect.arrayContaining(['@cfworker/json-schema', 'fflate', 'meshoptimizer', 'three']),
+	);
+	const alone = mkdtempSync(join(tmpdir(), 'furbake-alone-'));
+	cpSync(join(lib, 'fur-view.js'), join(alone, 'fur-view.mjs'));
+	const say = "import { FurView } from './fur-view.mjs'; console.log(typeof FurView)";
+	const { stdout } = await run(process.execPath, ['--input-type=module', '-e', say], { cwd: alone });
+	rmSync(alone, { recursive: true });
+	expect(stdout.trim()).toBe('function');
 });
 
 test('example and uses compile strictly against the packed types', async () => {

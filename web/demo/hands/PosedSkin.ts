@@ -10,7 +10,7 @@ import {
 	SkinnedMesh,
 	Sphere,
 } from 'three';
-import { PosedVertices } from '../clips/PosedVertices.ts';
+import { PosedVertices } from '../../scene/clips/PosedVertices.ts';
 
 /** A mesh, and its copy in the world where bones and morph targets have brought it. */
 interface Piece {

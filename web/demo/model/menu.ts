@@ -1,12 +1,10 @@
 /** The list of models and pelts: `models/models.json`. */
 
 import { MathUtils, Object3D, Vector3 } from 'three';
+import { DEFAULT_CAMERA, DEFAULT_LIGHT } from '../../page/light.ts';
 import { parseAddress } from '../state/address.ts';
 import type { Triple } from '../state/view.ts';
 
-/** From the side: light from the front is flat. */
-export const DEFAULT_LIGHT: Triple = [-0.82, 0.57, -0.02];
-const DEFAULT_CAMERA: Triple = [0, 8, 1];
 const CROWD_CAMERA: Triple = [10, 13, 0.5];
 
 /** An entry of the list: a model, or a pelt that models can be dressed in. */

@@ -1,10 +1,10 @@
 /** Outfits of a model: which pelt it is dressed in, and which method lights it. */
 
 import type { Fur, FurLimits, FurMethodName } from '../../fur/index.ts';
+import { loadPelt, sourceAt } from '../../scene/load.ts';
 import { notice } from '../say/notice.ts';
 import { isRival, type Method, type View } from '../state/view.ts';
 import { words } from '../words/index.ts';
-import { loadPelt, sourceAt } from './load.ts';
 import type { Outfit } from './looks.ts';
 import { type MenuEntry, pelts } from './menu.ts';
 

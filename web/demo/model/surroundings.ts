@@ -1,9 +1,9 @@
 /** The environment around the model, by name. */
 
-import { loadEnvironment } from '../stage/environment.ts';
+import { DEFAULT_LIGHT } from '../../page/light.ts';
+import { loadEnvironment } from '../../scene/environment.ts';
 import type { Stage } from '../stage/stage.ts';
 import type { EnvironmentName, Triple } from '../state/view.ts';
-import { DEFAULT_LIGHT } from './menu.ts';
 
 export class Surroundings {
 	/** Name of the environment on show. */

@@ -1,6 +1,7 @@
 /** Files without a server, and the model among them. Knows neither page nor zip. */
 
 import { LoadingManager } from 'three';
+import type { Source } from '../../scene/load.ts';
 import { Refused } from './refusal.ts';
 
 /** Files by path: `/` between folders, normal form C. */
@@ -21,14 +22,6 @@ export const LIMITS: Limits = { zip: 100e6, bytes: 300e6, files: 1000 };
 
 /** Depth at which a model is still found: zips often wrap one or two folders. */
 const MAX_DEPTH = 2;
-
-/** Source of a model's files. */
-export interface Source {
-	/** address of the glTF file; the files that it names are sought beside it */
-	url: string;
-	/** loads all of them: it may lead their addresses elsewhere, and counts what has come */
-	manager?: LoadingManager | undefined;
-}
 
 /** Source whose files the page itself holds. */
 export interface OwnSource extends Source {

@@ -4,7 +4,7 @@ import { Box3, type DirectionalLight, Mesh, PlaneGeometry, Quaternion, Vector3 }
 import { disposeAll } from '../../page/dispose.ts';
 import { RelitMaterial } from '../../rti/RelitMaterial.ts';
 import type { Relit } from '../../rti/relit.ts';
-import type { Model } from '../stage/model.ts';
+import type { Model } from '../../scene/model.ts';
 
 /** First view: straight from the front, at which the picture is measured; first lamp: raking, from above left. */
 const CAMERA: [number, number, number] = [0, 0, 1];

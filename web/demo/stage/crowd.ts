@@ -4,10 +4,10 @@ import { Group, InstancedMesh, Matrix4, Vector3 } from 'three';
 import { type Fur, FurInstances } from '../../fur/index.ts';
 import { ContactShadow } from '../../page/ground.ts';
 import { random } from '../../page/random.ts';
-import type { ClipPlayer } from '../clips/ClipPlayer.ts';
+import type { ClipPlayer } from '../../scene/clips/ClipPlayer.ts';
+import { footing } from '../../scene/footing.ts';
+import type { Model } from '../../scene/model.ts';
 import { MAX_CROWD } from '../state/view.ts';
-import { footing } from './footing.ts';
-import type { Model } from './model.ts';
 
 /** Place of a body in units of the room that it takes up, turn in radians, scale. */
 export interface Spot {

@@ -22,11 +22,11 @@ import { daylightSky, KEY_COLOUR, KEY_POWER } from '../../page/daylight.ts';
 import { disposeAll } from '../../page/dispose.ts';
 import { ContactShadow, Ground, SLATE } from '../../page/ground.ts';
 import { setToneMapping } from '../../page/toneMapping.ts';
+import type { Environment } from '../../scene/environment.ts';
+import { footing } from '../../scene/footing.ts';
+import { features, type Model } from '../../scene/model.ts';
 import type { Crowd } from './crowd.ts';
-import type { Environment } from './environment.ts';
-import { footing } from './footing.ts';
 import { Lamps } from './lamps.ts';
-import { features, type Model } from './model.ts';
 import { heightOf, stand } from './stand.ts';
 
 const MAX_PIXEL_RATIO = 2;

@@ -1,7 +1,7 @@
 /** Pose of a moved body: on its foot, and leaning with its offset. */
 
 import { Object3D, Quaternion, Vector3 } from 'three';
-import type { Model } from './model.ts';
+import type { Model } from '../../scene/model.ts';
 
 /** Lean in radians at an offset of the body's height. */
 const LEAN = 0.9;

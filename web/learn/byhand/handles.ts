@@ -1,6 +1,6 @@
 /** Plot with a parabola that hangs on three handles, which are dragged up and down or moved by arrow keys. */
 
-import { arrows } from '../drag.ts';
+import { arrows } from '../../scene/drag.ts';
 import { type Axes, axes, decimal, draw, mark, Plot, line as path } from '../plot/plot.ts';
 import type { Words } from '../words/index.ts';
 import { type Parabola, type Point, parabolaOf, valueAt } from './parabola.ts';

@@ -1,9 +1,9 @@
 /** One lamp over one hair, the curve of its light, and a parabola laid through it by hand. */
 
+import { arrows } from '../../scene/drag.ts';
 import { action, controlRow } from '../controls.ts';
 import { toTile } from '../data/lights.ts';
 import { Selection } from '../data/Selection.ts';
-import { arrows } from '../drag.ts';
 import type { Lesson, Mount } from '../lesson.ts';
 import { lightColour } from '../plot/colours.ts';
 import { layerChoice, line } from '../plot/parts.ts';

@@ -1,10 +1,11 @@
 /** Slices of fur as pictures: a colour per texel, clear without hair; v grows upwards. */
 
 import './panels.css';
+import { arrows, listenToDrags } from '../../scene/drag.ts';
 import { figureCanvas } from '../controls.ts';
 import type { Layer } from '../data/measurements.ts';
 import type { Selection } from '../data/Selection.ts';
-import { arrows, lightByKeys, listenToDrags } from '../drag.ts';
+import { lightByKeys } from '../drag.ts';
 import type { SharedLight } from '../light.ts';
 import type { RGB } from './colours.ts';
 

@@ -1,9 +1,9 @@
 /** The light follows the pose: one vertex's frame and its six moments, before and after its joint turns under the lamp. */
 
+import { arrows, listenToDrags } from '../../scene/drag.ts';
 import { controlRow, figureCanvas, slider } from '../controls.ts';
 import { seenFromAbove } from '../data/above.ts';
 import { ARTICLE_FORM, loadFurry } from '../data/assets.ts';
-import { arrows, listenToDrags } from '../drag.ts';
 import type { Mount } from '../lesson.ts';
 import { line } from '../plot/parts.ts';
 import { decimal, Plot } from '../plot/plot.ts';

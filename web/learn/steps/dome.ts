@@ -1,9 +1,9 @@
 /** Lamps under which every layer was sampled, and the layer as measured under the lit one. */
 
+import { arrows, listenToDrags } from '../../scene/drag.ts';
 import { controlRow, figureCanvas } from '../controls.ts';
 import { elevationOf, nearest, neighbour, toTile, toWorld } from '../data/lights.ts';
 import { Selection } from '../data/Selection.ts';
-import { arrows, listenToDrags } from '../drag.ts';
 import { ask } from '../guide/ask.ts';
 import { lostAtHorizon } from '../guide/sinking.ts';
 import type { Lesson, Mount } from '../lesson.ts';

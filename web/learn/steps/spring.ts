@@ -1,7 +1,7 @@
 /** The spring of each hair. Its exact step lies on the curve at any length, Euler's diverges. */
 
+import { arrows, listenToDrags } from '../../scene/drag.ts';
 import { action, controlRow, figureCanvas, note, slider } from '../controls.ts';
-import { arrows, listenToDrags } from '../drag.ts';
 import type { Lesson, Mount } from '../lesson.ts';
 import { decimal, legend, Plot, type Scale } from '../plot/plot.ts';
 import { drawRun } from '../swing/drawRun.ts';

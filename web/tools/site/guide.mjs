@@ -151,6 +151,7 @@ ${listOf([
 	['../', 'Demo'],
 	['../learn.html', 'Learn'],
 	['../bench.html', 'Bench'],
+	['../embed.html', 'Embed'],
 	['./', 'Docs', path === CONTENTS ? 'page' : 'true'],
 ])}
 </nav></header>

@@ -16,7 +16,7 @@ import { Failure, root } from '../process.mjs';
  * @property {string} [text] of its licence, if the package holds it
  */
 
-const [LISTED, WRITTEN] = ['licenses.json', 'licenses.md'];
+const LISTED = 'licenses.json';
 
 /** @param {string} file */
 const notice = (file) => readFileSync(new URL(`./notices/${file}`, import.meta.url), 'utf8').trim();
@@ -53,11 +53,12 @@ function authorOf(name) {
 }
 
 /**
- * Writes `licenses.md` beside what is built.
+ * Writes the licence texts beside what is built.
  *
+ * @param {string} [written] name of their file
  * @returns {Plugin}
  */
-export function licencesPlugin() {
+export function licencesPlugin(written = 'licenses.md') {
 	return {
 		name: 'furbake-licences',
 		apply: 'build',
@@ -83,7 +84,7 @@ export function licencesPlugin() {
 				if (files.some(({ fileName }) => /KaTeX_[\w-]+\.woff2$/.test(fileName)))
 					parts.push({ title: 'Fonts of katex (OFL-1.1)', text: notice('katex-fonts.txt') });
 				delete bundle[LISTED];
-				this.emitFile({ type: 'asset', fileName: WRITTEN, source: licenceList(parts) });
+				this.emitFile({ type: 'asset', fileName: written, source: licenceList(parts) });
 			},
 		},
 	};

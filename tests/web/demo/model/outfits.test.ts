@@ -4,8 +4,8 @@ import { type DressTarget, fineOutfits } from '../../../../web/demo/model/outfit
 import type { View } from '../../../../web/demo/state/view.ts';
 
 const { loadPelt } = vi.hoisted(() => ({ loadPelt: vi.fn(async ({ url }: { url: string }) => ({ url })) }));
-vi.mock('../../../../web/demo/model/load.ts', async (original) => ({
-	...(await original<typeof import('../../../../web/demo/model/load.ts')>()),
+vi.mock('../../../../web/scene/load.ts', async (original) => ({
+	...(await original<typeof import('../../../../web/scene/load.ts')>()),
 	loadPelt,
 }));
 vi.mock('../../../../web/demo/say/notice.ts', () => ({ notice: () => {} }));

@@ -4,18 +4,21 @@
  */
 
 import { Color, type DataTexture, FloatType, type LightProbe, Vector3 } from 'three';
-import { type FurLamp, furEnvironment } from '../../fur/index.ts';
-import { luminance, visitEnvironment } from '../../fur/reference.ts';
-import type { EnvironmentName } from '../state/view.ts';
+import { type FurLamp, furEnvironment } from '../fur/index.ts';
+import { luminance, visitEnvironment } from '../fur/reference.ts';
 import { blurred, groundAlbedo } from './panorama.ts';
 
-const FILES: Record<EnvironmentName, () => Promise<{ default: string }>> = {
+/** Modules of the panoramas' files, by name. */
+export const PANORAMAS = {
 	studio: () => import('@pmndrs/assets/hdri/studio.exr.js'),
 	city: () => import('@pmndrs/assets/hdri/city.exr.js'),
 	sky: () => import('@pmndrs/assets/hdri/sky.exr.js'),
 	sunset: () => import('@pmndrs/assets/hdri/sunset.exr.js'),
 	forest: () => import('@pmndrs/assets/hdri/forest.exr.js'),
-};
+} satisfies Record<string, () => Promise<{ default: string }>>;
+
+/** Name of an environment. */
+export type EnvironmentName = keyof typeof PANORAMAS;
 
 /** Total light of every environment, radiance times solid angle: as bright as the page's own sky. */
 const TOTAL_LIGHT = 9.75;
@@ -41,10 +44,22 @@ export interface Environment {
 /** @param azimuth of the environment's sun, if any: radians about the upright axis from x towards z */
 export async function loadEnvironment(name: EnvironmentName, azimuth: number): Promise<Environment> {
 	const [{ default: file }, { EXRLoader }] = await Promise.all([
-		FILES[name](),
+		PANORAMAS[name](),
 		import('three/addons/loaders/EXRLoader.js'),
 	]);
 	const texture = await new EXRLoader().setDataType(FloatType).loadAsync(file);
+	const environment = environmentOf(texture, azimuth);
+	texture.dispose();
+	return environment;
+}
+
+/**
+ * Light and picture of a panorama, in units of the page.
+ *
+ * @param texture equirectangular, four floats a texel; it is turned
+ * @param azimuth as of `loadEnvironment`
+ */
+export function environmentOf(texture: DataTexture, azimuth: number): Environment {
 	const [sun] = furEnvironment(texture).lamps;
 	if (sun) turn(texture, azimuth - Math.atan2(sun.direction.z, sun.direction.x));
 	const { probe, lamps } = furEnvironment(texture, 2);
@@ -59,7 +74,6 @@ export async function loadEnvironment(name: EnvironmentName, azimuth: number): P
 	const colour = first ? first.color.clone() : new Color(1, 1, 1);
 	colour.multiplyScalar(Math.max(1, (MIN_KEY_SHARE * TOTAL_LIGHT) / luminance(colour)));
 	const background = blurred(texture, scale);
-	texture.dispose();
 	const ground = groundAlbedo(background, probe, colour, first?.direction ?? OBLIQUE);
 	return { probe, key: { direction: first?.direction, colour }, others, background, ground };
 }

@@ -52,36 +52,63 @@ export class Painter {
 	#requested = false;
 	#before = performance.now();
 
-	readonly #seen = new IntersectionObserver(
-		(changes) => {
-			for (const { target, isIntersecting } of changes) {
-				const entry = this.#entries.get(target);
-				if (entry) entry.visible = isIntersecting;
-			}
-			this.wake();
-		},
-		{ rootMargin: MARGIN },
-	);
+	/** Ends its listeners. */
+	readonly #ended = new AbortController();
+
+	readonly #seen: IntersectionObserver;
+	readonly #onSeen = (changes: IntersectionObserverEntry[]) => {
+		for (const { target, isIntersecting } of changes) {
+			const entry = this.#entries.get(target);
+			if (entry) entry.visible = isIntersecting;
+		}
+		this.wake();
+	};
 
 	readonly #sized = new ResizeObserver((changes) => {
 		for (const { target } of changes) this.#fit(target as HTMLCanvasElement);
 	});
 
-	constructor() {
+	/** @param margin around the window within which pictures are drawn, as of an IntersectionObserver */
+	constructor(margin = MARGIN) {
+		this.#seen = new IntersectionObserver(this.#onSeen, { rootMargin: margin });
 		this.#output = output();
 		const canvas = this.#output?.renderer.domElement;
-		canvas?.addEventListener('webglcontextlost', () => {
+		const { signal } = this.#ended;
+		const lost = () => {
 			// Free now: later three would ask the new context to delete objects of the old one.
-			for (const scene of this.#scenes) forget(scene);
+			for (const scene of this.#scenes) free(scene);
 			this.#output?.target.dispose();
 			this.#output?.pass.dispose();
-		});
-		canvas?.addEventListener('webglcontextrestored', () => {
+		};
+		const restored = () => {
 			if (this.#output) this.#output.pass = toScreen();
 			for (const entry of this.#entries.values()) entry.redraw();
-		});
+		};
+		canvas?.addEventListener('webglcontextlost', lost, { signal });
+		canvas?.addEventListener('webglcontextrestored', restored, { signal });
 		// Printing needs all pictures.
-		addEventListener('beforeprint', () => this.#paint(() => true));
+		addEventListener('beforeprint', () => this.#paint(() => true), { signal });
+	}
+
+	/** Frees the GPU objects of a scene that is drawn no more. */
+	forget(scene: Scene): void {
+		free(scene);
+		this.#scenes.delete(scene);
+	}
+
+	/** Frees all GPU objects, and the context with them. Scenes are forgotten before; nothing is drawn afterwards. */
+	dispose(): void {
+		this.#ended.abort();
+		this.#paused = true;
+		this.#seen.disconnect();
+		this.#sized.disconnect();
+		if (!this.#output) return;
+		const { renderer, target, pass } = this.#output;
+		target.dispose();
+		pass.dispose();
+		renderer.dispose();
+		// Without this the context lives until the garbage is collected; browsers allow a page few of them.
+		renderer.forceContextLoss();
 	}
 
 	/** Whether drawing is paused, to leave the machine to a measurement. */
@@ -214,7 +241,7 @@ export class Painter {
 	}
 }
 
-function forget(scene: Scene): void {
+function free(scene: Scene): void {
 	disposeAll(scene);
 	scene.traverse((object) => {
 		if (object instanceof DirectionalLight) object.shadow.dispose();

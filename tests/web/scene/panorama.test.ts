@@ -2,8 +2,8 @@
 
 import { Color, DataTexture, DataUtils, FloatType, LightProbe, RGBAFormat, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
-import { blurred, groundAlbedo } from '../../../../web/demo/stage/panorama.ts';
-import { visitEnvironment } from '../../../../web/fur/reference.ts';
+import { visitEnvironment } from '../../../web/fur/reference.ts';
+import { blurred, groundAlbedo } from '../../../web/scene/panorama.ts';
 
 const [WIDTH, HEIGHT] = [128, 64];
 

@@ -2,7 +2,7 @@
 
 import { Box3, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
-import { ClipPlayer } from '../../../../web/demo/clips/ClipPlayer.ts';
+import { ClipPlayer } from '../../../../web/scene/clips/ClipPlayer.ts';
 import { limb } from './body.ts';
 
 function player() {

@@ -2,10 +2,17 @@
 
 import { type AnimationClip, Box3, type LoadingManager, Mesh, type Object3D, SkinnedMesh, Vector3 } from 'three';
 import { type GLTF, GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
-import { type Fur, type FurLimits, FurLoaderPlugin } from '../../fur/index.ts';
-import { disposeAll } from '../../page/dispose.ts';
-import type { Source } from '../open/files.ts';
-import type { Model } from '../stage/model.ts';
+import { type Fur, type FurLimits, FurLoaderPlugin } from '../fur/index.ts';
+import { disposeAll } from '../page/dispose.ts';
+import type { Model } from './model.ts';
+
+/** Source of a model's files. */
+export interface Source {
+	/** address of the glTF file; the files that it names are sought beside it */
+	url: string;
+	/** loads all of them: it may lead their addresses elsewhere, and counts what has come */
+	manager?: LoadingManager | undefined;
+}
 
 export interface ModelOptions {
 	/**
@@ -75,7 +82,7 @@ export async function loadPelt(source: Source, limits: FurLimits): Promise<Fur> 
 	return fur;
 }
 
-const importPlayer = () => import('../clips/ClipPlayer.ts');
+const importPlayer = () => import('./clips/ClipPlayer.ts');
 
 /** Makes a model without its fur, which is not in the scene yet. */
 async function modelOf(object: Object3D, animations: readonly AnimationClip[]): Promise<Model> {

@@ -2,8 +2,8 @@
 
 import { Box3, BufferAttribute, BufferGeometry, Group, Mesh, Vector3 } from 'three';
 import { describe, expect, it } from 'vitest';
-import { footing } from '../../../../web/demo/stage/footing.ts';
-import type { Fur } from '../../../../web/fur/index.ts';
+import type { Fur } from '../../../web/fur/index.ts';
+import { footing } from '../../../web/scene/footing.ts';
 
 const box = new Box3(new Vector3(-1, 0, -1), new Vector3(1, 2, 1));
 

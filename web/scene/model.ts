@@ -1,9 +1,8 @@
 /** A model in memory, as the stage shows it. */
 
 import { type Box3, Mesh, type Object3D } from 'three';
-import type { Fur } from '../../fur/index.ts';
-import type { ClipPlayer } from '../clips/ClipPlayer.ts';
-import type { Triple } from '../state/view.ts';
+import type { Fur } from '../fur/index.ts';
+import type { ClipPlayer } from './clips/ClipPlayer.ts';
 
 export interface Model {
 	object: Object3D;
@@ -18,7 +17,7 @@ export interface Model {
 	/** radius of the sphere around the box's centre that holds the skin */
 	readonly radius: number;
 	/** first view and light of a picture that is relit; undefined for a body */
-	first?: { camera: Triple; light: Triple };
+	first?: { camera: [number, number, number]; light: [number, number, number] };
 	dispose(): void;
 }
 

@@ -14,7 +14,7 @@ import {
 	RGBAFormat,
 	Vector3,
 } from 'three';
-import { luminance, visitEnvironment } from '../../fur/reference.ts';
+import { luminance, visitEnvironment } from '../fur/reference.ts';
 
 /** Largest width of the picture, texels. */
 const MAX_WIDTH = 512;

@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest';
-import { clipNames } from '../../../../web/demo/clips/names.ts';
+import { clipNames } from '../../../../web/scene/clips/names.ts';
 
 it.each([
 	[

@@ -1,8 +1,8 @@
 /** Where a furry body stands. */
 
 import { Matrix4, Vector3 } from 'three';
-import type { Fur } from '../../fur/index.ts';
-import type { LowPoint, Reach } from '../clips/Reach.ts';
+import type { Fur } from '../fur/index.ts';
+import type { LowPoint, Reach } from './clips/Reach.ts';
 import type { Model } from './model.ts';
 
 /** Share of the hairs' length that the body's weight leaves below the skin. */

@@ -1,6 +1,6 @@
 import { expect, it } from 'vitest';
-import { loadModel } from '../../../../web/demo/model/load.ts';
-import { golden, restoreNetwork, serve } from '../../fur/loading/assets.ts';
+import { loadModel } from '../../../web/scene/load.ts';
+import { golden, restoreNetwork, serve } from '../fur/loading/assets.ts';
 
 restoreNetwork();
 

@@ -1,0 +1,113 @@
+/** Elements in the shadow of a view: canvas, poster, words and controls. */
+
+import css from './style.css?inline';
+import type { Words } from './words.ts';
+
+const ICONS = {
+	turn: ['M4 12c0-2.2 3.6-4 8-4s8 1.8 8 4-3.6 4-8 4', 'm14.5 13-3 3 3 3'],
+	play: ['M8 5.5v13l10-6.5z'],
+	pause: ['M8.5 6v12M15.5 6v12'],
+	reset: ['M5 12a7 7 0 1 0 2.1-5', 'M4.5 4.5 7 7.2l2.9-2.4'],
+} as const;
+
+/** What the element writes into. */
+export interface Frame {
+	readonly root: HTMLElement;
+	readonly canvas: HTMLCanvasElement;
+	readonly turn: HTMLButtonElement;
+	readonly play: HTMLButtonElement;
+	readonly reset: HTMLButtonElement;
+	readonly tools: HTMLElement;
+	/** Writes the words; what the page says takes their place. */
+	say(words: Words, alt: string | null, playing: boolean): void;
+	/** Writes why there is no picture; read out where it comes later. */
+	explain(text: string): void;
+}
+
+let sheet: CSSStyleSheet | undefined;
+
+/** One style sheet for all views: made by script, as a policy may forbid those in the markup. */
+function styles(): CSSStyleSheet {
+	if (!sheet) {
+		sheet = new CSSStyleSheet();
+		sheet.replaceSync(css);
+	}
+	return sheet;
+}
+
+function made<K extends keyof HTMLElementTagNameMap>(tag: K, className: string, ...children: Node[]) {
+	const element = document.createElement(tag);
+	if (className) element.className = className;
+	element.append(...children);
+	return element;
+}
+
+function slot(name: string, ...children: Node[]): HTMLSlotElement {
+	const element = made('slot', '', ...children);
+	element.name = name;
+	return element;
+}
+
+function icon(name: keyof typeof ICONS): SVGSVGElement {
+	const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
+	svg.setAttribute('viewBox', '0 0 24 24');
+	svg.setAttribute('aria-hidden', 'true');
+	for (const d of ICONS[name]) {
+		const path = document.createElementNS('http://www.w3.org/2000/svg', 'path');
+		path.setAttribute('d', d);
+		svg.append(path);
+	}
+	return svg;
+}
+
+function button(): HTMLButtonElement {
+	const element = made('button', '');
+	element.type = 'button';
+	return element;
+}
+
+function name(element: HTMLElement, text: string): void {
+	element.setAttribute('aria-label', text);
+	element.title = text;
+}
+
+/** Fills an element's shadow. */
+export function frame(host: HTMLElement): Frame {
+	const shadow = host.attachShadow({ mode: 'open' });
+	shadow.adoptedStyleSheets = [styles()];
+	const canvas = made('canvas', '');
+	canvas.tabIndex = 0;
+	// It takes the arrow keys for itself, as on the demo page.
+	canvas.setAttribute('role', 'application');
+	canvas.setAttribute('aria-describedby', 'hint');
+	const hint = made('p', 'hidden');
+	hint.id = 'hint';
+	const reason = made('p', '');
+	const words = made('div', 'words', slot('fallback', reason));
+	words.setAttribute('role', 'status');
+	// Long words in a small view scroll by keyboard, too.
+	words.tabIndex = 0;
+	const poster = made('div', 'poster', slot('poster'));
+	const [turn, play, reset] = [button(), button(), button()] as const;
+	turn.append(icon('turn'));
+	reset.append(icon('reset'));
+	const tools = made('div', 'tools', turn, play, reset);
+	tools.setAttribute('role', 'group');
+	const root = made('div', '', canvas, poster, words, tools, hint);
+	shadow.append(root);
+	return {
+		...{ root, canvas, turn, play, reset, tools },
+		say(words, alt, playing) {
+			canvas.setAttribute('aria-label', alt || words.label);
+			hint.textContent = words.hint;
+			name(tools, words.controls);
+			name(turn, words.turn);
+			name(reset, words.reset);
+			name(play, playing ? words.pause : words.play);
+			play.replaceChildren(icon(playing ? 'pause' : 'play'));
+		},
+		explain(text) {
+			reason.textContent = text;
+		},
+	};
+}
