@@ -8,9 +8,9 @@
 import { CustomToneMapping, ShaderChunk, type WebGLRenderer } from 'three';
 
 /** Largest channel, linear, up to which nothing changes. */
-const SHOULDER = 0.6;
+export const SHOULDER = 0.6;
 /** Paling per unit of light that the curve has taken away. */
-const PALING = 0.03;
+export const PALING = 0.03;
 
 const NONE = 'vec3 CustomToneMapping( vec3 color ) { return color; }';
 const CURVE = /* glsl */ `
@@ -22,17 +22,6 @@ vec3 CustomToneMapping(vec3 color) {
 	float shown = 1.0 - (1.0 - shoulder) * (1.0 - shoulder) / (peak + 1.0 - 2.0 * shoulder);
 	float kept = 1.0 / (1.0 + ${PALING} * (peak - shown));
 	return mix(vec3(shown), color * (shown / peak), kept);
-}`;
-
-/** GLSL of the reverse, for pictures that are to be seen as they are; nothing reaches white quite. */
-export const UNMAPPED = /* glsl */ `
-vec3 unmapped(vec3 shown) {
-	const float shoulder = ${SHOULDER};
-	float top = min(max(shown.r, max(shown.g, shown.b)), 0.995);
-	if (top <= shoulder) return shown;
-	float peak = (1.0 - shoulder) * (1.0 - shoulder) / (1.0 - top) - 1.0 + 2.0 * shoulder;
-	float kept = 1.0 / (1.0 + ${PALING} * (peak - top));
-	return max((shown - (1.0 - kept) * top) / kept, 0.0) * (peak / top);
 }`;
 
 /** Use the pages' tone mapping. Call it before the renderer compiles anything. */

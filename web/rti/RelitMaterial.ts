@@ -10,10 +10,10 @@ import {
 	ShaderMaterial,
 	Vector3,
 } from 'three';
-import { UNMAPPED } from '../page/toneMapping.ts';
 import { held, type Light, type Plane, type Relit } from './relit.ts';
 import fragmentShader from './shaders/relit.frag.glsl?raw';
 import vertexShader from './shaders/relit.vert.glsl?raw';
+import { UNMAPPED } from './unmapped.ts';
 
 /** Bytes of the texture at the most; larger pictures are drawn smaller. */
 const MAX_TEXTURE = 256e6;

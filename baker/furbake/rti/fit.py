@@ -68,8 +68,8 @@ def fit_photographs(photographs: Photographs, kind: str = LRGB, step: Step = lam
             pixels[band].astype(np.float32) for pixels in _counted(photographs, step, top / height, rows / height)
         )
         values, own = fitted(stripes, inverse)
-        for i in range(0, codes.shape[-1], TERMS):
-            codes[band, :, i : i + TERMS] = fitted_bytes(values[..., i : i + TERMS], scale, bias)
+        for i in range(codes.shape[-1]):  # one at a time: a band is large
+            codes[band, :, i] = fitted_bytes(values[..., i], scale[i % TERMS], bias[i % TERMS])
         if colour is not None:
             colour[band] = np.clip(own, 0, FULL)
     step(1.0)
@@ -104,7 +104,8 @@ def _fit_lrgb(stripes: Iterator[Single], inverse: Real) -> tuple[Single, Single]
     brightest = np.zeros_like(first[..., 0])
     for pixels, row in zip(chain([first], stripes), inverse.T.astype(np.float32), strict=True):
         light = pixels @ weights
-        sums += light[..., None] * row
+        for i, share in enumerate(row):  # a product with all of them at once would take six times the memory
+            sums[..., i] += light * share
         colour += pixels
         np.maximum(brightest, light, out=brightest)
     sums *= (FULL / np.maximum(brightest, TINY))[..., None]
@@ -117,7 +118,8 @@ def _fit_rgb(stripes: Iterator[Single], inverse: Real) -> tuple[Single, Single]:
     first = next(stripes)
     sums = np.zeros((*first.shape, TERMS), np.float32)
     for pixels, row in zip(chain([first], stripes), inverse.T.astype(np.float32), strict=True):
-        sums += pixels[..., None] * row
+        for i, share in enumerate(row):
+            sums[..., i] += pixels * share
     return sums.reshape(*first.shape[:-1], 3 * TERMS), np.zeros(3, np.float32)
 
 

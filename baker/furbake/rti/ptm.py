@@ -177,5 +177,5 @@ def byte_header(low: Array, high: Array) -> tuple[Array, Array]:
 
 
 def fitted_bytes(coefficients: NDArray[np.floating[Any]], scale: Array, bias: Array) -> Bytes:
-    """Bytes of coefficients (..., C)."""
+    """Bytes of coefficients (..., C), or of one (...) with its λ and Ω."""
     return np.clip(np.rint(coefficients / scale + bias), 0, 255).astype(np.uint8)
