@@ -153,8 +153,8 @@ BAD_COMMANDS = {
     ("validate", "nope"): "nope: no such folder, expected a folder that furbake wrote",
     (
         "fry",
-    ): "command: got 'fry', expected bake, inspect, validate, presets, report, swatch, lesson, verify, compare, states",
-    (): "COMMAND: missing, expected furbake bake, inspect, validate, presets, report, swatch, lesson, verify, ",
+    ): "command: got 'fry', expected bake, batch, inspect, validate, presets, report, swatch, lesson, verify, compare, states",
+    (): "COMMAND: missing, expected furbake bake, batch, inspect, validate, presets, report, swatch, lesson, verify, ",
 }
 
 
