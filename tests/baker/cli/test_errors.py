@@ -153,7 +153,7 @@ BAD_COMMANDS = {
     ("validate", "nope"): "nope: no such folder, expected a folder that furbake wrote",
     (
         "fry",
-    ): "command: got 'fry', expected bake, batch, inspect, validate, presets, report, swatch, lesson, verify, compare, states",
+    ): "command: got 'fry', expected bake, batch, inspect, validate, presets, report, swatch, lesson, verify, compare, ",
     (): "COMMAND: missing, expected furbake bake, batch, inspect, validate, presets, report, swatch, lesson, verify, ",
 }
 
