@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -56,10 +57,6 @@ def connected(scheduler: str, workers: int) -> Iterator[Any]:
             f"scheduler: nobody answers at {scheduler} ({type(error).__name__}), expected a Dask scheduler there"
         ) from None
     with client:
-        try:
-            client.wait_for_workers(1, timeout=PATIENCE)
-        except TimeoutError:
-            raise ClusterError(f"{scheduler}: no worker within {PATIENCE} s, expected one or more") from None
         ours = versions()
         for where, theirs in _asked(client, versions).items():
             compare(where, theirs, ours)
@@ -78,14 +75,17 @@ def check_shared(client: Any, folder: Path) -> None:
 
 def _asked(client: Any, question: Callable[[], Any]) -> Mapping[str, Any]:
     """Answer of each worker but of those that are lost meanwhile. Raises ClusterError where one has none, or all."""
-    found: dict[str, Any] = {}
-    for where, answer in client.run(question, on_error="return").items():
-        if isinstance(answer, OSError):  # its connection
-            continue
-        if isinstance(answer, Exception):
-            text = f"{type(answer).__name__}: {' '.join(str(answer).split())}"
-            raise ClusterError(f"{where}: no furbake that answers ({text}), expected the same as here")
-        found[where] = answer
-    if not found:
-        raise ClusterError("workers: none answers, expected one or more")
-    return found
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end:
+        found: dict[str, Any] = {}
+        for where, answer in client.run(question, on_error="return").items():
+            if isinstance(answer, OSError):  # its connection
+                continue
+            if isinstance(answer, Exception):
+                text = f"{type(answer).__name__}: {' '.join(str(answer).split())}"
+                raise ClusterError(f"{where}: no furbake that answers ({text}), expected the same as here")
+            found[where] = answer
+        if found:
+            return found
+        time.sleep(0.2)
+    raise ClusterError(f"{client.scheduler.address}: no worker within {PATIENCE} s, expected one or more")

@@ -70,18 +70,18 @@ def test_workers_of_another_version_are_refused(tmp_path: Path) -> None:
 
 @whole
 def test_ten_killed_workers_of_a_batch_cost_nothing(tmp_path: Path) -> None:
-    made = models(tmp_path / "models", 12, 1)
+    made = models(tmp_path / "models", 6, 1)
     expected = one_by_one(made, tmp_path / "one")
     chance, hit = Random(5), 0
     for turn in range(10):
         with workers(tmp_path / f"workers{turn}", 3) as crew:
             out = tmp_path / f"out{turn}"
             batch = started(tmp_path / "models", "-o", out, "--scheduler", crew.address, *(["--send"] * (turn % 2)))
-            time.sleep(chance.uniform(2.0, 6.0))
+            time.sleep(chance.uniform(0.5, 5.0))
             hit += batch.poll() is None
             crew.processes[1 + turn % 3].kill()
-            batch.communicate()
-        assert batch.returncode == 1
+            _, err = batch.communicate()
+        assert batch.returncode == 1, err
         assert contents(out) == expected
     assert hit > 5
 

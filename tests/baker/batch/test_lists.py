@@ -29,6 +29,7 @@ BAD = {
     "[[model]]\nfile = 'a.obj'\nset = 3": "list.toml: model 1: set: got 3, expected a table such as",
     "[[model]]\nfile = '*.obj'\nname = 'x'": "list.toml: model 1: name: got 'x' for 2 models, expected one",
     "[[model]]\nfile = 'a.obj'\nname = '../x'": "name: got '../x' of a.obj, expected one that a folder can have",
+    '[[model]]\nfile = "a.obj"\nname = "a\\u0001"': "name: got 'a\\x01' of a.obj, expected one that a folder can",
     "[[model]]\nfile = 'a.obj'\nname = 'index.html'": "name: got 'index.html' of a.obj, expected one that",
     "[[model]]\nfile = 'a.obj'\n[[model]]\nfile = 'b.obj'\nname = 'A'": "A: named so by a.obj and by b.obj, expected",
 }
@@ -80,7 +81,7 @@ def test_bad_arguments_get_a_sentence(run: Callable[..., Any], arguments: tuple[
 
 def test_each_model_has_its_own_options(run: Callable[..., Any]) -> None:
     Path("list.toml").write_text(
-        "seed = 3\n[[model]]\nfile = ['a.obj', 'b.obj']\n"
+        "seed = 3\n[[model]]\nfile = '*'\n"
         "[[model]]\nfile = 'torus:4x4'\nname = 'ring'\nlength = 0.25\nfins = false\nset = { coat.clumps = 7 }\n"
     )
     done = run("batch", "list.toml", "-o", "out", *SETTINGS, "--json", "--no-cache", "--jobs", "1")

@@ -151,10 +151,8 @@ BAD_COMMANDS = {
     ("inspect", "nope"): "nope: no such folder, expected a folder that furbake wrote",
     ("inspect", "folder"): "model.gltf: no such file or directory, expected JSON",
     ("validate", "nope"): "nope: no such folder, expected a folder that furbake wrote",
-    (
-        "fry",
-    ): "command: got 'fry', expected bake, inspect, validate, presets, report, swatch, lesson, verify, compare, states",
-    (): "COMMAND: missing, expected furbake bake, inspect, validate, presets, report, swatch, lesson, verify, ",
+    ("fry",): "command: got 'fry', expected bake, batch, inspect, validate, presets, report, swatch, lesson, verify, ",
+    (): "COMMAND: missing, expected furbake bake, batch, inspect, validate, presets, report, swatch, lesson, verify, ",
 }
 
 

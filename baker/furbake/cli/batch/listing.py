@@ -20,7 +20,7 @@ from furbake.options.bake_options import FILES, OF_VERTICES
 from furbake.options.knobs import flatten, show
 from furbake.surface.files import read_regular
 from furbake.surface.limits import Budget
-from furbake.surface.read.reading import MESHES, kind_of
+from furbake.surface.read.reading import ARCHIVES, MESHES, kind_of
 from furbake.surface.shapes import is_builtin
 from furbake.surface.soup import MeshError
 
@@ -44,11 +44,12 @@ def listed(places: Sequence[str], out: Path, given: SimpleNamespace, cache: Path
     """
     jobs: dict[str, Job] = {}
     for model, named, options, where in _entries(places):
-        args = SimpleNamespace(**dict.fromkeys(OPTIONS))
-        args.__dict__.update({"preset": given.preset or "paper", **options})
-        args.set = (*given.set, *options.get("set", ()))
+        settings = (*given.set, *options.get("set", ()))
+        args = SimpleNamespace(
+            **{**dict.fromkeys(OPTIONS), "preset": given.preset or "paper", **options, "set": settings}
+        )
         name = named if named is not None else model.replace(":", "-") if is_builtin(model) else Path(model).stem
-        if not name or name in TAKEN or name.startswith(".") or "/" in name or "\\" in name:
+        if name in ("", *TAKEN) or name.startswith(".") or not name.isprintable() or {"/", "\\"} & {*name}:
             raise OptionError(f"name: got {name!r} of {model}, expected one that a folder can have")
         other = jobs.get(name.casefold())
         if other is not None:
@@ -80,7 +81,7 @@ def _models(pattern: str, what: str) -> list[str]:
         found = sorted(str(file) for file in path.iterdir() if kind_of(file.name) in MESHES and file.is_file())
     elif glob.has_magic(pattern) and not path.exists():
         matching = glob.glob(pattern, recursive=True)  # noqa: PTH207 — from any folder
-        found = sorted(file for file in matching if Path(file).is_file())
+        found = sorted(file for file in matching if kind_of(file) in (*MESHES, *ARCHIVES) and Path(file).is_file())
     else:
         return [pattern]  # whether it is there, its own bake says
     if not found:
