@@ -69,10 +69,10 @@ LIGHT_HEIGHTS_FLAT = (0.9, 0.6, 0.3, 0.15)
 FAINT = 0.1
 """Share of the greatest brightness that is added to the scale of relative errors."""
 
-EACH_SLAB = 0.3
+EACH_SLAB = 0.6
 """Weight of a slab's own error beside that of the sum of them."""
 
-RIDGE = 1e-4
+RIDGE = 3e-4
 """Regularisation, share of the diagonal: terms that do much the same stay small."""
 
 
@@ -138,7 +138,7 @@ def fit_eye(pelt: Pelt, strands: Strands, coat: Coat, *, flat: bool = False) -> 
     with ThreadPoolExecutor(os.cpu_count()) as workers:
         hairs, seen_hairs = zip(*workers.map(lit.towards, eyes, met), strict=True)
         texels, seen_texels = zip(*workers.map(shown.towards, eyes, met), strict=True)
-    # What an eye sees of them is opaque either way: it is the light of this that counts.
+    # Fur is opaque either way: the light of what an eye sees of it is compared, not how much it sees.
     level = np.array(seen_texels) / np.maximum(seen_hairs, DARK)
     count = [len(some) for some in met]
     pairs = Pairs(
@@ -175,7 +175,7 @@ def fit_pairs(pairs: Pairs, lean: Array) -> EyeLaw:
     """The law that brings texels to hairs: its two factors in turns, each by least squares beside the other."""
     found, whole = terms(pairs.lights, pairs.eyes, lean), pairs.hairs.sum(-1)
     middle = (np.arange(pairs.hairs.shape[1]) + 0.5) / pairs.hairs.shape[1]
-    peak = np.array([0.0, 0.0, WIDTHS[0]])
+    weights, peak = np.zeros((3, TERMS)), np.array([0.0, 0.0, WIDTHS[0]])
     for _ in range(ROUNDS):
         beside_eye = surge(pairs.lights, pairs.eyes, peak)[:, None]
         weights = solve(pairs.hairs, pairs.texels * beside_eye, found, pairs.weight)

@@ -1,4 +1,4 @@
-"""What eyes see of fur from aside: of its hairs, in the fine volume, and of a page's shells that show its texels.
+"""Fur as eyes aside see it: its hairs in the fine volume, and its texels on the shells of a page.
 
 Both are light per area of skin, in the unit of L, slab by slab. A ray from a hair to the eye and one to the light meet
 the same neighbours at first: `shared_depth` is what they share of their optical depths.
