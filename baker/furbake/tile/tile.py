@@ -68,21 +68,19 @@ class Tile:
 
     def fit(self, samples: Sequence[Sampled], step: Step) -> Fitted:
         """Pelts of all states; the first has the laws of bent hairs and of light and eye."""
-        with ThreadPoolExecutor(1) as beside:
-            law = beside.submit(self._eye)
-            (pelt, figures), *others = fit_pelts(samples, self.options)
-            if not self.options.flat:
-                pelt = replace(pelt, bent=fit_bends(pelt, self.strands, self.options.coat, step))
+        (pelt, figures), *others = fit_pelts(samples, self.options)
+        with ThreadPoolExecutor(1) as beside:  # each of the two has gaps in which a core would wait
+            law = beside.submit(self._eye, pelt)
+            bent = None if self.options.flat else fit_bends(pelt, self.strands, self.options.coat, step)
             eye = law.result()
+        pelt = replace(pelt, bent=bent)
         if eye is not None:
             pelt = replace(pelt, eye=eye.weights, surge=eye.surge)
         return [(pelt, figures), *others]
 
-    def _eye(self) -> EyeLaw | None:
+    def _eye(self, pelt: Pelt) -> EyeLaw | None:
         options = self.options
-        if options.curves == "none":
-            return None
-        return fit_eye(self.strands, self.height, options.layers, options.size, options.coat, flat=options.flat)
+        return None if options.curves == "none" else fit_eye(pelt, self.strands, options.coat, flat=options.flat)
 
     def fit_fins(self, dry: Volume, fitted: Fitted) -> Fitted:
         """The same pelts with their fins."""

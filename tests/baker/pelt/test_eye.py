@@ -16,17 +16,30 @@ from furbake.asset.stored import read_pelt
 from furbake.asset.validate import validate
 from furbake.options import BakeOptions, preset
 from furbake.pelt.bent import MIN_FACTOR
-from furbake.pelt.eye import WIDTHS, factor, fit_eye, fit_surge, rings, seen_from, shared_depth, surge, terms
-from furbake.pelt.hairs.strands import grow
-from furbake.pelt.hairs.volume import fine_shape, voxelise
+from furbake.pelt.eye import WIDTHS, Pairs, factor, fit_eye, fit_pairs, fit_surge, rings, surge, terms
+from furbake.pelt.hairs.strands import Strands
+from furbake.pelt.hairs.volume import Volume
 from furbake.pelt.light.fibre import ABOVE
 from furbake.pelt.pelt import Pelt
+from furbake.pelt.seen import LitHairs, ShownTexels, moved, shared_depth
 from furbake.pipeline import bake
 from furbake.surface.place.vertex_fur import VertexFur
 from furbake.surface.shapes import builtin
+from furbake.tile.fitting import fit_pelt
+from furbake.tile.lighting import grown, light
 
-SMALL = replace(preset("paper"), size=16, layers=6)
+SMALL = replace(preset("paper"), size=16, layers=6, lights=32)
 MIDDLE = (np.arange(6) + 0.5) / 6
+
+
+Small = tuple[Pelt, Strands, Volume]
+
+
+@pytest.fixture(scope="module")
+def small() -> Small:
+    """A small pelt, its strands and its fine volume."""
+    strands, fine, volume = grown(SMALL)
+    return fit_pelt(volume, light(fine, SMALL), SMALL)[0], strands, fine
 
 
 def test_terms() -> None:
@@ -73,42 +86,94 @@ def test_rays_share_the_discs_that_both_meet(angle: float) -> None:
         assert joint > 1.3 * apart
 
 
-def test_surge_is_found_again() -> None:
+def around_eyes() -> tuple[np.ndarray, np.ndarray]:
+    """Lights beside four eyes, and the eye of each."""
     eyes = np.repeat(rings((0.9, 0.4), 2)[1:], 4, 0)
     angles = np.tile(np.radians([0, 4, 9, 20]), 4)
     level = np.hypot(eyes[:, 0], eyes[:, 1])
     up = np.column_stack([-eyes[:, :2] / level[:, None] * eyes[:, 2:], level])
-    lights = np.cos(angles)[:, None] * eyes + np.sin(angles)[:, None] * up
+    return np.cos(angles)[:, None] * eyes + np.sin(angles)[:, None] * up, eyes
+
+
+def test_surge_is_found_again() -> None:
+    lights, eyes = around_eyes()
     numbers = np.array([0.3, 0.2, WIDTHS[20]])
-    found = fit_surge(lights, eyes, np.repeat(np.arange(4), 4), 1.1 * surge(lights, eyes, numbers))
+    shown = np.linspace(0.5, 2, len(lights))
+    found = fit_surge(lights, eyes, shown, shown * surge(lights, eyes, numbers), 1 / shown)
     np.testing.assert_allclose(found, numbers, atol=2e-3)
 
 
-def test_numbers_mend_what_eyes_aside_see() -> None:
+def test_both_factors_are_found_together() -> None:
+    """A level that only eyes aside lack is no surge, and a surge is no level."""
+    near = around_eyes()
+    ways = rings((0.9, 0.6, 0.3), 5), rings((0.8, 0.45), 4, 0.7)
+    lights = np.concatenate([np.repeat(ways[0], len(ways[1]), 0), near[0]])
+    eyes = np.concatenate([np.tile(ways[1], (len(ways[0]), 1)), near[1]])
+    texels = 0.2 + np.random.default_rng(2).random((len(lights), 6))
+    weights, peak = np.zeros((3, 12)), np.array([0.4, 0.3, WIDTHS[18]])
+    weights[0, :2] = -0.3, 0.25
+    hairs = texels * factor(lights, eyes, np.zeros(2), MIDDLE, weights) * surge(lights, eyes, peak)[:, None]
+    law = fit_pairs(Pairs(lights, eyes, hairs, texels, 1 / hairs.sum(-1)), np.zeros(2))
+    np.testing.assert_allclose(law.surge, peak, atol=0.06)
+    told = factor(lights, eyes, np.zeros(2), MIDDLE, law.weights) * surge(lights, eyes, law.surge)[:, None]
+    np.testing.assert_allclose((texels * told).sum(-1), hairs.sum(-1), rtol=0.02)
+
+
+def test_images_are_read_between_texels() -> None:
+    image = np.random.default_rng(4).random((2, 8, 8)).astype(np.float32)
+    row, column = 3, 6
+    told = moved(image, np.array([2.25, -1.5]))[:, row, column]
+    rows, columns = np.array([1, 2]), np.array([0, 1])  # row 1.5, column 8.25 of a periodic image
+    near = image[:, rows[:, None], columns]
+    np.testing.assert_allclose(told, np.einsum("nrc,r,c->n", near, [0.5, 0.5], [0.75, 0.25]), rtol=1e-5)
+
+
+@pytest.mark.parametrize("beta", [None, 4.0])
+def test_even_shells_hide_what_is_behind_them(make_pelt: Callable[..., Pelt], beta: float | None) -> None:
+    """Against the shells that a ray meets one after the other, of one coverage everywhere."""
+    pelt = make_pelt()
+    coverage = np.linspace(0.5, 0.1, pelt.layers)
+    even = np.broadcast_to(np.round(255 * coverage)[:, None, None], pelt.alpha.shape)
+    pelt = replace(pelt, alpha=even.astype(np.uint8))
+    eye = np.array([0.48, 0.64, 0.6])
+    radius = (1e5 if beta is None else beta) + (np.arange(pelt.layers) + 0.5) / pelt.layers
+    expected = []
+    for k, r in enumerate(radius):
+        clear = 1.0
+        for alpha, outer in zip(coverage[k + 1 :], radius[k + 1 :], strict=True):
+            clear *= (1 - np.round(255 * alpha) / 255) ** (1 / np.sqrt(1 - (0.8 * r / outer) ** 2))
+        own = 1 - (1 - np.round(255 * coverage[k]) / 255) ** (1 / 0.6)
+        expected.append(clear * own * 0.6 * (r / (radius[0] - 0.5 / pelt.layers)) ** 2)
+    see = ShownTexels(pelt, ABOVE[None], beta).visible(eye)
+    np.testing.assert_allclose(see.mean((1, 2)), expected, rtol=1e-3)
+    np.testing.assert_allclose(np.ptp(see, (1, 2)), 0, atol=1e-5)
+
+
+def test_numbers_mend_what_eyes_aside_see(small: Small) -> None:
     """Under lights and eyes that no fit has seen; twice the same numbers; above nothing changes."""
-    height = SMALL.height_share
-    strands = grow(SMALL.coat, height, SMALL.seed)
-    law = fit_eye(strands, height, 6, 16, SMALL.coat)
+    pelt, strands, fine = small
+    law = fit_eye(pelt, strands, SMALL.coat)
     assert law is not None
-    fine = voxelise(strands, height, *fine_shape(6, 16, height), SMALL.coat.opacity)
     lights, eyes = rings((0.75, 0.45, 0.2), 4, 0.7), rings((0.7, 0.35), 5, 0.2)
-    hairs, texels = seen_from(fine, 6, 16, lights, eyes, SMALL.coat)
-    pairs = np.repeat(lights, len(eyes), 0), np.tile(eyes, (len(lights), 1))
-    told = factor(*pairs, fine.drift[-1] / height, MIDDLE, law.weights).reshape(hairs.shape)
-    seen = hairs.sum(-1)
-    before, after = (np.abs(np.log(part.sum(-1) / seen))[:, 1:] for part in (texels, texels * told))
-    assert after.mean() < 0.4 * before.mean()
-    assert after.mean() < 0.16
-    np.testing.assert_allclose(texels.sum(-1)[:, 0] / seen[:, 0], 1, atol=0.5)  # 16 texels a side are coarse
-    again = fit_eye(strands, height, 6, 16, SMALL.coat)
+    lit, shown = LitHairs(fine, 6, 16, lights, SMALL.coat), ShownTexels(pelt, lights)
+    before, after = [], []
+    for eye in eyes[1:]:
+        (hairs, all_hairs), (texels, all_texels) = (of.towards(eye, np.arange(len(lights))) for of in (lit, shown))
+        pairs = lights, np.repeat(eye[None], len(lights), 0)
+        told = factor(*pairs, fine.drift[-1] / fine.height, MIDDLE, law.weights) * surge(*pairs, law.surge)[:, None]
+        seen = hairs.sum(-1) / all_hairs
+        before.append(np.abs(np.log(texels.sum(-1) / all_texels / seen)))
+        after.append(np.abs(np.log((texels * told).sum(-1) / all_texels / seen)))
+    assert np.mean(after) < 0.4 * np.mean(before)
+    assert np.mean(after) < 0.16
+    again = fit_eye(pelt, strands, SMALL.coat)
     assert again is not None
     np.testing.assert_array_equal(law.weights, again.weights)
     np.testing.assert_array_equal(law.surge, again.surge)
 
 
-def test_the_side_towards_the_light_is_the_brighter_one() -> None:
-    strands = grow(SMALL.coat, SMALL.height_share, SMALL.seed)
-    law = fit_eye(strands, SMALL.height_share, 6, 16, SMALL.coat)
+def test_the_side_towards_the_light_is_the_brighter_one(small: Small) -> None:
+    law = fit_eye(*small[:2], SMALL.coat)
     assert law is not None
     light = np.array([[0.0, -0.8, 0.6]])
     there, against = (
