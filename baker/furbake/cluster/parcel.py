@@ -54,7 +54,8 @@ def packed(job: Job) -> Parcel:
         swatch = Path(job.options.swatch)
         with suppress(RtiError):
             for file in members(swatch):
-                add(f"swatch/{file.relative_to(swatch.parent).as_posix()}", file)
+                inside = file.is_relative_to(swatch.parent)
+                add(f"swatch/{file.relative_to(swatch.parent).as_posix() if inside else file.name}", file)
     return Parcel(files, places)
 
 

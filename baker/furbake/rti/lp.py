@@ -6,7 +6,9 @@ Such files are made by hand and on other machines: names have spaces and folders
 from __future__ import annotations
 
 import math
+import os
 import re
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,6 +19,9 @@ from furbake.rti.relit import Array, RtiError
 from furbake.surface.files import beside, nearby
 
 COMMENT = ("#", ";", "//")
+
+EXPORTS = "jpeg-exports"
+"""Folder in which RTIBuilder keeps photographs, beside the one of its lists."""
 
 MOST = 10_000
 """Photographs of one list."""
@@ -78,7 +83,7 @@ def _entry(line: str, number: int, name: str) -> tuple[str, Array]:
 
 
 def find(path: Path, name: str) -> Path | None:
-    """The photograph of that name beside the list at `path`; None where there is none."""
+    """The photograph of that name beside the list at `path`, or where RTIBuilder keeps it; None where there is none."""
     for near in nearby(name):
         try:
             place = beside(path, near)
@@ -87,10 +92,12 @@ def find(path: Path, name: str) -> Path | None:
         except (OSError, ValueError):
             continue
     wanted = nearby(name)[-1].casefold()  # Windows takes another case for the same name
-    try:
-        return next((entry for entry in sorted(path.parent.iterdir()) if entry.name.casefold() == wanted), None)
-    except OSError:
-        return None
+    for folder in (path.parent, path.parent / EXPORTS, Path(os.path.realpath(path.parent)).parent / EXPORTS):
+        with suppress(OSError):
+            for entry in sorted(folder.iterdir()):
+                if entry.name.casefold() == wanted:
+                    return entry
+    return None
 
 
 def _short(line: str) -> str:

@@ -25,6 +25,15 @@ def test_photographs_are_sent_with_their_list(tmp_path: Path) -> None:
         assert sent == {"felt.lp", "photos/a.jpg", "b.jpg"}
 
 
+def test_photographs_of_another_folder_lie_beside_their_list(tmp_path: Path) -> None:
+    for folder in ("lists", "jpeg-exports"):
+        (tmp_path / folder).mkdir()
+    (tmp_path / "lists" / "felt.lp").write_text("1\n../jpeg-exports/a.jpg 0 0 1\n")
+    (tmp_path / "jpeg-exports" / "a.jpg").write_bytes(b"a")
+    job = Job("ball", "sphere", BakeOptions(swatch=str(tmp_path / "lists" / "felt.lp")), tmp_path / "out")
+    assert sorted(packed(job).files) == ["swatch/a.jpg", "swatch/felt.lp"]
+
+
 def test_list_that_cannot_be_read_is_left_to_the_bake(tmp_path: Path) -> None:
     (tmp_path / "felt.lp").write_text("many\n")
     job = Job("ball", "sphere", BakeOptions(swatch=str(tmp_path / "felt.lp")), tmp_path / "out")

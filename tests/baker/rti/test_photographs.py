@@ -66,6 +66,21 @@ def test_photographs_outside_the_folder_are_not_read(tmp_path: Path) -> None:
     assert read_photographs(path).notices == (f"{path}: not found beside it: ../photo 00.png: left out",)
 
 
+@pytest.mark.parametrize("inside", [True, False])
+def test_photographs_are_found_where_rtibuilder_keeps_them(tmp_path: Path, inside: bool) -> None:
+    lists = tmp_path / "assembly-files"
+    lists.mkdir()
+    path = photographed(lists, lamps(8))
+    exports = (lists if inside else tmp_path) / "jpeg-exports"
+    exports.mkdir()
+    for photograph in lists.glob("*.png"):
+        shutil.move(photograph, exports)
+    path.write_text(path.read_text().replace("photo ", "C:\\\\rti\\\\jpeg-exports\\\\PHOTO "))
+    found = read_photographs(path)
+    assert found.notices == ()
+    assert [photograph.parent for photograph in found.paths] == [exports] * 8
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
