@@ -13,6 +13,7 @@ ROOT = Path(furbake.__file__).parent
 MODULES = sorted(ROOT.rglob("*.py"))
 
 FLOORS: dict[str, set[str]] = {
+    "byte_units": set(),
     "cores": set(),
     "apart": set(),
     "pelt/hairs": set(),
@@ -24,7 +25,7 @@ FLOORS: dict[str, set[str]] = {
     "surface/repair": {"surface/soup"},
     "surface/rig": {"surface/soup", "surface/repair"},
     "surface/material": {"surface/soup", "surface/repair"},
-    "surface/limits": {"surface/soup"},
+    "surface/limits": {"surface/soup", "byte_units"},
     "surface/files": {"surface/limits", "surface/soup"},
     "surface/colours": {"surface/soup", "surface/material", "surface/limits"},
     "surface/read": {f"surface/{name}" for name in ("soup", "rig", "material", "colours", "repair", "limits", "files")},
@@ -63,6 +64,7 @@ FLOORS: dict[str, set[str]] = {
         "show",
         "study",
         "page",
+        "byte_units",
         "cores",
         "freshness",
         "batch",

@@ -7,8 +7,8 @@ from typing import Any
 
 import click
 
+from furbake.byte_units import BYTE_UNITS
 from furbake.options.knobs import Knob
-from furbake.surface.limits import UNITS
 
 
 class Whole(click.ParamType[int]):
@@ -51,7 +51,7 @@ class Size(click.ParamType[int]):
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
         """The number. Fails for anything else."""
         found = re.fullmatch(r"(\d+(?:\.\d+)?)([KMG]?)B?", str(value).strip().upper(), re.ASCII)
-        bytes_ = int(float(found[1]) * UNITS[found[2]]) if found else 0
+        bytes_ = int(float(found[1]) * BYTE_UNITS[found[2]]) if found else 0
         if bytes_ < 1:
             self.fail(f"got {value!r}, expected a number of bytes such as 8G or 500M", param, ctx)
         return bytes_

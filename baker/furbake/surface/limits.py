@@ -9,11 +9,10 @@ import os
 import re
 from dataclasses import dataclass, fields, replace
 
+from furbake.byte_units import BYTE_UNITS
 from furbake.surface.soup import MeshError
 
 VARIABLE = "FURBAKE_LIMITS"
-
-UNITS = {"": 1, "K": 10**3, "M": 10**6, "G": 10**9}
 
 PER_BYTE = 4
 """Numbers that a model may ask for beside the bound, for each byte that is read."""
@@ -87,5 +86,5 @@ def limits() -> Limits:
             raise MeshError(
                 f"{VARIABLE}: got {part!r}, expected NAME=NUMBER with one of {', '.join(names)}, such as bytes=2G"
             )
-        found = replace(found, **{match[1]: min(int(match[2]) * UNITS[match[3]], MOST)})
+        found = replace(found, **{match[1]: min(int(match[2]) * BYTE_UNITS[match[3]], MOST)})
     return found

@@ -1,4 +1,4 @@
-"""What a bake reads is what is sent along with it."""
+"""Parcels: all that a bake reads is sent along with it."""
 
 from __future__ import annotations
 
