@@ -27,7 +27,7 @@ export class FurView extends Base implements Face {
 	#isStale = false;
 	/** True while drags turn the camera. */
 	#turns = false;
-	/** Whether the visitor wants the clip to play, once he has said so. */
+	/** Whether the visitor wants the clip to play, once they have said so. */
 	#wantsPlay: boolean | undefined;
 	/** Attributes as the page has set them, and whether the view itself writes them now. */
 	readonly #home: Record<(typeof TRIPLES)[number], string | null> = { light: null, camera: null };

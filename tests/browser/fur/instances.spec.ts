@@ -54,8 +54,8 @@ for (const [what, wanted] of [
 		const one = await draw(page, bunny, wanted);
 		// Whiskers are a pixel wide, their shadows a texel.
 		const { worst, psnr } = compare(plain, one, wanted.shadow ? 12 : 4);
-		// Rounding decides which side of a shadow's edge a few fragments are on.
-		expect(psnr).toBeGreaterThan(wanted.shadow ? 57 : 60);
+		// Rounding decides which side of a shadow's edge a few fragments are on; highlights are up to 3 times as bright.
+		expect(psnr).toBeGreaterThan(wanted.shadow || wanted.shiny ? 57 : 60);
 		expect(worst).toBeLessThan(wanted.shadow ? 0.2 : 0.1);
 		expect(floats(one.picture).some((value, i) => i % 4 < 3 && value > 0.3)).toBe(true);
 	});
