@@ -4,11 +4,11 @@ import type { Page } from '@playwright/test';
 import { encode } from 'fast-png';
 import { patched, renamed, triangle, zipped } from '../../web/demo/open/zips.ts';
 import { difference, expect, open, type Picture, picture, state, test } from '../harness.ts';
+import { dropFiles, type Files } from './dropFiles.ts';
 
 test.use({ viewport: { width: 160, height: 120 } });
 
 const folder = fileURLToPath(new URL('../../../public/models/torus-512/', import.meta.url));
-type Files = Record<string, Uint8Array>;
 const baked: Files = Object.fromEntries(
 	readdirSync(folder).map((name) => [name, new Uint8Array(readFileSync(`${folder}${name}`))]),
 );
@@ -29,17 +29,6 @@ const pictured = {
 	materials: [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }],
 	textures: [{ source: 0 }],
 };
-
-async function drop(page: Page, files: Files): Promise<void> {
-	const parts = Object.entries(files).map(([name, bytes]) => [name, Buffer.from(bytes).toString('base64')] as const);
-	await page.evaluate((parts) => {
-		const transfer = new DataTransfer();
-		for (const [name, base64] of parts)
-			transfer.items.add(new File([Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0))], name));
-		const event = new DragEvent('drop', { bubbles: true, cancelable: true, dataTransfer: transfer });
-		document.getElementById('picture')?.dispatchEvent(event);
-	}, parts);
-}
 
 /** Holds a folder above the page as a file manager does, and lets go of it or not; no script can make such a thing. */
 async function hold(page: Page, path: string, types: ('dragEnter' | 'dragOver' | 'drop')[], at = 90): Promise<void> {
@@ -174,7 +163,7 @@ test('what is dropped or chosen is shown, or a sentence says why not and the mod
 	];
 	for (const [what, sentence] of broken) {
 		const [name = ''] = Object.keys(what);
-		await drop(page, what);
+		await dropFiles(page, what);
 		await expect(said(page)).toContainText(sentence);
 		await expect(said(page)).toContainText(`${name.replace(/\..*$/, '')}`);
 		expect(difference(torus, await bare(page)), name).toBe(0);
@@ -193,22 +182,22 @@ test('what is dropped or chosen is shown, or a sentence says why not and the mod
 	expect(new URL(page.url()).searchParams.get('model')).toBe('torus-512');
 
 	// Good ones, each after another model.
-	await drop(page, { 'My cat.glb': triangle() });
+	await dropFiles(page, { 'My cat.glb': triangle() });
 	await expect(said(page)).toContainText('npm run bake -- "My cat.glb" -o public/models/My-cat');
 	const cat = await bare(page);
 	expect(difference(torus, cat)).toBeGreaterThan(2);
 	await expect.poll(() => new URL(page.url()).search).toBe('?light=-0.808,0.505,0.303&camera=20,38,1&shells=4&still=1');
 
-	await drop(page, { 'torus.zip': good });
+	await dropFiles(page, { 'torus.zip': good });
 	await expect.poll(async () => difference(torus, await bare(page))).toBeLessThan(0.01);
-	await drop(page, { 'new.zip': zipped(newer, 0) });
+	await dropFiles(page, { 'new.zip': zipped(newer, 0) });
 	await expect(said(page)).toContainText('its fur is of version 9.0, newer than the 2.2 that this page knows');
 	expect(difference(torus, await bare(page))).toBeGreaterThan(1);
 	await hold(page, folder, ['dragEnter', 'dragOver', 'drop']);
 	await expect.poll(async () => difference(torus, await bare(page))).toBeLessThan(0.01);
-	await drop(page, { 'cat.glb': triangle() });
+	await dropFiles(page, { 'cat.glb': triangle() });
 	await expect(said(page)).toContainText('npm run bake -- cat.glb');
-	await drop(page, baked);
+	await dropFiles(page, baked);
 	await expect.poll(async () => difference(torus, await bare(page))).toBeLessThan(0.01);
 
 	const { made, revoked } = await counts();

@@ -1,10 +1,10 @@
 import type { Page } from '@playwright/test';
 import { decode, encode } from 'fast-png';
 import { expect, open, settled, state, test } from '../harness.ts';
+import { dropFiles, type Files } from './dropFiles.ts';
 
 test.use({ viewport: { width: 200, height: 150 } });
 
-type Files = Record<string, Uint8Array>;
 type Light = [number, number, number];
 
 const [WIDTH, HEIGHT] = [8, 6];
@@ -40,14 +40,7 @@ function specified(light: Light, x: number, y: number): number[] {
 }
 
 async function drop(page: Page, files: Files): Promise<void> {
-	const parts = Object.entries(files).map(([name, data]) => [name, Buffer.from(data).toString('base64')] as const);
-	await page.evaluate((parts) => {
-		const transfer = new DataTransfer();
-		for (const [name, base64] of parts)
-			transfer.items.add(new File([Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0))], name));
-		const event = new DragEvent('drop', { bubbles: true, cancelable: true, dataTransfer: transfer });
-		document.getElementById('picture')?.dispatchEvent(event);
-	}, parts);
+	await dropFiles(page, files);
 	await page.waitForTimeout(50);
 	await expect.poll(() => state(page), { timeout: 60_000 }).toBe('ready');
 }

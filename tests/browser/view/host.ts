@@ -89,3 +89,39 @@ export function pixels(page: Page, selector = 'fur-view'): Promise<{ covered: nu
 		return { covered: count / (width * height), contrast: contrast / Math.max(count, 1) };
 	});
 }
+
+/** Counts frames that are drawn, and contexts. */
+export async function watchDraws(page: Page): Promise<void> {
+	await page.addInitScript(() => {
+		const counts = { draws: 0, contexts: [] as WebGL2RenderingContext[] };
+		Object.assign(window, { counts });
+		const { drawElements } = WebGL2RenderingContext.prototype;
+		WebGL2RenderingContext.prototype.drawElements = function (...args) {
+			counts.draws++;
+			drawElements.apply(this, args);
+		};
+		const { getContext } = HTMLCanvasElement.prototype;
+		HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, ...args: [string, object?]) {
+			const context = getContext.apply(this, args as ['webgl2']);
+			if (context instanceof WebGL2RenderingContext && !counts.contexts.includes(context))
+				counts.contexts.push(context);
+			return context;
+		} as typeof getContext;
+	});
+}
+
+export interface Counts {
+	draws: number;
+	contexts: WebGL2RenderingContext[];
+}
+
+/** Reads what is counted. */
+export const counts = <T>(page: Page, read: (counts: Counts) => T) =>
+	page.evaluate(`(${read})(window.counts)`) as Promise<T>;
+
+/** Runs with the first view of the page. */
+export const withView = <T>(page: Page, act: (view: FurView) => T, selector = 'fur-view') =>
+	page
+		.locator(selector)
+		.first()
+		.evaluate(act as (element: HTMLElement) => T);

@@ -2,12 +2,11 @@
 
 import { readFileSync } from 'node:fs';
 import { AxeBuilder } from '@axe-core/playwright';
-import type { Page } from '@playwright/test';
 import type { FurView } from '../../../web/view/view.d.ts';
 import { CLIPS, rigged } from '../../web/scene/clips/rigged.ts';
 import { difference, expect, halves, picture, test } from '../harness.ts';
 import { drawNothing, watchGpu } from '../inPage/gpu.ts';
-import { pixels, type Site, serveView, until } from './host.ts';
+import { type Counts, counts, pixels, type Site, serveView, until, watchDraws, withView } from './host.ts';
 
 let site: Site;
 
@@ -25,40 +24,6 @@ test.beforeAll(async () => {
 test.afterAll(() => site?.close());
 
 const TORUS = 'src="models/torus-512/model.gltf" camera="20,38,0.9"';
-
-/** Runs with the first view of the page. */
-const withView = <T>(page: Page, act: (view: FurView) => T, selector = 'fur-view') =>
-	page
-		.locator(selector)
-		.first()
-		.evaluate(act as (element: HTMLElement) => T);
-
-/** Counts frames that are drawn, and contexts. */
-async function watchDraws(page: Page): Promise<void> {
-	await page.addInitScript(() => {
-		const counts = { draws: 0, contexts: [] as WebGL2RenderingContext[] };
-		Object.assign(window, { counts });
-		const { drawElements } = WebGL2RenderingContext.prototype;
-		WebGL2RenderingContext.prototype.drawElements = function (...args) {
-			counts.draws++;
-			drawElements.apply(this, args);
-		};
-		const { getContext } = HTMLCanvasElement.prototype;
-		HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, ...args: [string, object?]) {
-			const context = getContext.apply(this, args as ['webgl2']);
-			if (context instanceof WebGL2RenderingContext && !counts.contexts.includes(context))
-				counts.contexts.push(context);
-			return context;
-		} as typeof getContext;
-	});
-}
-
-interface Counts {
-	draws: number;
-	contexts: WebGL2RenderingContext[];
-}
-
-const counts = <T>(page: Page, read: (counts: Counts) => T) => page.evaluate(`(${read})(window.counts)`) as Promise<T>;
 
 test('ten on one page show fur, after scrolling too, by one context and under a strict policy', async ({ page }) => {
 	await watchDraws(page);

@@ -3,17 +3,8 @@
 import { readFileSync } from 'node:fs';
 import { MeshoptDecoder as compiled } from 'three/addons/libs/meshopt_decoder.module.js';
 import { beforeAll, expect, it } from 'vitest';
+import type { MeshDecoder } from '../../../web/fur/planes/meshopt.ts';
 import { endingDecoder, REFERENCE } from '../../../web/tools/site/view.mjs';
-
-interface Decoder {
-	decodeGltfBufferAsync(
-		count: number,
-		size: number,
-		source: Uint8Array,
-		mode: string,
-		filter?: string,
-	): Promise<Uint8Array>;
-}
 
 interface Packed {
 	buffer: number;
@@ -25,7 +16,7 @@ interface Packed {
 	filter?: string;
 }
 
-let plain: Decoder;
+let plain: MeshDecoder;
 const folder = new URL('../../../public/models/bunny/', import.meta.url);
 const gltf = JSON.parse(readFileSync(new URL('model.gltf', folder), 'utf8'));
 const bytes = new Uint8Array(readFileSync(new URL('model.bin', folder)));
