@@ -45,6 +45,7 @@ Floats = NDArray[np.float64]
 
 EXTENSION = "FUR_ptm_shells"
 VERSION, VERSION_STATES, VERSION_CURVES, VERSION_MOTION, VERSION_EDGES = "1.0", "1.1", "2.0", "2.1", "2.2"
+VERSION_LATEST = "2.3"
 """Format versions: one pelt, several states of it, mean curves, bodies that move, fins as edges."""
 
 QUANTIZATION = "KHR_mesh_quantization"
@@ -88,7 +89,7 @@ class FurModel:
 def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     """Write model.gltf, model.bin and all images into `folder`; counts and file sizes for the record.
 
-    compress : meshes by `EXT_meshopt_compression`, and the fins of a still body as edges of the shells
+    compress : meshes by `EXT_meshopt_compression`, and the fins of a body without morph targets as edges of the shells
     """
     features = placed(model.skin, model.features)
     laid, model = model.skin, _bound(model)
@@ -149,7 +150,8 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
 
 def _fin_edges(model: FurModel, charts: Charts, stood: Attributes, buffer: Buffer) -> Record | None:
     """Fins as edges of the shells, of which readers make quads; None for those that are stored."""
-    if model.fins is None or model.motion is not None or model.pelts[0].curves is None:
+    morphs = model.motion is not None and model.motion.rig.targets
+    if model.fins is None or morphs or model.pelts[0].curves is None:
         return None
     return edges_record(charts, stood["POSITION"], model.fins, buffer)
 
@@ -212,6 +214,7 @@ def extension(
     lit: Record = {"environment": [numbers(row) for row in environment(pelt.basis)]}
     if pelt.curves is not None:
         version = VERSION_EDGES if edges else VERSION_MOTION if moves else VERSION_CURVES
+        version = VERSION_LATEST if edges and moves else version
         lit = {"curves": {"even": _tables(pelt.curves.even), "along": _tables(pelt.curves.along)}}
     return {
         "version": version,

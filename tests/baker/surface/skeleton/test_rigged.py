@@ -119,11 +119,18 @@ def test_a_bake_moves_by_its_file(run: Callable[..., Any], tmp_path: Path, monke
     high, low = one[:, 1] > 0.8, one[:, 1] < -0.8
     assert np.linalg.norm(two[low] - one[low], axis=1).max() < 0.12
     assert np.linalg.norm(two[high] - one[high], axis=1).min() > 0.3
+    assert document["extensions"]["FUR_ptm_shells"]["fins"] == 2
     # The same again is fresh; another file of joints is not.
     assert "up to date" in run(*bake, "--features", "face.json").out
     rig_file(BALL | {"clips": []}, Path("rig.json"))
-    assert "up to date" not in run(*bake, "--features", "face.json").out
-    assert "animations" not in Moving(Path("out/model.gltf")).document
+    packed = [word for word in bake if word != "--no-meshopt"]
+    assert "up to date" not in run(*packed, "--features", "face.json").out
+    document = json.loads(Path("out/model.gltf").read_text())
+    assert "animations" not in document
+    # Fins of a body with joints are edges, too.
+    fur = document["extensions"]["FUR_ptm_shells"]
+    assert (fur["version"], "fins" in fur, "edges" in fur) == ("2.3", False, True)
+    assert validate(Path("out")) == []
 
 
 def test_fur_is_laid_in_a_pose_of_its_clips(
