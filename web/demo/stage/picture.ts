@@ -10,7 +10,7 @@ import { OrbitCamera } from './camera.ts';
 import { Frames } from './frames.ts';
 import { textureBytes } from './memory.ts';
 import type { Overlay } from './overlay.ts';
-import { watchSize } from './size.ts';
+import { watchSight, watchSize } from './size.ts';
 import { Stage } from './stage.ts';
 import { GpuTimer } from './timer.ts';
 
@@ -64,6 +64,8 @@ export class Picture {
 	/** True while the canvas has another size than the picture. */
 	#stale = false;
 	#visible = false;
+	/** False while the page is scrolled away, in which nothing moves by itself. */
+	#inSight = true;
 	#moved = Number.NEGATIVE_INFINITY;
 	#moving = false;
 	/** Milliseconds that this frame has waited for. */
@@ -91,6 +93,10 @@ export class Picture {
 		this.#governor = new FurGovernor(this.timer.works ? { target: 14 } : { target: 20, capped: true });
 		watchSize(canvas, () => {
 			this.#stale = true;
+			this.request();
+		});
+		watchSight(canvas, (inSight) => {
+			this.#inSight = inSight;
 			this.request();
 		});
 	}
@@ -240,7 +246,7 @@ export class Picture {
 		const gliding = entering || turning || wandering;
 		const moves = gliding || (glowing && !calm) || (!still && now - this.#moved < SETTLING_TIME);
 		this.#wait = moves ? 0 : wait;
-		return this.#wait;
+		return this.#inSight ? this.#wait : Number.POSITIVE_INFINITY;
 	}
 
 	/** Reports the memory of the scene's textures to the overlay. */
