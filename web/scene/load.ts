@@ -86,7 +86,9 @@ export async function loadPelt(source: Source, limits: FurLimits): Promise<Fur> 
 
 const importPlayer = () => Promise.all([import('./clips/ClipPlayer.ts'), import('./clips/Gaze.ts')]);
 
-async function player(...[object, meshes, clips, rest]: [Object3D, Mesh[], AnimationClip[], Room]): Promise<ClipPlayer> {
+async function player(
+	...[object, meshes, clips, rest]: [Object3D, Mesh[], AnimationClip[], Room]
+): Promise<ClipPlayer> {
 	const [{ ClipPlayer }, { Gaze }] = await importPlayer();
 	return new ClipPlayer(object, meshes, clips, rest, Gaze.of(object));
 }

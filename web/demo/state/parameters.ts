@@ -1,14 +1,6 @@
 /** The table of parameters: a row each, which drives the address, the panel and the table in the docs. */
 
-import {
-	type Abilities,
-	choice,
-	menu,
-	slider,
-	swatch,
-	toggle,
-	toggleOf,
-} from './controls.ts';
+import { type Abilities, choice, menu, slider, swatch, toggle, toggleOf } from './controls.ts';
 import { type Parameter, ranged } from './parameter.ts';
 import * as values from './values.ts';
 import {

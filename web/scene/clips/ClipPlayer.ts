@@ -45,13 +45,7 @@ export class ClipPlayer {
 	 * @param rest room of the body at rest, which a clip keeps that needs hardly more
 	 * @param gaze of the body
 	 */
-	constructor(
-		object: Object3D,
-		meshes: readonly Mesh[],
-		clips: readonly AnimationClip[],
-		rest?: Room,
-		gaze?: Gaze,
-	) {
+	constructor(object: Object3D, meshes: readonly Mesh[], clips: readonly AnimationClip[], rest?: Room, gaze?: Gaze) {
 		this.#object = object;
 		this.gaze = gaze;
 		this.names = clipNames(clips);

@@ -66,8 +66,7 @@ export class Gaze {
 	get moves(): boolean {
 		this.#want();
 		return this.#wanted.some(
-			(angle, i) =>
-				Math.abs(angle - (this.#turn[i] as number)) > REST || Math.abs(this.#speed[i] as number) > REST,
+			(angle, i) => Math.abs(angle - (this.#turn[i] as number)) > REST || Math.abs(this.#speed[i] as number) > REST,
 		);
 	}
 

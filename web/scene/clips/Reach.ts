@@ -157,7 +157,11 @@ export class Reach {
 
 /** Largest difference between the sides of two boxes. */
 function differ(one: Box3, other: Box3): number {
-	return Math.max(...[place.subVectors(one.min, other.min), from.min.subVectors(one.max, other.max)].flatMap((side) => side.toArray().map(Math.abs)));
+	return Math.max(
+		...[place.subVectors(one.min, other.min), from.min.subVectors(one.max, other.max)].flatMap((side) =>
+			side.toArray().map(Math.abs),
+		),
+	);
 }
 
 /** Keeps the outermost places. */
