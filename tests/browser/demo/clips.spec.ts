@@ -4,7 +4,8 @@ import { AxeBuilder } from '@axe-core/playwright';
 import type { Page } from '@playwright/test';
 import { CLIPS, type Clip, type Files, rigged } from '../../web/scene/clips/rigged.ts';
 import { expect, open, settled, state, test } from '../harness.ts';
-import { drawNothing } from '../inPage/gpu.ts';
+import { drawNothing, shrinkPicture } from '../inPage/gpu.ts';
+import { psnr } from '../robust.ts';
 
 test.use({ viewport: { width: 900, height: 760 } });
 
@@ -210,4 +211,40 @@ test('axe finds nothing serious in the controls of clips, in either language and
 			expect(serious.map(({ id, nodes }) => [id, nodes[0]?.html])).toEqual([]);
 		}
 	}
+});
+
+const look = (page: Page) => page.getByRole('checkbox', { name: 'Look at the lamp', exact: true });
+
+test('the bunny lives, but not out of sight, and with still=1 not at all', async ({ page }) => {
+	await drawNothing(page);
+	await open(page, '?shells=2&planes=64');
+	await expect(clip(page).locator('option')).toHaveText(['idle', 'hop']);
+	await expect.poll(() => time(page)).toBeGreaterThan(0);
+	await expect(figures(page)).not.toContainText('at rest');
+	await expect(look(page)).toBeChecked();
+	const shift = (way: string) =>
+		page.locator('#picture').evaluate((canvas, to) => canvas.style.setProperty('translate', to), way);
+	await shift('300vw 0');
+	await expect(figures(page)).toContainText('at rest');
+	await shift('none');
+	await expect(figures(page)).not.toContainText('at rest');
+	await open(page, '?shells=2&planes=64&still=1');
+	await expect(figures(page)).toContainText('at rest');
+	expect(await time(page)).toBe(0);
+	await expect(look(page)).toBeDisabled();
+});
+
+test('the bunny’s head turns to the lamp while its clip is held, and rests there; it can be told not to', async ({
+	page,
+}) => {
+	await shrinkPicture(page, 160, 120, [0, 100], '#hint, #notices, #overlay .graphs');
+	await open(page, '?shells=2&planes=64&light=-1,0.2,0.3&time=0');
+	const shot = async () => {
+		await expect(figures(page)).toContainText('at rest');
+		return page.locator('#picture').screenshot();
+	};
+	const looking = await shot();
+	await look(page).uncheck();
+	expect(await settled(page, 'look')).toBe('0');
+	expect(psnr(looking, await shot())).toBeLessThan(30);
 });

@@ -69,7 +69,7 @@ export class Picture {
 	/** True while the canvas has another size than the picture. */
 	#stale = false;
 	#visible = false;
-	/** False while the page is scrolled away, in which nothing moves by itself. */
+	/** False while the page is scrolled away: nothing moves or is drawn. */
 	#inSight = true;
 	#moved = Number.NEGATIVE_INFINITY;
 	#moving = false;
@@ -220,6 +220,10 @@ export class Picture {
 	}
 
 	#draw(interval: number, now: number): number {
+		if (!this.#inSight) {
+			this.#answer();
+			return Number.POSITIVE_INFINITY;
+		}
 		const { stage, camera, light, lamp, timer } = this;
 		const { still, calm } = this.#options;
 		const awake = !Number.isNaN(interval);
@@ -248,11 +252,16 @@ export class Picture {
 			if (this.overlay) this.overlay.frame(this.#render, interval);
 			else this.#render();
 		}
-		while (this.#waiting.length) this.#waiting.pop()?.();
+		this.#answer();
 		const gliding = entering || turning || wandering;
 		const moves = gliding || (glowing && !calm) || (!still && now - this.#moved < SETTLING_TIME);
 		this.#wait = moves ? 0 : wait;
-		return this.#inSight ? this.#wait : Number.POSITIVE_INFINITY;
+		return this.#wait;
+	}
+
+	/** Tells those who wait for a frame. */
+	#answer(): void {
+		while (this.#waiting.length) this.#waiting.pop()?.();
 	}
 
 	/** Reports the memory of the scene's textures to the overlay. */
