@@ -22,6 +22,8 @@ from furbake.pelt.hairs.volume import Volume
 from furbake.pelt.pelt import Pelt
 from furbake.surface.place.fins import Fins, build_fins
 from furbake.surface.rig.follow import follow
+from furbake.surface.roots.look import textured
+from furbake.surface.roots.picture import Roots, picture_of_roots
 from furbake.surface.shapes import is_builtin
 from furbake.tile.kept import KeptPelts
 from furbake.tile.lighting import Sampled, write_samples
@@ -127,7 +129,16 @@ def _furry(model: str, options: BakeOptions, body: Body, fitted: Fitted, fins: F
         bare=None if is_builtin(model) else fitted[0][0].ramp.root,
         motion=_motion(body),
         tinted=options.swatch is None,
+        roots=_roots(body, options, fitted[0][0]),
     )
+
+
+def _roots(body: Body, options: BakeOptions, dry: Pelt) -> Roots | None:
+    """The picture of the roots; None where hairs have the colours of the vertices."""
+    coloured = body.fur.colour is not None and textured(body.skin) and dry.curves is not None
+    if options.colour == "vertex" or options.swatch is not None or not coloured:
+        return None
+    return picture_of_roots(body.skin, body.ground, body.charts, dry.drift[-1], options.size)
 
 
 class _Pelts:

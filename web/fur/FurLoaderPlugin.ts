@@ -11,6 +11,7 @@ import {
 } from 'three';
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 import { checkGeometry } from './body/checkGeometry.ts';
+import { loadRoots } from './body/roots/Roots.ts';
 import { Skin } from './body/Skin.ts';
 import { Fur } from './Fur.ts';
 import { finQuads } from './fins/finQuads.ts';
@@ -115,8 +116,9 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 	async #grow(asset: FurAsset, scene: Object3D): Promise<Fur> {
 		const pelt = asset.pelts[0] as Pelt;
 		const withFins = (asset.fins ?? asset.edges) !== undefined && pelt.fin;
-		const [{ skin, surface, colour }, shells, quads, fins] = await Promise.all([
+		const [{ skin, surface, colour }, roots, shells, quads, fins] = await Promise.all([
 			this.#body(asset, scene),
+			loadRoots(this.#parser, asset),
 			this.#shellCut(asset, pelt),
 			withFins ? this.#quads(asset) : undefined,
 			withFins ? this.#finCut(asset, withFins) : undefined,
@@ -124,6 +126,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		const ground = {
 			skin,
 			colour,
+			roots,
 			surface: surface.geometry,
 			placement: surface,
 			quads: quads?.geometry,
@@ -161,7 +164,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		if (!(mask?.array instanceof Uint8Array))
 			throw new Error(`${FUR_EXTENSION}/edges: accessor ${edges.mask} has no bytes`);
 		const tile = length / height / surface.scale.x;
-		const places = { start: edges.start, tile, lean: drift.at(-1)?.[1] ?? 0, tiles };
+		const places = { start: edges.start, tile, lean: drift.at(-1)?.[1] ?? 0, tiles, roots: asset.roots?.scale };
 		try {
 			const quads = new Mesh(finQuads(surface.geometry, mask.array, places));
 			quads.position.copy(surface.position);
@@ -177,7 +180,8 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 	async #mesh(node: number, role: 'shells' | 'fins'): Promise<Mesh> {
 		const object = await this.#node(node);
 		if (!isMesh(object)) throw new Error(`${FUR_EXTENSION}/${role}: node ${node} is no mesh with one primitive`);
-		for (const name of ['normal', 'tangent', 'uv']) {
+		const roots = role === 'fins' && this.#extension.roots;
+		for (const name of ['normal', 'tangent', 'uv', ...(roots ? ['uv1'] : [])]) {
 			if (!object.geometry.hasAttribute(name)) throw new Error(`${FUR_EXTENSION}/${role}: the mesh has no ${name}s`);
 		}
 		object.geometry.morphAttributes = { ...object.geometry.morphAttributes, ...(await this.#tangents(node)) };

@@ -11,7 +11,7 @@ export * from './format/types.ts';
 export const FUR_EXTENSION = 'FUR_ptm_shells';
 
 /** Newest version that this reader supports; of a higher major version the skin alone is shown. */
-export const FUR_VERSION = '2.2';
+export const FUR_VERSION = '2.3';
 
 const validator = new Validator(schema as object, '2020-12', false);
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from furbake.asset.read import Asset, AssetError
+from furbake.asset.roots.read import picture
 
 
 def summary(asset: Asset) -> dict[str, Any]:
@@ -47,6 +48,7 @@ def _summary(asset: Asset) -> dict[str, Any]:
             "pelts": [state["name"] for state in states],
             "colour plane": colours > 0,
             "direction plane": directions > 0,
+            **({"roots picture": _roots(asset)} if "roots" in fur else {}),
             "texture bytes": 4 * texels,
         },
         "skin": _mesh(asset, "skin"),
@@ -68,6 +70,14 @@ def _mesh(asset: Asset, name: str) -> dict[str, Any]:
         "faces": sum(accessors[primitive["indices"]]["count"] // 3 for primitive in primitives),
         "attributes": list(dict.fromkeys(name for primitive in primitives for name in primitive["attributes"])),
     }
+
+
+def _roots(asset: Asset) -> dict[str, Any]:
+    """Texels and bytes of the picture of the roots."""
+    height, width = picture(asset).shape[:2]
+    source = asset.document["textures"][asset.fur["roots"]["texture"]]["source"]
+    size = (asset.folder / asset.document["images"][source]["uri"]).stat().st_size
+    return {"width": width, "height": height, "bytes": size}
 
 
 def _edges(asset: Asset) -> dict[str, Any]:

@@ -19,19 +19,20 @@ from furbake.asset.gltf import EXTENSION, QUANTIZATION
 from furbake.asset.planes import PlaneError
 from furbake.asset.read import Asset, AssetError, inside, read_asset
 from furbake.asset.rig.check import clips, drawn, joints, targets, tree
+from furbake.asset.roots.check import roots
 from furbake.asset.validate_pelts import curves, multiple, pelts, states
 
 REQUIRED = ("POSITION", "NORMAL", "TANGENT", "TEXCOORD_0")
 ATTRIBUTES = {
     "shells": (REQUIRED, {*REQUIRED, "COLOR_0", "_FUR", "_COMB"}),
-    "fins": ((*REQUIRED, "_EDGE"), {*REQUIRED, "COLOR_0", "_FUR", "_EDGE"}),
+    "fins": ((*REQUIRED, "_EDGE"), {*REQUIRED, "TEXCOORD_1", "COLOR_0", "_FUR", "_EDGE"}),
 }
 """Attributes of the fur's vertices, required and optional."""
 
 JOINTS = ("JOINTS_0", "WEIGHTS_0")
 """Further attributes where the node has a skin."""
 
-MAX_VERTEX_BYTES = 32
+MAX_VERTEX_BYTES = 36
 """Bytes of a shell or fin vertex, its joints and weights aside."""
 
 MAX_JOINT_BYTES = 12
@@ -63,6 +64,7 @@ def validate(folder: Path) -> list[str]:
         _skin,
         _shells,
         _fins,
+        roots,
         joints,
         targets,
         clips,

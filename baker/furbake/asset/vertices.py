@@ -21,13 +21,12 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import connected_components
 
 from furbake.surface.charts import Charts
 from furbake.surface.mesh import Surface
 from furbake.surface.place.fins import Fins
 from furbake.surface.place.vertex_fur import VertexFur, tangential
+from furbake.surface.roots.layout import patches_of
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -103,10 +102,7 @@ def grid(*parts: Floats) -> tuple[Floats, float]:
 
 def shifted_by_tiles(charts: Charts) -> Floats:
     """(M, 2) texture coordinates with each patch moved by whole tiles to where they are positive and small."""
-    count = len(charts.source)
-    start, end = charts.faces.reshape(-1), np.roll(charts.faces, -1, axis=1).reshape(-1)
-    links = csr_array((np.ones(len(start)), (start, end)), shape=(count, count))
-    patches, patch = connected_components(links, directed=False)
+    patches, patch = patches_of(charts)
     low = np.full((patches, 2), np.inf)
     np.minimum.at(low, patch, charts.uv)
     return np.asarray(np.maximum(charts.uv - np.floor(low + 1e-9)[patch], 0.0))

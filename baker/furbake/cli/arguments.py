@@ -67,6 +67,10 @@ BAKE = [
     option("--comb", metavar="FILE.json", type=PLACE, help="strokes along which it is combed, besides"),
     option("--uv", metavar="lapped|own", help="lapped patches (default), or the model's own coordinates"),
     option(
+        "--colour", metavar="texture|vertex",
+        help="each hair in the colour of the model's picture at its root (default), or one colour per vertex",
+    ),
+    option(
         "--max-faces", metavar="F", type=WHOLE,
         help=f"simplify larger models, {MAX_FACES.range} (default: 60000)",
     ),

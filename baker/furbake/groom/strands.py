@@ -97,6 +97,7 @@ def on_body(
     count, length = len(hair), strands.points.shape[1]
     points = np.empty((count, length, 3), np.float32)
     colour = np.empty((count, length, 3), np.float32)
+    skin = None if ground.roots is None else ground.roots.colours(uv)
     here = face
     aside = np.zeros((count, 2))
     for p in range(length):
@@ -106,7 +107,7 @@ def on_body(
         shares = barycentric(ground, here, uv)
         s = strands.points[hair, p, 2] / height
         points[:, p] = displaced(ground, here, shares, s)
-        colour[:, p] = _coloured(ground, here, shares, s, ramp, strands.hue[hair, p] if hues else None)
+        colour[:, p] = _coloured(ground, here, shares, s, ramp, strands.hue[hair, p] if hues else None, skin)
         progress("strands", (p + 1) / length)
     tint = strands.tint[hair].astype(np.float32)
     return Groom(
@@ -135,8 +136,13 @@ def displaced(ground: Ground, face: Ints, shares: Floats, s: Floats) -> Floats:
     return np.asarray(np.einsum("nc,nck->nk", shares, ground.vertices[corners]) + np.einsum("nc,nck->nk", held, above))
 
 
-def _coloured(ground: Ground, face: Ints, shares: Floats, s: Floats, ramp: Ramp, hue: Floats | None) -> Floats:
-    """(n, 3) linear colour of hairs but for their tint: the skin's × the ramp's, as the format has it."""
+def _coloured(
+    ground: Ground, face: Ints, shares: Floats, s: Floats, ramp: Ramp, hue: Floats | None, skin: Floats | None
+) -> Floats:
+    """(n, 3) linear colour of hairs but for their tint: the skin's × the ramp's, as the format has it.
+
+    skin : (n, 3) linear, at their roots; None: that of the vertices
+    """
     corners = ground.faces[face]
     held = np.clip(shares, 0.0, 1.0)
     held /= held.sum(axis=1, keepdims=True)
@@ -146,4 +152,6 @@ def _coloured(ground: Ground, face: Ints, shares: Floats, s: Floats, ramp: Ramp,
     root, tip, tip2 = (np.array(part) for part in (ramp.root, ramp.tip, ramp.tip2))
     end = tip + second[:, None] * (tip2 - tip)
     rise = np.clip(s, 0.0, 1.0)[:, None] ** ramp.power
-    return np.asarray(np.einsum("nc,nck->nk", held, ground.colour[corners]) * (root + (end - root) * rise))
+    if skin is None:
+        skin = np.einsum("nc,nck->nk", held, ground.colour[corners])
+    return np.asarray(skin * (root + (end - root) * rise))

@@ -16,6 +16,7 @@ BasisKind = Literal["ptm", "eigen"]
 CurvesKind = Literal["slab", "none"]
 Guide = Literal["nose-tail", "down"]
 Uv = Literal["lapped", "own"]
+ColourKind = Literal["texture", "vertex"]
 
 FILES = ("length_map", "mask", "comb", "features", "swatch")
 """Options that name files."""
@@ -28,13 +29,13 @@ THIN: dict[str, Any] = {"layers": 1, "height_share": 0.05}
 """Options of fur that is photographed, where the command is not given others: photographs show the top alone."""
 
 
-LATER = ("directions", "states", "dirt", "auto_length", "pose", "swatch")
+LATER = ("directions", "states", "dirt", "auto_length", "pose", "swatch", "colour")
 """Options that early records do not have."""
 
 OF_BODY = (
     "preset", "length", "tile", "height", "guide", "sweep", "uv", "length_by_thickness", "auto_length", "length_noise",
     "tip_noise", "belly", "max_faces", "pose", "length_map", "mask", "comb", "features", "fins", "tile_share",
-    "height_share", "meshopt",
+    "height_share", "meshopt", "colour",
 )  # fmt: skip
 """Options of the body that wears a tile, or by which the tile's height is found; all others are the tile's own."""
 
@@ -76,6 +77,8 @@ class BakeOptions:
     """How far shells bend along the fur's direction, share of its length, besides the lean in the tile."""
     uv: Uv = "lapped"
     """Lapped patches along the fur, or the model's own texture coordinates."""
+    colour: ColourKind = "texture"
+    """Of hairs on a model with a picture: that of the picture at their roots, or one colour per vertex."""
     length_by_thickness: bool = False
     """Shorter fur where the body is thin (ears, feet)."""
     auto_length: bool = False

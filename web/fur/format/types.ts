@@ -122,6 +122,13 @@ export interface FurAsset {
 		/** Where the first fin begins, a share of a tile. */
 		start: number;
 	};
+	/** Colours of the skin at the roots of the hairs; format 2.3. */
+	roots?: {
+		/** Index of a texture of the glTF, sRGB. */
+		texture: number;
+		/** Coordinates of the picture per tile. */
+		scale: [number, number];
+	};
 	/** Factor from TEXCOORD_0 to tiles; 1 where absent. */
 	tiles?: number;
 	/** Slabs of the tile. */

@@ -1,4 +1,5 @@
 import { Color, type ShaderMaterialParameters, Vector2, Vector3, Vector4 } from 'three';
+import { type Roots, rootUniforms } from '../body/roots/Roots.ts';
 import type { FurAsset } from '../format.ts';
 import { bentWeights, leanOf, wayOf } from '../light/bent.ts';
 import { eyeUniforms } from '../light/eye.ts';
@@ -12,6 +13,7 @@ import hairIn from '../shaders/hair/hair.frag.glsl?raw';
 import hairOut from '../shaders/hair/hair.vert.glsl?raw';
 import opacity from '../shaders/hair/opacity.glsl?raw';
 import shell from '../shaders/hair/shell.glsl?raw';
+import drift from '../shaders/hair/tile/drift.glsl?raw';
 import { ALPHA_CUT } from './lod.ts';
 import { morphUniforms, weightUniforms } from './morphs.ts';
 import { PeltMaterial } from './PeltMaterial.ts';
@@ -100,7 +102,8 @@ export class FurMaterial extends PeltMaterial {
 	/** {@inheritDoc FurMaterialParameters.sharpness} */
 	declare sharpness: number;
 
-	constructor(asset: FurAsset, textures: FurTextures, parameters: FurMaterialParameters = {}) {
+	/** @param roots picture of the skin below; undefined: colours of the vertices */
+	constructor(asset: FurAsset, textures: FurTextures, parameters: FurMaterialParameters = {}, roots?: Roots) {
 		const pelt = asset.pelts[0];
 		if (!pelt) throw new Error('FUR_ptm_shells/pelts: got none, expected at least one');
 		const { basis, environment, curves, ramp } = asset;
@@ -110,8 +113,8 @@ export class FurMaterial extends PeltMaterial {
 			textures,
 			{
 				name: 'FurMaterial',
-				vertexShader: [frame, shell, hairOut, vertexMain, ends].join('\n'),
-				fragmentShader: [opacity, hairIn, fragmentMain, ends].join('\n'),
+				vertexShader: [frame, drift, shell, hairOut, vertexMain, ends].join('\n'),
+				fragmentShader: [opacity, ...(roots ? [drift] : []), hairIn, fragmentMain, ends].join('\n'),
 				uniforms: {
 					tiles: { value: asset.tiles ?? 1 },
 					furLength: { value: asset.length },
@@ -136,8 +139,15 @@ export class FurMaterial extends PeltMaterial {
 					bodyLight1: { value: null },
 					bodyLight2: { value: null },
 					bodyEntries: { value: new Vector3() },
+					...(roots && rootUniforms(roots, asset)),
 				},
-				defines: { MAX_SLANT: '6.0', HAIR: '0.2', LAYERS: asset.layers, ...(asset.eye && { EYE: '' }) },
+				defines: {
+					MAX_SLANT: '6.0',
+					HAIR: '0.2',
+					LAYERS: asset.layers,
+					...(asset.eye && { EYE: '' }),
+					...(roots && { ROOTS: '' }),
+				},
 				depthWrite: true,
 			},
 			MIRRORED,

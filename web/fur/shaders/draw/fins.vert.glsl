@@ -2,6 +2,15 @@ layout(location = 12) in vec4 color; // colour of the skin, linear
 layout(location = 13) in vec4 _fur; // see frame.glsl
 layout(location = 15) in vec4 _edge; // XY = angles of the two faces' normals about the edge, over π; ZW = comb along the edge and across it
 
+#ifdef ROOTS
+layout(location = 14) in vec2 uv1; // place of the root in the picture of the roots
+uniform vec2 rootsUnit; // coordinates of that picture per tile
+out vec2 vRoot;
+#define baseColour (vSkin.rgb * color.rgb)
+#else
+#define baseColour vSkin.rgb
+#endif
+
 uniform float tiles; // texture coordinates → tiles
 uniform float finHeights; // second texture coordinate → heights
 uniform float finLength; // length of the fin, lengths of the fur here
@@ -57,7 +66,12 @@ void main() {
 	vec3 comb = finComb(frame * vec3(_edge.z, 0.0, _edge.w));
 	vec3 pointVS = (placement * vec4(furPoint(rootPosition, n, comb, _fur.y * finLength, s), 1.0)).xyz;
 	gl_Position = projectionMatrix * vec4(pointVS, 1.0);
+#ifdef ROOTS
+	vSkin = vec4(skinColor, tipShare * _fur.w);
+	vRoot = uv1 - rootsUnit * driftAt(s);
+#else
 	vSkin = vec4(skinColor * color.rgb, tipShare * _fur.w);
+#endif
 #ifdef WET
 	vSkin.rgb *= furTraits.y;
 #endif

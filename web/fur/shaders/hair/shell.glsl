@@ -14,7 +14,6 @@ out vec2 vCrispness;
 uniform float tiles; // texture coordinates → tiles
 uniform float shellCount; // n of one body, or the largest of many; may be fractional
 uniform int firstShell; // first shell that is drawn
-uniform vec4 drift[(LAYERS + 2) / 2]; // two knots each: mean displacement of the hairs at the root and in every slab's middle, tile widths
 
 uniform vec4 crispLevels[(LAYERS + 1) / 2]; // coverage of two slabs each that crispness leaves alone: X = of texels, Y = of those twice as large
 #ifndef BODIES
@@ -37,19 +36,6 @@ struct ShellPoint {
 	vec3 comb; // displacement of the tip in that frame, share of the length
 	vec3 pointVS;
 };
-
-vec2 driftKnot(int k) {
-	vec4 two = drift[k >> 1];
-	return (k & 1) == 0 ? two.xy : two.zw;
-}
-
-// Mean displacement of the hairs: 0 at the root, linear between slab middles and on beyond the last.
-vec2 driftAt(float s) {
-	float x = s * float(LAYERS) + 0.5;
-	if (x < 1.0 || LAYERS == 1) return driftKnot(1) * (2.0 * x - 1.0);
-	int k = min(int(x), LAYERS - 1);
-	return mix(driftKnot(k), driftKnot(k + 1), x - float(k));
-}
 
 // Slab shown by shell `i` of `count` at height s.
 int slabAt(float s, float i, float count) {
