@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from furbake.asset.buffer import MESHOPT, Buffer, numbers
 from furbake.asset.edges import edges_record
 from furbake.asset.planes import write_planes
-from furbake.asset.regions.parted import parted
+from furbake.asset.regions.parted import fin_bounds, parted
 from furbake.asset.regions.record import VERSION_REGIONS, Regions, regions_record, write_regions
 from furbake.asset.rig.bind import bound
 from furbake.asset.rig.motion import Motion
@@ -117,7 +117,7 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     if model.regions is not None:
         parts = parted(charts, model.regions.bounds)
         charts, stood = parts.charts, parts.copies(stood)
-        model = replace(model, charts=charts, regions=replace(model.regions, vertices=parts.vertices))
+        model = replace(model, charts=charts)
     if compress:
         stood["TEXCOORD_0"] = coarse_uv(stood["TEXCOORD_0"], tiles, pelt.size)
     shells = buffer.primitive(stood, charts.faces)
@@ -128,6 +128,7 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     edges = _fin_edges(model, charts, stood, buffer) if compress else None
     if fins is not None and edges is None:
         stood = fin_vertices(ground, fins, fur, below.positions, tiles) | below.joints(fins.source)
+        stood |= {} if model.regions is None else fin_bounds(model.regions.quads)
         quads = buffer.primitive(stood, fins.faces)
         meshes.append({"name": "fins", "primitives": [quads | below.fin_targets(buffer, fins)]})
     names, meshes = [mesh["name"] for mesh in meshes], [mesh | morphs(motion) for mesh in meshes]

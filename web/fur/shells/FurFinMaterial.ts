@@ -38,6 +38,7 @@ const SHARED = [
 	],
 	...['swing', 'stains', 'wetnesses', 'traits', 'mud', 'morphCount', 'morphs'],
 	...['skinColor', 'root', 'tip', 'tip2', 'tipShare', 'rampPower'],
+	...['tileWidths', 'leans', 'surges', 'regionRamps', 'regionPowers'],
 ];
 
 /**
@@ -59,7 +60,7 @@ export class FurFinMaterial extends PeltMaterial {
 			(name) => [name, shells.uniforms[name]] as [string, IUniform],
 		);
 		super(
-			{ ...fin, means: shells.means },
+			shells.furs.map(({ means, pelts }) => ({ ...(pelts?.[0]?.fin ?? fin), means, pelts })),
 			textures,
 			{
 				name: 'FurFinMaterial',

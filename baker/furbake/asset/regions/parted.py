@@ -19,7 +19,7 @@ Bytes = NDArray[np.uint8]
 Ints = NDArray[np.int64]
 
 REGION = "_REGION"
-"""Attribute of a vertex with the two bounds between which the numbers of its fur's hairs lie."""
+"""Attribute of a vertex: the two bounds between which the numbers of its fur's hairs lie, and the number of the fur."""
 
 
 @dataclass(frozen=True)
@@ -28,13 +28,11 @@ class Parted:
 
     charts : with a copy of every face for each fur that it carries
     rows : (M',) the vertices of the charts before, of which these are copies
-    vertices : number of those of each fur
-    bounds : (M', 2) lower and upper bound of the numbers of a vertex' own hairs
+    bounds : (M', 3) bytes of `REGION`
     """
 
     charts: Charts
     rows: Ints
-    vertices: tuple[int, ...]
     bounds: Bytes
 
     def copies(self, attributes: Attributes) -> Attributes:
@@ -54,18 +52,18 @@ def parted(charts: Charts, bounds: Bytes) -> Parted:
         used, index = np.unique(charts.faces[(own[charts.faces] > 0).any(axis=1)], return_inverse=True)
         rows.append(used)
         faces.append(start + index.reshape(-1, 3))
-        cut.append(at[i : i + 2, used].T)
+        cut.append(np.column_stack([*at[i : i + 2, used], np.full(len(used), i, np.uint8)]))
         start += len(used)
     every = np.concatenate(rows)
     copies = {
         field: getattr(charts, field)[every] for field in ("source", "tangents", "uv", "weights", "group")
     }
     together = Charts(faces=np.concatenate(faces), **copies)
-    return Parted(together, every, tuple(len(used) for used in rows), np.concatenate(cut))
+    return Parted(together, every, np.concatenate(cut))
 
 
 def chosen_fins(each: list[Fins], bounds: Bytes, seed: int) -> tuple[Fins, tuple[int, ...]]:
-    """One fin on every edge, of a fur chosen by chance and the shares at its ends; vertices of each fur.
+    """One fin on every edge, of a fur chosen by chance and the shares at its ends; number of those of each fur.
 
     each : the same edges' fins of every fur
     """
@@ -83,3 +81,9 @@ def chosen_fins(each: list[Fins], bounds: Bytes, seed: int) -> tuple[Fins, tuple
     }
     quads = 4 * np.arange(count // 4)[:, None] + np.array([0, 1, 3, 0, 3, 2])
     return Fins(faces=quads.reshape(-1, 3), **together), tuple(len(own) for own in corners)
+
+
+def fin_bounds(quads: tuple[int, ...]) -> Attributes:
+    """`REGION` of fins, which are whole: quads : number of fins of each fur, in their order"""
+    fur = np.repeat(np.arange(len(quads)), 4 * np.array(quads))
+    return {REGION: np.column_stack([np.zeros_like(fur), np.full_like(fur, 255), fur]).astype(np.uint8)}

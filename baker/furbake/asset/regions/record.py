@@ -43,24 +43,21 @@ class Regions:
     tile : width of a tile of the coat, model units
     furs : of the regions
     quads : number of fins of each fur, the coat first; () without fins
-    vertices : number of the shells' vertices of each fur
     """
 
     bounds: NDArray[np.uint8]
     tile: float
     furs: tuple[RegionFur, ...]
     quads: tuple[int, ...] = ()
-    vertices: tuple[int, ...] = ()
 
 
 def regions_record(regions: Regions, furs: Sequence[Record]) -> Record:
     """The extension's object of several furs. furs : the extension's object of each region, as if alone"""
-    vertices = {"vertices": list(regions.vertices)} | ({"quads": list(regions.quads)} if regions.quads else {})
     own = [
         {"name": fur.name, "tile": numbers(np.array([fur.tile]))[0]} | {key: record[key] for key in OWN if key in record}
         for fur, record in zip(regions.furs, furs, strict=True)
     ]
-    return {"tile": numbers(np.array([regions.tile]))[0], "cells": CELLS, **vertices, "furs": own}
+    return {"tile": numbers(np.array([regions.tile]))[0], "cells": CELLS, "furs": own}
 
 
 def write_regions(folder: Path, regions: Regions | None, images: list[str]) -> list[tuple[RegionFur, list[str]]]:

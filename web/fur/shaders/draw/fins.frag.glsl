@@ -3,13 +3,12 @@ uniform float finOpacity;
 uniform sampler2DArray colourPlane; // colour of the texel's hairs
 #endif
 
-in vec2 vAt;
 in vec4 vSkin;
 in float vFade;
 out vec4 fragColour;
 
 void main() {
-	vec3 at = vec3(vAt, 0.0);
+	vec3 at = vAt;
 	FurTexel texel = furTexel(at);
 	float alpha = texel.alpha * vFade * finOpacity;
 	if (alpha < 0.01) discard;
