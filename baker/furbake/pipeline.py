@@ -14,7 +14,7 @@ from typing import Any
 
 from furbake.asset.gltf import FurModel, write_gltf
 from furbake.asset.regions.parted import chosen_fins
-from furbake.asset.regions.record import RegionFur, Regions
+from furbake.asset.regions.record import RegionFur, Regions, shaped
 from furbake.asset.rig.motion import Motion
 from furbake.asset.store import atomic_file, atomic_folder
 from furbake.body import Body, prepare
@@ -112,8 +112,8 @@ def bake(
                 fitted = pelts.with_fins(fitted)
                 worn = [each.with_fins(made) for each, made in zip(others, worn, strict=True)]
         with clock.stage("write"):
-            record = _record(model, options, body, fitted)
-            furry = replace(_furry(model, options, body, fitted, fins), regions=_regions(body, worn, quads))
+            record = _record(model, options, body, fitted) | _worn(body, worn)
+            furry = replace(_furry(model, options, body, fitted, fins), regions=_regions(body, fitted[0][0], worn, quads))
             record["asset"] = write_gltf(folder, furry, options.meshopt)
             (folder / "bake.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
             if archive is not None:
@@ -206,12 +206,24 @@ def _fins(body: Body, options: BakeOptions, dry: Sequence[Pelt]) -> tuple[Fins |
     return (each[0], ()) if body.bounds is None else chosen_fins(each, body.bounds, options.seed)
 
 
-def _regions(body: Body, worn: Sequence[Fitted], quads: tuple[int, ...]) -> Regions | None:
+def _worn(body: Body, worn: Sequence[Fitted]) -> dict[str, Any]:
+    """The part of the record on regions: share of the furry surface, options and figures of each; {} without any."""
+    if not body.regions:
+        return {}
+    furs = [
+        {"name": part.name, "covers": part.covers, "length": part.length, "options": part.options.as_record()}
+        | {"fit": fitted[0][1]}
+        for part, fitted in zip(body.regions[1:], worn, strict=True)
+    ]
+    return {"regions": furs}
+
+
+def _regions(body: Body, coat: Pelt, worn: Sequence[Fitted], quads: tuple[int, ...]) -> Regions | None:
     """Furs beside the coat, as they are stored."""
     if body.bounds is None:
         return None
     furs = [
-        RegionFur(part.name, part.tile / body.tile, tuple(pelt for pelt, _ in fitted))
+        RegionFur(part.name, part.tile / body.tile, shaped([pelt for pelt, _ in fitted], coat))
         for part, fitted in zip(body.regions[1:], worn, strict=True)
     ]
     return Regions(body.bounds, body.tile, tuple(furs), quads)

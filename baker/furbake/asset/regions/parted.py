@@ -80,7 +80,7 @@ def chosen_fins(each: list[Fins], bounds: Bytes, seed: int) -> tuple[Fins, tuple
         for name in ("source", "tangents", "uv", "angles")
     }
     quads = 4 * np.arange(count // 4)[:, None] + np.array([0, 1, 3, 0, 3, 2])
-    return Fins(faces=quads.reshape(-1, 3), **together), tuple(len(own) for own in corners)
+    return Fins(faces=quads.reshape(-1, 3), **together), tuple(len(own) for own in taken)
 
 
 def fin_bounds(quads: tuple[int, ...]) -> Attributes:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from furbake.asset.buffer import numbers
 from furbake.asset.planes import write_planes
-from furbake.pelt.pelt import Pelt
+from furbake.pelt.pelt import FinPelt, Pelt
 
 Record = dict[str, Any]
 
@@ -86,6 +86,23 @@ def write_shared(folder: Path, pelts: Sequence[Pelt], prefix: str, images: list[
                 images.append(name)
             own[at] = name.removeprefix(prefix)
     return [own.get(i, "") for i in range(len(images))]
+
+
+def shaped(pelts: Sequence[Pelt], like: Pelt) -> tuple[Pelt, ...]:
+    """The pelts with fins of as many rows as another's: furs of one body are stacked in one texture."""
+    if like.fin is None:
+        return tuple(pelts)
+    rows, columns = like.fin.alpha.shape
+    return tuple(replace(pelt, fin=None if pelt.fin is None else _resized(pelt.fin, rows, columns)) for pelt in pelts)
+
+
+def _resized(fin: FinPelt, rows: int, columns: int) -> FinPelt:
+    """A fin's texels repeated or left out."""
+    if fin.alpha.shape == (rows, columns):
+        return fin
+    v, u = (((np.arange(to) + 0.5) * of / to).astype(np.int64) for to, of in zip((rows, columns), fin.alpha.shape, strict=True))
+    texels = {name: getattr(fin, name) for name in ("codes", "alpha", "tint", "colour")}
+    return replace(fin, **{name: None if values is None else values[v][:, u] for name, values in texels.items()})
 
 
 def _same(one: Path, two: Path) -> bool:

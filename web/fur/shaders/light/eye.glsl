@@ -5,8 +5,9 @@
 uniform vec4 eye[9 * FURS]; // of each fur: weights of twelve terms, three vectors for each of 1, s, s²
 #ifdef REGIONS
 uniform vec4 surges[REGIONS]; // of each fur
-#define surge surges[furRegion]
+#define furSurge surges[furRegion]
 #else
+#define furSurge surge
 uniform vec4 surge; // light of a lamp beside the eye, which sees no shadows: excess X seen from above, X + Y from aside; Z = width, radians; W = share of a half sphere
 #endif
 #endif
@@ -54,12 +55,12 @@ vec3 napTowards(Eye from, vec3 lightTS) {
 
 // Excess of light beside the eye. up: height of the eye over the horizon
 float surgeFrom(float up) {
-	return surge.x + surge.y * (1.0 - up * up);
+	return furSurge.x + furSurge.y * (1.0 - up * up);
 }
 
 // Factor of the light of a lamp beside the eye.
 float surgeTowards(Eye from, vec3 lightVS) {
-	vec3 apart = (lightVS - from.viewer) / surge.z;
+	vec3 apart = (lightVS - from.viewer) / furSurge.z;
 	return 1.0 + surgeFrom(from.up) / (1.0 + dot(apart, apart));
 }
 

@@ -98,7 +98,7 @@ vec2 seenSky(FurPoint point, Quadratic seen, Radiance around) {
 	viewer.UP = max(viewer.UP, 0.0);
 	viewer /= max(length(viewer), 1e-4);
 	float beside = max(c + dot(g, viewer), 0.0) / max(c + 0.5 * rise, 1e-6);
-	return vec2(mean, mean + surgeFrom(viewer.UP) * surge.w * beside * heldNap(seen, viewer));
+	return vec2(mean, mean + surgeFrom(viewer.UP) * furSurge.w * beside * heldNap(seen, viewer));
 }
 #endif
 
