@@ -77,6 +77,7 @@ BAKE = [
     option("--pose", metavar="CLIP@SECONDS", help="lay the fur in a pose of the model, not in the one it is bound in"),
     option("--length-map", metavar="FILE.png|vertex:red", type=PLACE, help="black is no length"),
     option("--mask", metavar="FILE.png|vertex:red", type=PLACE, help="black is bare skin"),
+    option("--regions", metavar="FILE.toml", type=PLACE, help="parts of the body with a fur of their own"),
     option("--features", metavar="FILE.json", type=PLACE, help="eyes, a nose and the like"),
     unset_switch(
         "--length-by-thickness",

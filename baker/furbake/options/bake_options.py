@@ -18,7 +18,7 @@ Guide = Literal["nose-tail", "down"]
 Uv = Literal["lapped", "own"]
 ColourKind = Literal["texture", "vertex"]
 
-FILES = ("length_map", "mask", "comb", "features", "swatch")
+FILES = ("length_map", "mask", "comb", "features", "swatch", "regions")
 """Options that name files."""
 
 OF_VERTICES = "vertex:"
@@ -29,13 +29,13 @@ THIN: dict[str, Any] = {"layers": 1, "height_share": 0.05}
 """Options of fur that is photographed, where the command is not given others: photographs show the top alone."""
 
 
-LATER = ("directions", "states", "dirt", "auto_length", "pose", "swatch", "colour")
+LATER = ("directions", "states", "dirt", "auto_length", "pose", "swatch", "colour", "regions")
 """Options that early records do not have."""
 
 OF_BODY = (
     "preset", "length", "tile", "height", "guide", "sweep", "uv", "length_by_thickness", "auto_length", "length_noise",
     "tip_noise", "belly", "max_faces", "pose", "length_map", "mask", "comb", "features", "fins", "tile_share",
-    "height_share", "meshopt", "colour",
+    "height_share", "meshopt", "colour", "regions",
 )  # fmt: skip
 """Options of the body that wears a tile, or by which the tile's height is found; all others are the tile's own."""
 
@@ -103,6 +103,8 @@ class BakeOptions:
     """JSON file of eyes, a nose and the like."""
     swatch: str | None = None
     """`.lp`, `.ptm` or `info.json` of real fur or cloth under many lamps, from which the tile is made, not grown."""
+    regions: str | None = None
+    """TOML file of parts of the body with a fur of their own."""
     fins: bool = True
     """Quads on the edges that show the fur from the side, where shells are seen edge-on."""
     meshopt: bool = True
@@ -151,6 +153,10 @@ class BakeOptions:
             raise OptionError(f"states: got {','.join(self.states)}, expected {expected}")
         if self.dirt and self.coefficients < 4:
             raise OptionError("dirt: got 3 coefficients, which leave no room for the share of mud, expected 4 to 6")
+        if self.regions is not None:
+            for name, got in (("swatch", self.swatch), ("basis", self.basis), ("curves", self.curves)):
+                if got not in (None, "ptm", "slab"):
+                    raise OptionError(f"regions: got {self.regions} beside {name} {got}, expected grown fur, ptm and slab")
         if self.swatch is not None and (len(self.states) > 1 or self.dirt):
             raise OptionError(f"swatch: got {self.swatch} beside wet or dirty states, expected dry fur alone")
         hairs = self.coat.guard.count + self.coat.under.count
