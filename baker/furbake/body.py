@@ -28,8 +28,9 @@ from furbake.surface.place.paint import brought, uncover
 from furbake.surface.place.thickness import length_by_thickness
 from furbake.surface.place.variation import noise, underside
 from furbake.surface.place.vertex_fur import VertexFur
-from furbake.surface.rig.kept import shown
+from furbake.surface.rig.kept import listed, shown
 from furbake.surface.shapes import builtin, is_builtin
+from furbake.surface.skeleton.rigged import with_skeleton
 
 Floats = NDArray[np.float64]
 
@@ -81,7 +82,11 @@ def load_surface(model: str, max_faces: int | None = None, pose: tuple[str, floa
 
 def prepare(model: str, options: BakeOptions) -> Body:
     """Read `model` and lay its fur. Raises MeshError or OptionError, each with one sentence."""
-    skin = load_surface(model, options.max_faces, None if options.pose is None else clip_at(options.pose))
+    pose = None if options.pose is None else clip_at(options.pose)
+    if options.rig is None:
+        skin = load_surface(model, options.max_faces, pose)
+    else:
+        skin = with_skeleton(model, load_surface(model, options.max_faces), Path(options.rig), pose)
     ground = simplify(skin, SHELL_FACES) if len(skin.faces) > MANY_FACES else skin
     size = sized(ground, skin.extent, options)
     maps = brought(ground)
@@ -100,7 +105,7 @@ def prepare(model: str, options: BakeOptions) -> Body:
         ground, kept = uncover(ground, maps["mask"], model)
         lengths = lengths[kept]
         furs = None if furs is None else replace(furs, bounds=furs.bounds[:, kept])
-    features = () if options.features is None else read_features(Path(options.features))
+    features = () if options.features is None else _features(Path(options.features), skin)
     if features:
         lengths = lengths * clearing(ground, features)
     strokes = read_strokes(Path(options.comb)) if options.comb is not None else ()
@@ -160,6 +165,17 @@ def _tip(ground: Surface, options: BakeOptions) -> Floats:
     return np.asarray(
         np.maximum(options.tip_noise * noise(ground, options.seed + 1), options.belly * underside(ground))
     )
+
+
+def _features(path: Path, skin: Surface) -> tuple[Feature, ...]:
+    """The features in a file; the joints that they hang on are the skin's. Raises MeshError."""
+    features = read_features(path)
+    joints = [] if skin.rig is None else [skin.rig.nodes[joint].name for joint in skin.rig.joints]
+    for i, feature in enumerate(features):
+        if feature.joint is not None and feature.joint not in joints:
+            some = f"one of {listed(joints)}" if joints else "none, as nothing moves the model"
+            raise MeshError(f"{path}: features[{i}].joint is {shown(feature.joint)}, expected {some}")
+    return features
 
 
 def patch_figures(model: str, faces: int | None = None, tile_share: float = BakeOptions.tile_share) -> dict[str, float]:

@@ -15,7 +15,7 @@ from furbake.asset.buffer import MESHOPT, Buffer, dump, nested, numbers
 from furbake.asset.edges import edges_record
 from furbake.asset.planes import write_planes
 from furbake.asset.regions.parted import fin_bounds, parted
-from furbake.asset.regions.record import VERSION_REGIONS, Regions, regions_record, write_regions
+from furbake.asset.regions.record import Regions, regions_record, write_regions
 from furbake.asset.rig.bind import bound
 from furbake.asset.rig.motion import Motion
 from furbake.asset.rig.nodes import morphs, rigged
@@ -47,8 +47,9 @@ Floats = NDArray[np.float64]
 
 EXTENSION = "FUR_ptm_shells"
 VERSION, VERSION_STATES, VERSION_CURVES, VERSION_MOTION, VERSION_EDGES = "1.0", "1.1", "2.0", "2.1", "2.2"
-VERSION_ROOTS = "2.3"
-"""Format versions: one pelt, several states of it, mean curves, bodies that move, fins as edges, pictures of roots."""
+VERSION_LATEST = "2.3"
+"""Format versions: one pelt, several states of it, mean curves, bodies that move, fins as edges; pictures of roots, several
+furs on one body, fins as edges of bodies that move."""
 
 QUANTIZATION = "KHR_mesh_quantization"
 
@@ -95,7 +96,7 @@ class FurModel:
 def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     """Write model.gltf, model.bin and all images into `folder`; counts and file sizes for the record.
 
-    compress : meshes by `EXT_meshopt_compression`, and the fins of a still body as edges of the shells
+    compress : meshes by `EXT_meshopt_compression`, and the fins of a body without morph targets as edges of the shells
     """
     features = placed(model.skin, model.features)
     laid, model = model.skin, bound(model)
@@ -148,7 +149,7 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     fur_record = extension(pelts, model.length, tiles, planes, names, moves, edges, picture)
     if model.regions is not None:
         furs = [extension(each.pelts, model.length, tiles, named, names, moves) for each, named in others]
-        fur_record |= {"version": VERSION_REGIONS, "regions": regions_record(model.regions, furs)}
+        fur_record |= {"version": "regions": regions_record(model.regions, furs)}
     document = {
         "asset": {"version": "2.0", "generator": f"furbake {version('furbake')}"},
         "extensionsUsed": [EXTENSION, *needed],
@@ -170,7 +171,8 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
 
 def _fin_edges(model: FurModel, charts: Charts, stood: Attributes, buffer: Buffer) -> Record | None:
     """Fins as edges of the shells, of which readers make quads; None for those that are stored."""
-    if None in (model.fins, model.pelts[0].curves) or model.motion is not None or model.regions is not None:
+    morphs = model.motion is not None and model.motion.rig.targets
+    if None in (model.fins, model.pelts[0].curves) or morphs or model.regions is not None:
         return None
     return edges_record(charts, stood["POSITION"], model.fins, buffer)
 
@@ -217,7 +219,7 @@ def extension(
     lit: Record = {"environment": [numbers(row) for row in environment(pelt.basis)]}
     if pelt.curves is not None:
         version = VERSION_EDGES if edges else VERSION_MOTION if moves else VERSION_CURVES
-        version = VERSION_ROOTS if roots else version
+        version = VERSION_LATEST if roots or (edges and moves) else version
         lit = {"curves": {"even": nested(pelt.curves.even), "along": nested(pelt.curves.along)}}
     return {
         "version": version,

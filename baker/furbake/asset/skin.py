@@ -132,22 +132,22 @@ def fur_colour(surface: Surface, own: RGB, fur: VertexFur, tinted: bool = True) 
 
 
 def feature_nodes(features: Iterable[Feature], buffer: Buffer, looks: Looks, meshes: list[Record]) -> list[Record]:
-    """A node for each feature, placed and turned; all share the vertices of one ball of radius 1.
+    """A node for each feature, placed and turned; all share the vertices of one ball of radius 1, or of half of it.
 
     meshes : of the document so far; those of the features are added, one per material
     """
     nodes: list[Record] = []
-    shape: Record = {}
+    shapes: dict[bool, Record] = {}
     for feature in features:
-        if not shape:
-            vertices, faces = ball()
+        if feature.half not in shapes:
+            vertices, faces = ball(feature.half)
             # Normals of a ball are its positions.
-            shape = buffer.primitive({"POSITION": np.rint(32767.0 * vertices).astype(np.int16),
-                                      "NORMAL": signed(vertices)}, faces)  # fmt: skip
+            shapes[feature.half] = buffer.primitive({"POSITION": np.rint(32767.0 * vertices).astype(np.int16),
+                                                     "NORMAL": signed(vertices)}, faces)  # fmt: skip
         wears = Material(feature.name, factor=(*feature.colour, 1.0), roughness=feature.roughness)
         mesh = {
             "name": _text(feature.name),
-            "primitives": [shape | {"material": looks.material(wears, textured=False)}],
+            "primitives": [shapes[feature.half] | {"material": looks.material(wears, textured=False)}],
         }
         meshes.append(mesh)
         nodes.append(

@@ -79,6 +79,7 @@ BAKE = [
     option("--mask", metavar="FILE.png|vertex:red", type=PLACE, help="black is bare skin"),
     option("--regions", metavar="FILE.toml", type=PLACE, help="parts of the body with a fur of their own"),
     option("--features", metavar="FILE.json", type=PLACE, help="eyes, a nose and the like"),
+    option("--rig", metavar="FILE.json", type=PLACE, help="joints and clips for a model that stands still"),
     unset_switch(
         "--length-by-thickness",
         "the length itself from the model's size, and down to a third of it where the body is thin "

@@ -18,7 +18,7 @@ Guide = Literal["nose-tail", "down"]
 Uv = Literal["lapped", "own"]
 ColourKind = Literal["texture", "vertex"]
 
-FILES = ("length_map", "mask", "comb", "features", "swatch", "regions")
+FILES = ("length_map", "mask", "comb", "features", "rig", "swatch", "regions")
 """Options that name files."""
 
 OF_VERTICES = "vertex:"
@@ -29,13 +29,13 @@ THIN: dict[str, Any] = {"layers": 1, "height_share": 0.05}
 """Options of fur that is photographed, where the command is not given others: photographs show the top alone."""
 
 
-LATER = ("directions", "states", "dirt", "auto_length", "pose", "swatch", "colour", "regions")
+LATER = ("directions", "states", "dirt", "auto_length", "pose", "swatch", "colour", "regions", "rig")
 """Options that early records do not have."""
 
 OF_BODY = (
     "preset", "length", "tile", "height", "guide", "sweep", "uv", "length_by_thickness", "auto_length", "length_noise",
-    "tip_noise", "belly", "max_faces", "pose", "length_map", "mask", "comb", "features", "fins", "tile_share",
-    "height_share", "meshopt", "colour", "regions",
+    "tip_noise", "belly", "max_faces", "pose", "length_map", "mask", "comb", "features", "rig", "fins",
+    "tile_share", "height_share", "meshopt", "colour", "regions",
 )  # fmt: skip
 """Options of the body that wears a tile, or by which the tile's height is found; all others are the tile's own."""
 
@@ -101,6 +101,8 @@ class BakeOptions:
     """JSON file of strokes along which the fur is laid."""
     features: str | None = None
     """JSON file of eyes, a nose and the like."""
+    rig: str | None = None
+    """JSON file of joints and clips for a model that stands still."""
     swatch: str | None = None
     """`.lp`, `.ptm` or `info.json` of real fur or cloth under many lamps, from which the tile is made, not grown."""
     regions: str | None = None

@@ -115,7 +115,7 @@ export interface FurAsset {
 	shells: number;
 	/** Index of the fins' node: quads on the edges. */
 	fins?: number;
-	/** Fins in place of that node; format 2.2. */
+	/** Fins in place of that node; format 2.2, of a body with joints 2.3. */
 	edges?: {
 		/** Index of an accessor: a bit for each edge of the shells. */
 		mask: number;

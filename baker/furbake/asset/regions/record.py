@@ -16,9 +16,6 @@ from furbake.pelt.pelt import FinPelt, Pelt
 
 Record = dict[str, Any]
 
-VERSION_REGIONS = "2.3"
-"""Format version of several furs on one body."""
-
 OWN = ("height", "curves", "drift", "bent", "eye", "surge", "ramp", "pelts")
 """Members of the extension's object that each region has of its own."""
 
