@@ -99,6 +99,7 @@ BAKE = [
     switch("--force", "replace DIR if it is a bake"),
     switch("--if-stale", "only if DIR differs in options, input or versions; implies --force"),
     switch("--json", "print one JSON object with the record and the seconds of every stage"),
+    switch("--percent", "progress as a line for every percent, for other programs to read"),
     switch("--quiet", QUIET),
 ]  # fmt: skip
 
