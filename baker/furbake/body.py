@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import json
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from furbake.asset.planes import PlaneError, read_png
+from furbake.groomed import Groomed, groomed
 from furbake.options import BakeOptions
 from furbake.options.bake_options import OF_VERTICES, clip_at
+from furbake.pelt.hairs.strands import Strands
 from furbake.size import questions, sized
 from furbake.surface.charts import Charts, laid
 from furbake.surface.files import read_text
@@ -51,6 +53,7 @@ class Body:
     direction : (V, 3) unit tangents of the ground along which the fur is laid
     tile, length : width of a tile and longest fur, model units
     features : eyes, a nose and the like
+    groom : of an artist, which it wears
     notices : how long the fur is where that was not given, and units that look wrong, one sentence each
     """
 
@@ -63,6 +66,16 @@ class Body:
     length: float
     features: tuple[Feature, ...] = ()
     notices: tuple[str, ...] = ()
+    groom: Groomed | None = None
+
+    @property
+    def strands(self) -> Strands | None:
+        """Strands of the tile that no options grow; None: they are grown."""
+        return None if self.groom is None else self.groom.strands
+
+    def dressed(self, options: BakeOptions) -> BakeOptions:
+        """The options with what a groom has in place of the preset's."""
+        return options if self.groom is None else replace(options, coat=self.groom.coat, ramp=self.groom.ramp)
 
 
 def load_surface(model: str, max_faces: int | None = None, pose: tuple[str, float] | None = None) -> Surface:
@@ -78,12 +91,10 @@ def prepare(model: str, options: BakeOptions) -> Body:
     """Read `model` and lay its fur. Raises MeshError or OptionError, each with one sentence."""
     skin = load_surface(model, options.max_faces, None if options.pose is None else clip_at(options.pose))
     ground = simplify(skin, SHELL_FACES) if len(skin.faces) > MANY_FACES else skin
+    if options.groom is not None:
+        return wearing(model, options, skin, ground)
     size = sized(ground, skin.extent, options)
-    maps = brought(ground)
-    if options.length_map is not None:
-        maps["length"] = painted(ground, options.length_map)
-    if options.mask is not None:
-        maps["mask"] = painted(ground, options.mask)
+    maps = painted_maps(ground, options)
     lengths = size.shares
     if options.length_by_thickness:
         lengths = lengths * length_by_thickness(ground)
@@ -126,6 +137,53 @@ def prepare(model: str, options: BakeOptions) -> Body:
         features=features,
         notices=(*questions(size.tile, size.length, skin.extent, options), *size.notices),
     )
+
+
+def wearing(model: str, options: BakeOptions, skin: Surface, ground: Surface) -> Body:
+    """A model in an artist's groom; maps, a mask and features shorten its strands. Raises MeshError or GroomError."""
+    groom = groomed(options, skin, ground)
+    maps = painted_maps(ground, options)
+    lengths, mask = groom.lengths * maps.get("length", 1.0), maps.get("mask", np.ones(len(ground.vertices))) * ~groom.bald
+    direction, comb, density, colour = groom.direction, groom.comb, groom.density, groom.colour
+    lengths = lengths * mask
+    if (mask < 0.5 / 255).any():
+        ground, kept = uncover(ground, mask, model)
+        lengths, direction, comb, density = lengths[kept], direction[kept], comb[kept], density[kept]
+        colour = None if colour is None else colour[kept]
+    features = () if options.features is None else read_features(Path(options.features))
+    if features:
+        lengths = lengths * clearing(ground, features)
+    charts = lap(ground, direction, groom.tile, options.seed)
+    fur = VertexFur(
+        lengths=lengths,
+        occlusion=openness(ground),
+        tip=np.maximum(options.tip_noise * noise(ground, options.seed + 1), options.belly * underside(ground)),
+        comb=comb,
+        colour=ground.colours,
+        own=colour,
+    )
+    return Body(
+        skin=skin,
+        ground=ground,
+        charts=charts,
+        fur=fur,
+        direction=direction,
+        tile=groom.tile,
+        length=groom.length,
+        features=features,
+        notices=groom.notices,
+        groom=groom,
+    )
+
+
+def painted_maps(ground: Surface, options: BakeOptions) -> dict[str, Floats]:
+    """(V,) 0..1 numbers for the fur, by name: those that the file brings, and those that the options name."""
+    maps = brought(ground)
+    if options.length_map is not None:
+        maps["length"] = painted(ground, options.length_map)
+    if options.mask is not None:
+        maps["mask"] = painted(ground, options.mask)
+    return maps
 
 
 def patch_figures(model: str, faces: int | None = None, tile_share: float = BakeOptions.tile_share) -> dict[str, float]:

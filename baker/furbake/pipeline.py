@@ -13,11 +13,13 @@ from pathlib import Path
 from typing import Any
 
 from furbake.asset.gltf import FurModel, write_gltf
+from furbake.asset.hairs import write_strands
 from furbake.asset.rig.motion import Motion
 from furbake.asset.store import atomic_file, atomic_folder
 from furbake.body import Body, prepare
 from furbake.identity import bake_key, describe_input, library_versions
 from furbake.options import BakeOptions, OptionError
+from furbake.pelt.hairs.strands import Strands
 from furbake.pelt.hairs.volume import Volume
 from furbake.pelt.pelt import Pelt
 from furbake.surface.place.fins import Fins, build_fins
@@ -87,6 +89,8 @@ def bake(
     """
     options = options or BakeOptions()
     options.check()
+    if spread is not None and options.groom is not None:
+        raise OptionError(f"scheduler: got one beside the groom {options.groom}, expected a bake on this machine")
     if samples is not None and options.swatch is not None:
         raise OptionError(f"samples: got {samples} beside a swatch, expected fur that is grown")
     clock = _Clock(progress)
@@ -94,9 +98,10 @@ def bake(
         with clock.stage("mesh"):
             body = prepare(model, options)
         notices = (*body.skin.notices, *body.notices)
+        given, options = options, body.dressed(options)
         for notice in notices:
             notify(notice)
-        pelts = _Pelts(clock, options.of_tile(), body.length / body.tile, cache, spread)
+        pelts = _Pelts(clock, options.of_tile(), body.length / body.tile, cache, spread, body.strands)
         fitted = pelts.fitted(anew=samples is not None)
         for notice in pelts.notices:
             notify(notice)
@@ -105,8 +110,10 @@ def bake(
             if fins is not None:
                 fitted = pelts.with_fins(fitted)
         with clock.stage("write"):
-            record = _record(model, options, body, fitted)
+            record = _record(model, given, options, body, fitted)
             record["asset"] = write_gltf(folder, _furry(model, options, body, fitted, fins), options.meshopt)
+            if body.strands is not None:
+                record["asset"]["bytes"] |= write_strands(folder, body.strands)
             (folder / "bake.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
             if archive is not None:
                 write_samples(archive, pelts.sampled[0], pelts.tile.strands)
@@ -134,18 +141,27 @@ class _Pelts:
     """The pelts of a tile, made stage by stage or taken from a cache."""
 
     def __init__(
-        self, clock: _Clock, options: BakeOptions, height: float, cache: Path | None, spread: Spread | None
+        self,
+        clock: _Clock,
+        options: BakeOptions,
+        height: float,
+        cache: Path | None,
+        spread: Spread | None,
+        strands: Strands | None = None,
     ) -> None:
-        """options : of the tile; height : tile widths, of which the last bits vary from body to body."""
-        self.spread = spread
+        """options : of the tile; height : tile widths, of which the last bits vary from body to body.
+
+        strands : that are not grown of the options
+        """
+        self.spread, self.strands = spread, strands
         self.clock, self.options, self.height = clock, options, float(f"{height:.{HEIGHT_DIGITS}g}")
-        self.kept = None if cache is None else KeptPelts(cache, options, self.height)
+        self.kept = None if cache is None else KeptPelts(cache, options, self.height, strands)
         self.sampled: list[Sampled] = []
         self.notices: tuple[str, ...] = ()
 
     @cached_property
     def tile(self) -> Tile:
-        return Tile.grow(self.options, self.height)
+        return Tile.grow(self.options, self.height, self.strands)
 
     @cached_property
     def dry(self) -> Volume:
@@ -200,16 +216,21 @@ def _motion(body: Body) -> Motion | None:
     return Motion(rig, follows, follows if ground is skin else follow(rig, ground.vertices, ground.normals))
 
 
-def _record(model: str, options: BakeOptions, body: Body, fitted: Fitted) -> dict[str, Any]:
-    """`bake.json` without the written files: versions, options, input and figures."""
+def _record(model: str, given: BakeOptions, options: BakeOptions, body: Body, fitted: Fitted) -> dict[str, Any]:
+    """`bake.json` without the written files: versions, options, input and figures.
+
+    given : options before a groom changed them
+    """
     record: dict[str, Any] = {
         "furbake": version("furbake"),
         "libraries": library_versions(),
         "options": options.as_record(),
         "input": describe_input(model, body.skin),
-        "key": bake_key(model, options),
+        "key": bake_key(model, given),
         "fit": fitted[0][1],
     }
+    if body.groom is not None:
+        record["groom"] = body.groom.record
     if len(fitted) > 1:
         record["states"] = [
             {"name": pelt.state.name, "wetness": pelt.state.wetness, "dirt": pelt.state.dirt, "fit": figures}

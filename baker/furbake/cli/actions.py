@@ -19,6 +19,7 @@ from furbake.cli.caches import pelt_cache
 from furbake.cli.chosen import chosen, options_for
 from furbake.cli.command import INVALID
 from furbake.cli.output import complain, say
+from furbake.cli.parsing import UsageError
 from furbake.cli.progress import shown
 from furbake.cores import cores
 from furbake.freshness import fresh_record
@@ -37,6 +38,8 @@ from furbake.study.verify import body
 from furbake.study.verify.colour import colour_lines, verify_colour
 from furbake.study.verify.tables import lines as body_lines
 from furbake.study.verify.tile import SAMPLES, lines, verify
+from furbake.surface.read.reading import STAGES as USD
+from furbake.surface.read.reading import kind_of
 from furbake.tile.tile import Spread
 
 VERIFY_STAGES = ("strands", "light", "trace")
@@ -44,6 +47,7 @@ VERIFY_STAGES = ("strands", "light", "trace")
 
 def run_bake(args: SimpleNamespace) -> int:
     """Bake a mesh into a folder."""
+    args.model = args.model or mesh_of(args.groom)
     options = options_for(args.model, args)
     out = Path(args.out)
     if args.if_stale and (record := fresh_record(args.model, out, options)):
@@ -71,6 +75,15 @@ def run_bake(args: SimpleNamespace) -> int:
         if not args.if_stale:
             say(f"to see it: npm start, then {_on_the_page(out)}")
     return 0
+
+
+def mesh_of(groom: str | None) -> str:
+    """The model of a bake that names none: the mesh beside the strands. Raises UsageError where it has none."""
+    if groom is None:
+        raise UsageError("MODEL: missing, expected furbake bake MODEL -o DIR")
+    if kind_of(groom) not in USD:
+        raise UsageError(f"MODEL: missing, and {groom} holds strands alone, expected furbake bake MODEL -o DIR")
+    return groom
 
 
 def _spread(args: SimpleNamespace) -> AbstractContextManager[Spread | None]:
