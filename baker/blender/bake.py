@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 import time
 from pathlib import Path
@@ -32,7 +33,7 @@ class Baking:
         self.thing, self.folder = thing.name, baked_folder(thing)
         self._scratch = Path(mkdtemp(prefix="furbake-"))
         try:
-            self._body = body = self._scratch / f"{self.folder.name}.glb"
+            body = self._scratch / f"{self.folder.name}.glb"
             self.notes = write_body(
                 context, thing, body, length=chosen.length_group, mask=chosen.mask_group, clips=chosen.clips
             )
@@ -51,7 +52,8 @@ class Baking:
         try:
             return summary(self.job.result())
         finally:
-            self.notes += [note.removeprefix(f"{self._body}: ") for note in self.job.notes]
+            # Names of its own files mean nothing to the artist.
+            self.notes += [re.sub(rf"^{re.escape(str(self._scratch))}\S*: ", "", note) for note in self.job.notes]
             self.clear()
 
     def clear(self) -> None:

@@ -7,8 +7,9 @@ from pathlib import Path
 import bpy
 import numpy as np
 
+from .hairs import sources
 from .job import JobError
-from .scene import a_copy, armatures, at_rest
+from .scene import a_copy, armatures, at_rest, hidden
 
 LENGTH, MASK = "_LENGTH", "_MASK"
 """Attributes of the vertices that furbake reads: share of the longest fur, and where fur grows."""
@@ -23,8 +24,11 @@ def write_body(
 
     Raises JobError where a group is missing or the mesh has no face.
     """
+    for group in filter(None, (length, mask)):
+        if group not in thing.vertex_groups:
+            raise JobError(f"{thing.name}: no vertex group {group}, expected one of its own")
     notes = []
-    with at_rest(context, thing), a_copy(context, thing, deep=True) as copy:
+    with hidden(sources(thing)[0]), at_rest(context, thing), a_copy(context, thing, deep=True) as copy:
         for name, group in ((LENGTH, length), (MASK, mask)):
             if group:
                 paint(copy, name, group)
@@ -50,15 +54,13 @@ def write_body(
 
 
 def paint(thing: bpy.types.Object, name: str, group: str) -> None:
-    """Make a vertex group an attribute of the mesh. Raises JobError where there is no such group."""
-    known = thing.vertex_groups.get(group)
-    if known is None:
-        raise JobError(f"{thing.name}: no vertex group {group}, expected one of its own")
+    """Make a vertex group an attribute of the mesh."""
+    index = thing.vertex_groups[group].index
     mesh = thing.data
     weights = np.zeros(len(mesh.vertices), np.float32)
     for vertex in mesh.vertices:
         for part in vertex.groups:
-            if part.group == known.index:
+            if part.group == index:
                 weights[vertex.index] = part.weight
     if (old := mesh.attributes.get(name)) is not None:
         mesh.attributes.remove(old)

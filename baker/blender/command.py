@@ -27,6 +27,7 @@ class Chosen(Protocol):
     states: str
     dirt: bool
     length: float
+    follow: int
     seed: int
     more: str
 
@@ -58,12 +59,14 @@ def arguments(chosen: Chosen, body: Path, groom: Path | None, folder: Path) -> l
             given += [option, value]
     if chosen.dirt:
         given.append("--dirt")
-    if chosen.length > 0:
-        given += ["--length", f"{chosen.length:g}"]
     if chosen.seed:
         given += ["--seed", str(chosen.seed)]
     if groom is not None:
         given += ["--groom", str(groom)]
+        if chosen.follow >= 0:
+            given += ["--follow", str(chosen.follow)]
+    elif chosen.length > 0:
+        given += ["--length", f"{chosen.length:g}"]
     try:
         return given + shlex.split(chosen.more)
     except ValueError as error:

@@ -36,11 +36,11 @@ class FURBAKE_PT_fur(bpy.types.Panel):  # noqa: N801 — Blender's way
         layout.use_property_decorate = False
         for name in ("folder", "preset", "size", "basis", "states", "dirt"):
             layout.prop(chosen, name)
-        column = layout.column(heading="Hairs")
-        column.prop(chosen, "hairs")
-        if chosen.hairs and not any(sources(thing)):
-            column.label(text="No hairs on it: the preset's own", icon="INFO")
-        layout.prop(chosen, "length")
+        layout.prop(chosen, "hairs")
+        if chosen.hairs and any(sources(thing)):
+            layout.prop(chosen, "follow")
+        else:
+            layout.prop(chosen, "length")
         layout.prop_search(chosen, "length_group", thing, "vertex_groups", text="Length group")
         layout.prop_search(chosen, "mask_group", thing, "vertex_groups", text="Mask group")
         for name in ("clips", "seed", "more"):

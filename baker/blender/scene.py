@@ -66,3 +66,16 @@ def a_copy(context: bpy.types.Context, thing: bpy.types.Object, *, deep: bool) -
         if deep:
             bpy.data.batch_remove([data])
         bpy.data.collections.remove(home)
+
+
+@contextmanager
+def hidden(things: list[bpy.types.Object]) -> Iterator[None]:
+    """Objects that are not evaluated: thousands of hairs would be, for every frame of every clip."""
+    before = [(each, each.hide_viewport) for each in things]
+    for each in things:
+        each.hide_viewport = True
+    try:
+        yield
+    finally:
+        for each, was in before:
+            each.hide_viewport = was

@@ -16,18 +16,19 @@ const bytes = (file) => new Uint8Array(readFileSync(file));
  * Writes `furbake-blender-VERSION.zip`.
  *
  * @param {string} folder
+ * @param {string} [built] folder of the built viewer
  * @returns {string} its path
  */
-export function packExtension(folder) {
+export function packExtension(folder, built = join(root, 'lib')) {
 	const { version } = JSON.parse(readFileSync(join(root, 'package.json'), 'utf8'));
 	/** @type {Record<string, Uint8Array>} */
 	const files = { LICENSE: bytes(join(root, 'LICENSE')) };
 	for (const name of readdirSync(source)) if (/\.(py|toml)$/.test(name)) files[name] = bytes(join(source, name));
 	for (const name of readdirSync(join(source, 'page'))) files[`page/${name}`] = bytes(join(source, 'page', name));
 	for (const name of viewer) {
-		const built = join(root, 'lib', name);
-		if (!existsSync(built)) throw new Failure(`lib/${name}: no such file, expected it of npm run library`);
-		files[`page/${name}`] = bytes(built);
+		const file = join(built, name);
+		if (!existsSync(file)) throw new Failure(`${file}: no such file, expected it of npm run library`);
+		files[`page/${name}`] = bytes(file);
 	}
 	const manifest = new TextDecoder().decode(files['blender_manifest.toml']);
 	const stamped = manifest.replace(/^version = .*$/m, `version = "${version}"`);
