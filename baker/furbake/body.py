@@ -87,10 +87,15 @@ def load_surface(model: str, max_faces: int | None = None, pose: tuple[str, floa
     return load_mesh(Path(model), MAX_FACES if max_faces is None else max_faces, pose)
 
 
+def grounded(skin: Surface) -> Surface:
+    """The surface under shells and fins: the skin, or a simpler copy of a large one."""
+    return simplify(skin, SHELL_FACES) if len(skin.faces) > MANY_FACES else skin
+
+
 def prepare(model: str, options: BakeOptions) -> Body:
     """Read `model` and lay its fur. Raises MeshError or OptionError, each with one sentence."""
     skin = load_surface(model, options.max_faces, None if options.pose is None else clip_at(options.pose))
-    ground = simplify(skin, SHELL_FACES) if len(skin.faces) > MANY_FACES else skin
+    ground = grounded(skin)
     if options.groom is not None:
         return wearing(model, options, skin, ground)
     size = sized(ground, skin.extent, options)
@@ -143,9 +148,9 @@ def wearing(model: str, options: BakeOptions, skin: Surface, ground: Surface) ->
     """A model in an artist's groom; maps, a mask and features shorten its strands. Raises MeshError or GroomError."""
     groom = groomed(options, skin, ground)
     maps = painted_maps(ground, options)
-    lengths, mask = groom.lengths * maps.get("length", 1.0), maps.get("mask", np.ones(len(ground.vertices))) * ~groom.bald
+    mask = np.where(groom.bald, 0.0, maps.get("mask", 1.0))
     direction, comb, density, colour = groom.direction, groom.comb, groom.density, groom.colour
-    lengths = lengths * mask
+    lengths = groom.lengths * maps.get("length", 1.0) * mask
     if (mask < 0.5 / 255).any():
         ground, kept = uncover(ground, mask, model)
         lengths, direction, comb, density = lengths[kept], direction[kept], comb[kept], density[kept]
@@ -154,6 +159,7 @@ def wearing(model: str, options: BakeOptions, skin: Surface, ground: Surface) ->
     if features:
         lengths = lengths * clearing(ground, features)
     charts = lap(ground, direction, groom.tile, options.seed)
+    charts = replace(charts, weights=charts.weights * density[charts.source])
     fur = VertexFur(
         lengths=lengths,
         occlusion=openness(ground),

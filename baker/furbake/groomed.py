@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from furbake.artist.bind import Bound, bind, ground_of
 from furbake.artist.colours import Colours, colours_of
 from furbake.artist.drawn import Source, draw
-from furbake.artist.fields import Fields, Standing, areas, fields_of, standing
+from furbake.artist.fields import Fields, Standing, areas, direction_of, fields_of, standing
 from furbake.artist.follow import filled, followers
 from furbake.artist.laid import Laid, laid
 from furbake.artist.read.reading import read_curves
@@ -20,7 +20,6 @@ from furbake.options import BakeOptions
 from furbake.options.knobs import KNOBS
 from furbake.pelt.hairs.ramp import Ramp
 from furbake.pelt.hairs.strands import Coat, Strands
-from furbake.surface.lay.field import comb_field
 from furbake.surface.mesh import Surface
 
 Floats = NDArray[np.float64]
@@ -104,7 +103,7 @@ def groomed(options: BakeOptions, skin: Surface, ground: Surface) -> Groomed:
         coat=_coat(options.coat, strands, length / tile, fur.lean / tile),
         ramp=options.ramp if colours is None else colours.ramp,
         record=_record(combed, fur, density, len(which)),
-        notices=(*combed.notices, _told(combed, fur, length, tile, len(which))),
+        notices=(*combed.notices, _told(combed, fur, tile, len(which))),
     )
 
 
@@ -115,12 +114,14 @@ def combed_by(name: str, options: BakeOptions, skin: Surface, ground: Surface) -
     area = float(areas(skin).sum())
     follow = followers(bound, area, options.follow)
     if follow:
-        some = "asked for" if options.follow is not None else "they cover the skin too thinly alone, --follow 0 leaves it so"
+        some = (
+            "asked for" if options.follow is not None else "alone they hardly cover the skin (--follow 0: as they are)"
+        )
         notices.append(f"{name}: {follow} hairs grown beside each of {bound.count} guides, {some}")
         bound = bind(name, filled(bound, follow, options.seed), skin)
     stands = standing(ground_of(ground), bound, ground_of(skin))
     fields = fields_of(stands, bound)
-    direction = comb_field(ground, options.guide, (), fields.way).direction
+    direction = direction_of(ground, fields, options.guide)
     return Combed(bound, stands, fields, direction, follow, tuple(notices))
 
 
@@ -180,7 +181,7 @@ def _record(combed: Combed, fur: Laid, density: float, drawn: int) -> dict[str, 
     }
 
 
-def _told(combed: Combed, fur: Laid, length: float, tile: float, drawn: int) -> str:
+def _told(combed: Combed, fur: Laid, tile: float, drawn: int) -> str:
     low, high = (float(np.quantile(combed.bound.length, share)) for share in (0.05, 0.95))
     return (
         f"groom: strands {low:.2g} to {high:.2g} long, {drawn} of them in a tile {tile:.2g} wide, "

@@ -24,7 +24,10 @@ UNITS = {0.01: "100 times too large", 100.0: "100 times too small", 0.001: "1000
          1000.0: "1000 times too small", 0.0254: "in inches", 39.37: "in metres, the body in inches"}  # fmt: skip
 """Units of another program: factors by which a groom would fit, and what is wrong with it then."""
 
-TURNED = {"z up": np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]]), "y up": np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])}
+TURNED = {
+    "z up": np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]]),
+    "y up": np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]),
+}
 """Axes of another program, and how they are turned to fit."""
 
 THIN = 0.15
@@ -145,7 +148,7 @@ def heights(ground: Ground, normal: Floats, places: Floats, chord: Floats) -> Fl
     side = np.einsum("ij,ij->i", places - foot, there)
     plane = np.einsum("ij,ij->i", chord, normal)
     other = np.einsum("ij,ij->i", there, normal) <= 0.0
-    return np.maximum(np.where(other, plane, np.sign(side) * apart), 0.0)
+    return np.asarray(np.maximum(np.where(other, plane, np.sign(side) * apart), 0.0))
 
 
 def _floating(ground: Ground, roots: Floats, limit: float) -> float:
@@ -167,7 +170,8 @@ def _far(ground: Ground, roots: Floats, limit: float) -> str:
 
 def _area(surface: Surface) -> float:
     corners = surface.vertices[surface.faces]
-    return float(np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2)
+    doubled = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    return float(doubled.sum()) / 2
 
 
 def _length(value: float | np.floating) -> str:
@@ -175,4 +179,4 @@ def _length(value: float | np.floating) -> str:
 
 
 def _unit(vectors: Floats) -> NDArray[np.float64]:
-    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-30))
+    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-30), np.float64)

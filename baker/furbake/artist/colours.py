@@ -41,6 +41,9 @@ def colours_of(bound: Bound, stands: Standing, fields: Fields, which: Ints) -> C
     brightest = float(np.quantile(brightness, BRIGHT)) if brightness.std() > EVEN else 1.0
     tint = np.clip(brightness[which] / brightest, 0.0, 1.0)
     weight = (fields.area * fields.density * ~fields.bald)[:, None]
-    ends = [np.clip(brightest * (end * weight).sum(0) / (places * weight).sum(0), 0.0, 1.0) for end in (fields.root, fields.tip)]
+    ends = [
+        np.clip(brightest * (end * weight).sum(0) / (places * weight).sum(0), 0.0, 1.0)
+        for end in (fields.root, fields.tip)
+    ]
     root, tip = ((float(r), float(g), float(b)) for r, g, b in ends)
     return Colours(Ramp(root, tip, tip, 1.0), places, tint)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,7 +59,7 @@ class Curves:
         """(S,) length of each strand along its points."""
         steps = np.linalg.norm(np.diff(self.points.astype(np.float64), axis=0), axis=1)
         of = self.of
-        return np.bincount(of[1:], np.where(of[1:] == of[:-1], steps, 0.0), self.count)
+        return np.asarray(np.bincount(of[1:], np.where(of[1:] == of[:-1], steps, 0.0), self.count), np.float64)
 
     def some(self, which: NDArray[np.bool_]) -> Curves:
         """Some of the strands, (S,)."""
@@ -91,23 +92,23 @@ class Curves:
 
 
 def checked(
-    name: str, points: NDArray[np.generic], counts: NDArray[np.generic],
-    widths: NDArray[np.generic] | None = None, colours: NDArray[np.generic] | None = None,
+    name: str, points: NDArray[Any], counts: NDArray[Any],
+    widths: NDArray[Any] | None = None, colours: NDArray[Any] | None = None,
 ) -> Curves:  # fmt: skip
     """Curves of arrays that a file holds, without strands that are none. Raises GroomError where none is left."""
     if not len(counts):
         raise GroomError(f"{name}: no curves, expected strands of two points or more")
-    counts = np.asarray(counts, np.int64)
-    if (counts < 0).any() or int(counts.sum()) != len(points):
-        raise GroomError(f"{name}: {len(points)} points for strands that count {int(counts.sum())}, expected as many")
+    many: Ints = np.asarray(counts, np.int64)
+    if (many < 0).any() or int(many.sum()) != len(points):
+        raise GroomError(f"{name}: {len(points)} points for strands that count {int(many.sum())}, expected as many")
     with np.errstate(over="ignore"):
         found = Curves(
             np.ascontiguousarray(points, np.float32),
-            counts,
+            many,
             None if widths is None else np.ascontiguousarray(widths, np.float32),
             None if colours is None else np.clip(np.nan_to_num(np.asarray(colours, np.float32)), 0.0, None),
         )
-    short = counts < 2
+    short = many < 2
     if short.all():
         raise GroomError(f"{name}: {len(counts)} curves of one point, expected strands of two points or more")
     notices = []

@@ -96,7 +96,9 @@ def _typical(source: Source) -> Ints:
     """Strands in whose neighbourhood density and length are about those of the tile; all where there are few."""
     density, length = (source.stands.at(values) for values in (source.fields.density, source.fields.length))
     usual = float(np.median(length))
-    off = np.maximum(np.abs(np.log(np.maximum(density, 1e-12) / source.density)), np.abs(np.log(np.maximum(length, 1e-12) / usual)))
+    off = np.abs([np.log(np.maximum(density, 1e-12) / source.density), np.log(np.maximum(length, 1e-12) / usual)]).max(
+        axis=0
+    )
     found = np.flatnonzero(off < LIKE)
     return found if len(found) >= min(500, source.bound.count / 4) else np.arange(source.bound.count)
 

@@ -9,7 +9,15 @@ from scipy.sparse import coo_array, csr_array
 
 from furbake.artist.bind import Bound, Ground
 from furbake.artist.curves import Floats, Ints
+from furbake.surface.lay.field import comb_field
+from furbake.surface.lay.guide import Guide
 from furbake.surface.mesh import Surface
+
+FIRM = 3000.0
+"""Weight of the strands against that of the guide, for the direction: they are everywhere."""
+
+UNSURE = 0.02
+"""Length of a mean direction below which strands do not agree on one."""
 
 SPREAD = 1.5
 """Distance over which strands are averaged, distances between strands."""
@@ -75,7 +83,8 @@ def fields_of(stands: Standing, bound: Bound) -> Fields:
     def summed(values: Floats) -> Floats:
         """Sums of values (S, ...) of the strands at the vertices, spread over the surface."""
         flat = values.reshape(bound.count, -1)
-        parts = [np.bincount(corners.reshape(-1), (stands.shares * column[:, None]).reshape(-1), count) for column in flat.T]
+        each = (stands.shares * column[:, None] for column in flat.T)
+        parts = [np.bincount(corners.reshape(-1), part.reshape(-1), count) for part in each]
         return step(np.stack(parts, -1)).reshape(count, *values.shape[1:])
 
     mass, ground = summed(np.ones(bound.count)), step(area[:, None])[:, 0]
@@ -103,11 +112,19 @@ def fields_of(stands: Standing, bound: Bound) -> Fields:
     )
 
 
+def direction_of(surface: Surface, fields: Fields, guide: Guide) -> Floats:
+    """(V, 3) unit tangents along which the strands lie; along the guide where there are none."""
+    size = np.linalg.norm(fields.way, axis=1, keepdims=True)
+    return comb_field(surface, guide, (), fields.way / np.maximum(size, UNSURE), FIRM).direction
+
+
 def areas(surface: Surface) -> Floats:
     """(V,) a third of the area of the faces around each vertex."""
     corners = surface.vertices[surface.faces]
     doubled = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    return np.bincount(surface.faces.reshape(-1), np.repeat(doubled / 6.0, 3), len(surface.vertices))
+    return np.asarray(
+        np.bincount(surface.faces.reshape(-1), np.repeat(doubled / 6.0, 3), len(surface.vertices)), np.float64
+    )
 
 
 class _averaging:  # noqa: N801 — called as the function that it is
@@ -119,10 +136,10 @@ class _averaging:  # noqa: N801 — called as the function that it is
         count = len(surface.vertices)
         links = coo_array((np.ones(len(rows)), (rows, columns)), shape=(count, count)).tocsr()
         links.data[:] = 1.0
-        degree = np.asarray(links.sum(axis=1)).reshape(-1)
+        degree = np.asarray(np.bincount(links.indices, minlength=count), np.float64)
         edge = float(np.linalg.norm(surface.vertices[start] - surface.vertices[end], axis=1).mean())
         spacing = np.sqrt(area.sum() / strands)
-        self.rounds = int(np.clip(np.ceil((SPREAD * spacing / edge) ** 2), 2, MOST_ROUNDS))
+        self.rounds = int(np.clip(np.ceil((SPREAD * spacing / edge) ** 2), 1, MOST_ROUNDS))
         # Half stays, half is shared out along the edges: no sum changes.
         self.links: csr_array = links
         self.degree = np.maximum(degree, 1.0)[:, None]

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from furbake.artist.bind import Bound
-from furbake.artist.curves import Curves, Ints
+from furbake.artist.curves import Curves, Floats, Ints, Single
 
 AROUND = 6
 """Neighbours of a guide, between two of which and itself its followers grow."""
@@ -18,6 +18,9 @@ POINTS = 12
 
 BARE, COVERED = 0.5, 2.0
 """Width times length of all strands over the area below which a groom is one of guides, and to which it is filled."""
+
+UNLIKE = 0.25
+"""Length of a neighbour over a guide's beyond which no hair lies between them."""
 
 MOST = 16
 """Followers of a guide at most, where they are not asked for."""
@@ -44,7 +47,7 @@ def filled(bound: Bound, count: int, seed: int) -> Curves:
     rng = np.random.default_rng([seed, 3])
     guides, widths, colours = curves.evened(np.arange(curves.count), POINTS)
     near = _neighbours(bound, guides[:, 0])
-    made = {"points": [guides], "widths": [widths], "colours": [colours]}
+    made: dict[str, list[Floats | None]] = {"points": [guides], "widths": [widths], "colours": [colours]}
     for _ in range(count):
         pick = np.argsort(rng.random(near.shape), axis=1)[:, :2]
         trio = np.column_stack([np.arange(curves.count), np.take_along_axis(near, pick, axis=1)])
@@ -54,7 +57,7 @@ def filled(bound: Bound, count: int, seed: int) -> Curves:
             if values is not None:
                 made[name].append(np.einsum("sk,sk...->s...", share, values[trio]))
 
-    def flat(name: str, *width: int) -> np.ndarray | None:
+    def flat(name: str, *width: int) -> Single | None:
         parts = [part for part in made[name] if part is not None]
         return np.concatenate(parts).reshape(-1, *width).astype(np.float32) if parts else None
 
@@ -64,9 +67,9 @@ def filled(bound: Bound, count: int, seed: int) -> Curves:
     return replace(curves, points=points, counts=counts, widths=flat("widths"), colours=flat("colours", 3), notices=())
 
 
-def _neighbours(bound: Bound, roots: np.ndarray) -> Ints:
+def _neighbours(bound: Bound, roots: Floats) -> Ints:
     """(S, AROUND) nearest roots of each that stand on the same side of the body; itself in place of others."""
-    near = cKDTree(roots).query(roots, k=min(AROUND + 1, len(roots)))[1][:, 1:]
+    near = np.asarray(cKDTree(roots).query(roots, k=min(AROUND + 1, len(roots)))[1], np.int64)[:, 1:]
     alike = np.einsum("skd,sd->sk", bound.normal[near], bound.normal) > 0.3
-    short, long = np.minimum(bound.length[near], bound.length[:, None]), np.maximum(bound.length[near], bound.length[:, None])
-    return np.where(alike & (short > 0.25 * long), near, np.arange(len(roots))[:, None])
+    ratio = bound.length[near] / np.maximum(bound.length[:, None], 1e-30)
+    return np.where(alike & (ratio > UNLIKE) & (ratio < 1 / UNLIKE), near, np.arange(len(roots))[:, None])

@@ -69,6 +69,7 @@ class FurModel:
     features : further opaque meshes of the scene; where they stand on the skin they are put there
     bare : linear colour of a skin that brings no colour at all; None: white
     motion : what moves skin and ground; None: nothing. Where its rig has a pose all of the above is in it
+    thinned : whether hairs are fewer in places, where the weights of its charts sum to less than 1
     tinted : whether the fur takes the colour of the skin below it; else it has its own alone
     """
 
@@ -83,6 +84,7 @@ class FurModel:
     bare: RGB | None = None
     motion: Motion | None = None
     tinted: bool = True
+    thinned: bool = False
 
 
 def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
@@ -139,7 +141,10 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
         **moving,
         **looks.records,
         **buffer.records("model.bin"),
-        "extensions": {EXTENSION: extension(pelts, model.length, tiles, planes, names, motion is not None, edges)},
+        "extensions": {
+            EXTENSION: extension(pelts, model.length, tiles, planes, names, motion is not None, edges)
+            | ({"thinned": True} if model.thinned else {})
+        },
     }
     (folder / "model.bin").write_bytes(bytes(buffer.data))
     (folder / "model.gltf").write_text(dump(document), "utf-8", newline="\n")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import time
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import SimpleNamespace
@@ -35,6 +35,7 @@ from furbake.show.report import STAGES as REPORT_STAGES
 from furbake.show.report import write as write_report
 from furbake.show.swatch import save
 from furbake.study.verify import body
+from furbake.study.verify import groom as groom_fields
 from furbake.study.verify.colour import colour_lines, verify_colour
 from furbake.study.verify.tables import lines as body_lines
 from furbake.study.verify.tile import SAMPLES, lines, verify
@@ -234,12 +235,24 @@ def run_verify(args: SimpleNamespace) -> int:
     picture = Path(args.out) if args.out else None
     if args.body:
         return _verify_body(args, picture)
+    if args.groom:
+        return _verify_groom(args)
     with shown(VERIFY_STAGES, args.quiet) as progress:
         figures = verify(Path(args.folder), picture=picture, spp=args.spp or SAMPLES, progress=progress)
     if args.json:
         say(json.dumps(figures))
     elif not args.quiet:
         say("\n".join(lines(figures)))
+    return 0
+
+
+def _verify_groom(args: SimpleNamespace) -> int:
+    with shown(groom_fields.STAGES, args.quiet) as progress:
+        figures = groom_fields.held_out(Path(args.folder), Path(args.groom), progress)
+    if args.json:
+        say(json.dumps(asdict(figures)))
+    elif not args.quiet:
+        say("\n".join(groom_fields.lines(figures)))
     return 0
 
 
@@ -253,6 +266,7 @@ def _verify_body(args: SimpleNamespace, picture: Path | None) -> int:
         ceiling=args.ceiling,
         look=(args.gloss, args.backlight),
         truth=Path(args.truth) if args.truth else None,
+        groom=Path(args.groom) if args.groom else None,
         fast=not args.scalar,
     )
     if args.colour:

@@ -154,15 +154,16 @@ class BakeOptions:
             raise OptionError("dirt: got 3 coefficients, which leave no room for the share of mud, expected 4 to 6")
         if self.swatch is not None and (len(self.states) > 1 or self.dirt):
             raise OptionError(f"swatch: got {self.swatch} beside wet or dirty states, expected dry fur alone")
-        if self.groom is not None:
-            self._check_groom()
-        elif self.follow is not None:
-            raise OptionError(f"follow: got {self.follow} without a groom, expected --groom FILE beside it")
+        self._check_groom()
         hairs = self.coat.guard.count + self.coat.under.count
         knobs.within("coat.guard.count + coat.under.count", hairs, 1, KNOBS["coat.guard.count"].high)
 
     def _check_groom(self) -> None:
-        """Raise `OptionError` for what a groom says by itself."""
+        """Raise `OptionError` for what a groom says by itself, and for what only a groom can have."""
+        if self.groom is None:
+            if self.follow is not None:
+                raise OptionError(f"follow: got {self.follow} without a groom, expected --groom FILE beside it")
+            return
         if self.follow is not None:
             knobs.within("follow", self.follow, FOLLOW.low, FOLLOW.high)
         for name in ("length", "height", "comb", "swatch"):

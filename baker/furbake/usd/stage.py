@@ -102,7 +102,7 @@ def read_stage(path: Path) -> Stage:
         raise UsdError(f"{path}: cannot be read as USD ({error}), expected a valid file") from None
     except UsdError as error:
         raise UsdError(f"{path}: {error}") from None
-    except Exception as error:  # readers raise anything on a broken file
+    except Exception as error:  # noqa: BLE001 — readers raise anything on a broken file
         reason = " ".join(str(error).split())[:160] or type(error).__name__
         raise UsdError(f"{path}: cannot be read as USD ({reason}), expected a valid file") from None
     finally:
@@ -155,13 +155,14 @@ def _mesh(geometry: Any, prim: Any, time: Any, places: Any) -> UsdMesh:
     points = _points(mesh, time, matrix)
     corners = _array(mesh.GetFaceVertexIndicesAttr().Get(time), np.int64, 1)
     colours = _primvar(geometry, prim, "displayColor", time)
+    red, green, blue = (1.0, 1.0, 1.0) if colours is None else map(float, colours[0].mean(axis=0))
     return UsdMesh(
         path=str(prim.GetPath()),
         points=points,
         counts=_array(mesh.GetFaceVertexCountsAttr().Get(time), np.int64, 1),
         corners=corners,
         uv=_corner_uv(_primvar(geometry, prim, "st", time) or _primvar(geometry, prim, "UVMap", time), corners),
-        colour=None if colours is None else tuple(float(part) for part in colours[0].mean(axis=0)),
+        colour=None if colours is None else (red, green, blue),
         reversed_=(str(mesh.GetOrientationAttr().Get(time)) == "leftHanded") != (np.linalg.det(matrix[:3, :3]) < 0),
     )
 
@@ -173,7 +174,7 @@ def _corner_uv(found: tuple[Array, str] | None, corners: Array) -> Array | None:
     values, kind = found
     if kind == "faceVarying":
         return values if len(values) == len(corners) else None
-    inside = len(corners) > 0 and kind in ("vertex", "varying") and 0 <= corners.min() and corners.max() < len(values)
+    inside = len(corners) > 0 and kind in ("vertex", "varying") and corners.min() >= 0 and corners.max() < len(values)
     return values[corners] if inside else None
 
 

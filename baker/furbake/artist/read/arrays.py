@@ -30,9 +30,11 @@ def read_arrays(name: str, data: bytes, most: int) -> Curves:
             arrays = {key: np.asarray(archive[key]) for key in archive.files if key in NAMES}
     except GroomError:
         raise
-    except Exception as error:  # readers raise anything on a broken file
+    except Exception as error:  # noqa: BLE001 — readers raise anything on a broken file
         detail = " ".join(str(error).split())[:120] or type(error).__name__
-        raise GroomError(f"{name}: cannot be read as .npz ({detail}), expected a NumPy archive with {EXPECTED}") from None
+        raise GroomError(
+            f"{name}: cannot be read as .npz ({detail}), expected a NumPy archive with {EXPECTED}"
+        ) from None
     for key, array in arrays.items():
         if array.dtype.kind not in "fiu":
             raise GroomError(f"{name}: {key} holds {array.dtype}, expected numbers")
@@ -69,4 +71,6 @@ def _each(name: str, what: str, values: Array, counts: Array, points: int, width
         return np.repeat(rows, counts, axis=0)
     if len(rows) == 1:
         return np.broadcast_to(rows[0], (points, *width))
-    raise GroomError(f"{name}: {len(rows)} {what}, expected one, one per strand ({len(counts)}) or per point ({points})")
+    raise GroomError(
+        f"{name}: {len(rows)} {what}, expected one, one per strand ({len(counts)}) or per point ({points})"
+    )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +27,7 @@ class _Bytes:
     def __init__(self, name: str, data: bytes, at: int) -> None:
         self.name, self.data, self.at = name, data, at
 
-    def take(self, kind: str, count: int, what: str) -> NDArray[np.generic]:
+    def take(self, kind: str, count: int, what: str) -> NDArray[Any]:
         """The next `count` numbers. Raises GroomError where the file ends before."""
         size = count * np.dtype(kind).itemsize
         if self.at + size > len(self.data):

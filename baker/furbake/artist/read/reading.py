@@ -46,7 +46,9 @@ def read_curves(path: Path) -> Curves:
 def of_stage(name: str, stage: Stage) -> Curves:
     """All curves of a stage. Raises GroomError where there is none."""
     if not stage.curves:
-        other = ", ".join(f"{count} {kind}" for kind, count in {"Mesh": len(stage.meshes), **stage.others}.items() if count)
+        other = ", ".join(
+            f"{count} {kind}" for kind, count in {"Mesh": len(stage.meshes), **stage.others}.items() if count
+        )
         raise GroomError(f"{name}: no curves ({other or 'nothing with a shape'}), expected BasisCurves")
     parts = [_part(name, stage, curves) for curves in stage.curves]
     if len(parts) == 1:
@@ -77,14 +79,14 @@ def _part(name: str, stage: Stage, curves: UsdCurves) -> Curves:
     fewest = least(curves.kind, curves.basis, curves.wrap)
     if int(counts.min()) < fewest:
         most = "one point" if int(counts.max()) < 2 else f"{int(counts.min())} points"
-        raise GroomError(f"{where}: curves of {most}, expected {fewest} or more of a {curves.basis} that is {curves.wrap}")
+        raise GroomError(
+            f"{where}: curves of {most}, expected {fewest} or more of a {curves.basis} that is {curves.wrap}"
+        )
     values = {
         what: found for what, found in (("widths", curves.widths), ("colours", curves.colours)) if found is not None
     }
     try:
-        points, many, found = lines(
-            stage.placed(curves.points), counts, curves.kind, curves.basis, curves.wrap, values
-        )
+        points, many, found = lines(stage.placed(curves.points), counts, curves.kind, curves.basis, curves.wrap, values)
     except GroomError as error:
         raise GroomError(f"{where}: {error}") from None
     widths = found.get("widths")

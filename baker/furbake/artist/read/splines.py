@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -51,7 +53,7 @@ def weights(count: int, kind: str, basis: str, wrap: str) -> Floats:
 
 def lines(
     points: Floats, counts: Ints, kind: str, basis: str, wrap: str,
-    values: dict[str, tuple[NDArray[np.generic], str]],
+    values: dict[str, tuple[NDArray[Any], str]],
 ) -> tuple[Floats, Ints, dict[str, Floats]]:  # fmt: skip
     """Points of lines along curves, their counts, and values at these points.
 
@@ -87,9 +89,7 @@ def _spans(count: int, kind: str, basis: str, wrap: str) -> int:
     return (count - 1) // 3 if basis == "bezier" else count - 1 if wrap == "pinned" else count - 3
 
 
-def _valued(
-    array: NDArray[np.generic], way: str, rows: Ints, controls: Ints, matrix: Floats, spans: Ints
-) -> NDArray[np.generic]:
+def _valued(array: NDArray[Any], way: str, rows: Ints, controls: Ints, matrix: Floats, spans: Ints) -> NDArray[Any]:
     """(s, P, ...) values on some curves of as many points each."""
     if way == "constant":
         return np.broadcast_to(array[0], (len(rows), len(matrix), *array.shape[1:]))

@@ -42,7 +42,7 @@ def _soup(name: str, mesh: UsdMesh, vertices: Floats) -> tuple[Floats, Ints, Flo
     if (counts < 0).any() or int(counts.sum()) != len(corners):
         raise MeshError(f"{name}: {mesh.path} has {len(corners)} corners, expected {int(counts.sum())} as it counts")
     if len(corners) and not 0 <= corners.min() <= corners.max() < len(vertices):
-        raise MeshError(f"{name}: {mesh.path} names vertices up to {corners.max()} of {len(vertices)}, expected its own")
+        raise MeshError(f"{name}: {mesh.path} names vertex {corners.max()} of {len(vertices)}, expected its own")
     fan = np.maximum(counts - 2, 0)
     if not fan.sum():
         return None
