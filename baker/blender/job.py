@@ -49,8 +49,11 @@ class Job:
         self._reader.start()
 
     def _read(self) -> None:
-        for line in self._process.stdout or ():
-            self._take(line.rstrip())
+        if self._process.stdout is None:
+            return
+        with self._process.stdout as output:
+            for line in output:
+                self._take(line.rstrip())
 
     def _take(self, line: str) -> None:
         if found := PERCENT.fullmatch(line):
