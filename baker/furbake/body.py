@@ -11,9 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.dressing import Part, dressing
+from furbake.groomed import Groomed, groomed
 from furbake.options import BakeOptions
 from furbake.options.bake_options import clip_at
 from furbake.painted import painted
+from furbake.pelt.hairs.strands import Strands
 from furbake.size import Size, questions, sized
 from furbake.surface.charts import Charts, laid
 from furbake.surface.files import read_text
@@ -55,6 +57,7 @@ class Body:
     features : eyes, a nose and the like
     regions : the coat and the parts with a fur of their own; () where all of it is one
     bounds : (R + 2, V) of the ground, as of `surface.place.shares.bounds`; None without regions
+    groom : of an artist, which it wears
     notices : how long the fur is where that was not given, and units that look wrong, one sentence each
     """
 
@@ -69,6 +72,16 @@ class Body:
     regions: tuple[Part, ...] = ()
     bounds: NDArray[np.uint8] | None = None
     notices: tuple[str, ...] = ()
+    groom: Groomed | None = None
+
+    @property
+    def strands(self) -> Strands | None:
+        """Strands of the tile that no options grow; None: they are grown."""
+        return None if self.groom is None else self.groom.strands
+
+    def dressed(self, options: BakeOptions) -> BakeOptions:
+        """The options with what a groom has in place of the preset's."""
+        return options if self.groom is None else replace(options, coat=self.groom.coat, ramp=self.groom.ramp)
 
 
 def load_surface(model: str, max_faces: int | None = None, pose: tuple[str, float] | None = None) -> Surface:
@@ -80,6 +93,11 @@ def load_surface(model: str, max_faces: int | None = None, pose: tuple[str, floa
     return load_mesh(Path(model), MAX_FACES if max_faces is None else max_faces, pose)
 
 
+def grounded(skin: Surface) -> Surface:
+    """The surface under shells and fins: the skin, or a simpler copy of a large one."""
+    return simplify(skin, SHELL_FACES) if len(skin.faces) > MANY_FACES else skin
+
+
 def prepare(model: str, options: BakeOptions) -> Body:
     """Read `model` and lay its fur. Raises MeshError or OptionError, each with one sentence."""
     pose = None if options.pose is None else clip_at(options.pose)
@@ -87,13 +105,11 @@ def prepare(model: str, options: BakeOptions) -> Body:
         skin = load_surface(model, options.max_faces, pose)
     else:
         skin = with_skeleton(model, load_surface(model, options.max_faces), Path(options.rig), pose)
-    ground = simplify(skin, SHELL_FACES) if len(skin.faces) > MANY_FACES else skin
+    ground = grounded(skin)
+    if options.groom is not None:
+        return wearing(model, options, skin, ground)
     size = sized(ground, skin.extent, options)
-    maps = brought(ground)
-    if options.length_map is not None:
-        maps["length"] = painted(ground, options.length_map)
-    if options.mask is not None:
-        maps["mask"] = painted(ground, options.mask)
+    maps = painted_maps(ground, options)
     lengths, longest = _lengths(ground, size, options, maps), size.length
     furs = dressing(ground, skin, options, size)
     if furs is not None:
@@ -146,6 +162,54 @@ def prepare(model: str, options: BakeOptions) -> Body:
             *(() if furs is None else furs.notices),
         ),
     )
+
+
+def wearing(model: str, options: BakeOptions, skin: Surface, ground: Surface) -> Body:
+    """A model in an artist's groom; maps, a mask and features shorten its strands. Raises MeshError or GroomError."""
+    groom = groomed(options, skin, ground)
+    maps = painted_maps(ground, options)
+    mask = np.where(groom.bald, 0.0, maps.get("mask", 1.0))
+    direction, comb, density, colour = groom.direction, groom.comb, groom.density, groom.colour
+    lengths = groom.lengths * maps.get("length", 1.0) * mask
+    if (mask < 0.5 / 255).any():
+        ground, kept = uncover(ground, mask, model)
+        lengths, direction, comb, density = lengths[kept], direction[kept], comb[kept], density[kept]
+        colour = None if colour is None else colour[kept]
+    features = () if options.features is None else _features(Path(options.features), skin)
+    if features:
+        lengths = lengths * clearing(ground, features)
+    charts = lap(ground, direction, groom.tile, options.seed)
+    charts = replace(charts, weights=charts.weights * density[charts.source])
+    fur = VertexFur(
+        lengths=lengths,
+        occlusion=openness(ground),
+        tip=_tip(ground, options),
+        comb=comb,
+        colour=ground.colours,
+        own=colour,
+    )
+    return Body(
+        skin=skin,
+        ground=ground,
+        charts=charts,
+        fur=fur,
+        direction=direction,
+        tile=groom.tile,
+        length=groom.length,
+        features=features,
+        notices=groom.notices,
+        groom=groom,
+    )
+
+
+def painted_maps(ground: Surface, options: BakeOptions) -> dict[str, Floats]:
+    """(V,) 0..1 numbers for the fur, by name: those that the file brings, and those that the options name."""
+    maps = brought(ground)
+    if options.length_map is not None:
+        maps["length"] = painted(ground, options.length_map)
+    if options.mask is not None:
+        maps["mask"] = painted(ground, options.mask)
+    return maps
 
 
 def _lengths(ground: Surface, size: Size, options: BakeOptions, maps: dict[str, Floats]) -> Floats:

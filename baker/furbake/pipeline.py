@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from furbake.asset.gltf import FurModel, write_gltf
+from furbake.asset.hairs import write_strands
 from furbake.asset.regions.parted import chosen_fins
 from furbake.asset.regions.record import RegionFur, Regions, shaped
 from furbake.asset.rig.motion import Motion
@@ -20,6 +21,7 @@ from furbake.asset.store import atomic_file, atomic_folder
 from furbake.body import Body, prepare
 from furbake.identity import bake_key, describe_input, library_versions
 from furbake.options import BakeOptions, OptionError
+from furbake.pelt.hairs.strands import Strands
 from furbake.pelt.hairs.volume import Volume
 from furbake.pelt.pelt import Pelt
 from furbake.surface.place.fins import Fins, build_fins
@@ -91,6 +93,8 @@ def bake(
     """
     options = options or BakeOptions()
     options.check()
+    if spread is not None and options.groom is not None:
+        raise OptionError(f"scheduler: got one beside the groom {options.groom}, expected a bake on this machine")
     if samples is not None and options.swatch is not None:
         raise OptionError(f"samples: got {samples} beside a swatch, expected fur that is grown")
     clock = _Clock(progress)
@@ -98,11 +102,12 @@ def bake(
         with clock.stage("mesh"):
             body = prepare(model, options)
         notices = (*body.skin.notices, *body.notices)
+        given, options = options, body.dressed(options)
         for notice in notices:
             notify(notice)
         coat = body.regions[0] if body.regions else None
         height = body.length / body.tile if coat is None else coat.height
-        pelts = _Pelts(clock, options.of_tile(), height, cache, spread)
+        pelts = _Pelts(clock, options.of_tile(), height, cache, spread, body.strands)
         others = [_Pelts(clock, part.options.of_tile(), part.height, cache, spread) for part in body.regions[1:]]
         fitted = pelts.fitted(anew=samples is not None)
         worn = [each.fitted(anew=False) for each in others]
@@ -114,9 +119,11 @@ def bake(
                 fitted = pelts.with_fins(fitted)
                 worn = [each.with_fins(made) for each, made in zip(others, worn, strict=True)]
         with clock.stage("write"):
-            record = _record(model, options, body, fitted) | _worn(body, worn)
+            record = _record(model, given, options, body, fitted) | _worn(body, worn)
             furry = replace(_furry(model, options, body, fitted, fins), regions=_regions(body, fitted[0][0], worn, quads))
             record["asset"] = write_gltf(folder, furry, options.meshopt)
+            if body.strands is not None:
+                record["asset"]["bytes"] |= write_strands(folder, body.strands)
             (folder / "bake.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
             if archive is not None:
                 write_samples(archive, pelts.sampled[0], pelts.tile.strands)
@@ -138,6 +145,7 @@ def _furry(model: str, options: BakeOptions, body: Body, fitted: Fitted, fins: F
         motion=_motion(body),
         tinted=options.swatch is None,
         roots=_roots(body, options, fitted[0][0]),
+        thinned=body.groom is not None,
     )
 
 
@@ -153,18 +161,27 @@ class _Pelts:
     """The pelts of a tile, made stage by stage or taken from a cache."""
 
     def __init__(
-        self, clock: _Clock, options: BakeOptions, height: float, cache: Path | None, spread: Spread | None
+        self,
+        clock: _Clock,
+        options: BakeOptions,
+        height: float,
+        cache: Path | None,
+        spread: Spread | None,
+        strands: Strands | None = None,
     ) -> None:
-        """options : of the tile; height : tile widths, of which the last bits vary from body to body."""
-        self.spread = spread
+        """options : of the tile; height : tile widths, of which the last bits vary from body to body.
+
+        strands : that are not grown of the options
+        """
+        self.spread, self.strands = spread, strands
         self.clock, self.options, self.height = clock, options, float(f"{height:.{HEIGHT_DIGITS}g}")
-        self.kept = None if cache is None else KeptPelts(cache, options, self.height)
+        self.kept = None if cache is None else KeptPelts(cache, options, self.height, strands)
         self.sampled: list[Sampled] = []
         self.notices: tuple[str, ...] = ()
 
     @cached_property
     def tile(self) -> Tile:
-        return Tile.grow(self.options, self.height)
+        return Tile.grow(self.options, self.height, self.strands)
 
     @cached_property
     def dry(self) -> Volume:
@@ -249,16 +266,21 @@ def _motion(body: Body) -> Motion | None:
     return Motion(rig, follows, follows if ground is skin else follow(rig, ground.vertices, ground.normals))
 
 
-def _record(model: str, options: BakeOptions, body: Body, fitted: Fitted) -> dict[str, Any]:
-    """`bake.json` without the written files: versions, options, input and figures."""
+def _record(model: str, given: BakeOptions, options: BakeOptions, body: Body, fitted: Fitted) -> dict[str, Any]:
+    """`bake.json` without the written files: versions, options, input and figures.
+
+    given : options before a groom changed them
+    """
     record: dict[str, Any] = {
         "furbake": version("furbake"),
         "libraries": library_versions(),
         "options": options.as_record(),
         "input": describe_input(model, body.skin),
-        "key": bake_key(model, options),
+        "key": bake_key(model, given),
         "fit": fitted[0][1],
     }
+    if body.groom is not None:
+        record["groom"] = body.groom.record
     if len(fitted) > 1:
         record["states"] = [
             {"name": pelt.state.name, "wetness": pelt.state.wetness, "dirt": pelt.state.dirt, "fit": figures}

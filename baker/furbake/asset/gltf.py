@@ -76,6 +76,7 @@ class FurModel:
     tinted : whether the fur takes the colour of the skin below it; else it has its own alone
     roots : the skin's colours where hairs have their roots; None: those of the vertices
     regions : furs of parts of the ground beside `pelts`; None: `pelts` is that of all of it
+    thinned : whether hairs are fewer in places, where the weights of its charts sum to less than 1
     """
 
     skin: Surface
@@ -91,6 +92,7 @@ class FurModel:
     tinted: bool = True
     roots: Roots | None = None
     regions: Regions | None = None
+    thinned: bool = False
 
 
 def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
@@ -147,9 +149,10 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     needed = [QUANTIZATION, *([MESHOPT] if buffer.unpacked else [])]
     moves = motion is not None
     fur_record = extension(pelts, model.length, tiles, planes, names, moves, edges, picture)
+    fur_record |= {"thinned": True} if model.thinned else {}
     if model.regions is not None:
         furs = [extension(each.pelts, model.length, tiles, named, names, moves) for each, named in others]
-        fur_record |= {"version": "regions": regions_record(model.regions, furs)}
+        fur_record |= {"version": VERSION_LATEST, "regions": regions_record(model.regions, furs)}
     document = {
         "asset": {"version": "2.0", "generator": f"furbake {version('furbake')}"},
         "extensionsUsed": [EXTENSION, *needed],

@@ -126,7 +126,7 @@ def fur_colour(surface: Surface, own: RGB, fur: VertexFur, tinted: bool = True) 
     """
     first = _material(surface.skin[0], surface).factor[:3] if surface.skin else own
     whole = np.array(surface.colour) * (np.ones(3) if fur.colour is None else fur.colour)
-    whole = whole if tinted else np.ones(3)
+    whole = fur.own if fur.own is not None else whole if tinted else np.ones(3)
     same = bool((np.abs(whole - np.array(first)) < ALIKE).all())
     return replace(fur, colour=None if same else np.broadcast_to(whole, (len(fur.lengths), 3)))
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from furbake.asset.hairs import tile_strands
 from furbake.asset.read import Asset, AssetError, read_asset
 from furbake.asset.regions.alone import alone, furs
 from furbake.asset.stored import read_pelt, skin_colour
@@ -19,7 +20,7 @@ from furbake.groom.several import own_ground, own_roots
 from furbake.groom.walk import walk
 from furbake.options import BakeOptions, OptionError
 from furbake.pelt.hairs.ramp import Ramp
-from furbake.pelt.hairs.strands import Strands, grow
+from furbake.pelt.hairs.strands import Strands
 
 Single = NDArray[np.float32]
 Progress = Callable[[str, float], None]
@@ -61,7 +62,7 @@ def groom(folder: Path, progress: Progress = lambda stage, fraction: None) -> Gr
     options = recorded(asset)
     progress("roots", 0.0)
     height = float(asset.fur["height"])
-    strands = grow(options.coat, height, options.seed)
+    strands = tile_strands(asset, options.coat, height, options.seed)
     ground = read_ground(asset, skin_colour(asset))
     ramp = read_pelt(asset).ramp
     kinds = (np.arange(len(strands.points)) >= options.coat.guard.count).astype(np.int64)
