@@ -20,7 +20,7 @@ from furbake.groom.several import own_ground, own_roots
 from furbake.groom.walk import walk
 from furbake.options import BakeOptions, OptionError
 from furbake.pelt.hairs.ramp import Ramp
-from furbake.pelt.hairs.strands import Strands
+from furbake.pelt.hairs.strands import Strands, grow
 
 Single = NDArray[np.float32]
 Progress = Callable[[str, float], None]

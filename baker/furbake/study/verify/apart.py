@@ -11,7 +11,7 @@ from functools import partial
 from furbake.apart import TELL, Apart, CrashError
 from furbake.study.verify import truth
 from furbake.study.verify.cells import Cell, Frame
-from furbake.study.verify.pathtrace import VerifyError
+from furbake.study.verify.pathtrace import DEPTH, VerifyError
 
 
 def trace(
@@ -27,7 +27,7 @@ def trace(
     process = Apart()
     try:
         found: list[truth.Traced] = process.call(
-            partial(truth.trace, fast=fast), scene, seen, cells, spp, truth.DEPTH, TELL, tell=step
+            partial(truth.trace, fast=fast), scene, seen, cells, spp, DEPTH, TELL, tell=step
         )
     except CrashError as error:
         other = " or --scalar" if fast else ""
