@@ -64,6 +64,7 @@ export const zh: Words = {
 	turntable: '转台',
 	clip: '动作',
 	play: '播放',
+	look: '望向灯光',
 	time: '时间（秒）',
 	speed: '速度',
 	clean: '擦干洗净',

@@ -98,7 +98,14 @@ it('lets a fin follow the joints of its ends', () => {
 	const { count } = moving.getAttribute('position');
 	const joints = Float32Array.from({ length: 4 * count }, (_, i) => (Math.floor(i / 4) % 5) + (i % 4));
 	moving.setAttribute('skinIndex', new Uint8BufferAttribute(Uint8Array.from(joints), 4));
-	moving.setAttribute('skinWeight', new Uint8BufferAttribute(Uint8Array.from(joints, (_, i) => [200, 55, 0, 0][i % 4] as number), 4, true));
+	moving.setAttribute(
+		'skinWeight',
+		new Uint8BufferAttribute(
+			Uint8Array.from(joints, (_, i) => [200, 55, 0, 0][i % 4] as number),
+			4,
+			true,
+		),
+	);
 	const made = finQuads(moving, mask, places);
 	for (let i = 0; i < made.getAttribute('position').count; i++) {
 		const copies = Array.from({ length: count }, (_, vertex) => vertex).filter(
