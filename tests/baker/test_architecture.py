@@ -33,6 +33,7 @@ FLOORS: dict[str, set[str]] = {
     "surface/shapes": {"surface/mesh", "surface/charts", "surface/repair"},
     "surface/lay": {"surface/mesh", "surface/charts", "surface/soup", "surface/repair"},
     "surface/place": {f"surface/{name}" for name in ("mesh", "charts", "colours", "repair", "lay", "files")},
+    "surface/roots": {f"surface/{name}" for name in ("mesh", "charts", "colours", "material", "repair", "soup")},
     "asset": {"pelt", "surface"},
     "options": {"pelt", "lazy", "surface/files", "surface/limits", "surface/soup"},
     "rti": {"asset", "pelt", "surface", "daylight"},

@@ -123,8 +123,7 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     edges = _fin_edges(model, charts, stood, buffer) if compress else None
     if fins is not None and edges is None:
         stood = fin_vertices(ground, fins, fur, below.positions, tiles) | below.joints(fins.source)
-        if model.roots is not None:
-            stood |= fin_roots(charts, fins, model.roots)
+        stood |= fin_roots(charts, fins, model.roots)
         quads = buffer.primitive(stood, fins.faces)
         meshes.append({"name": "fins", "primitives": [quads | below.fin_targets(buffer, fins)]})
     names, meshes = [mesh["name"] for mesh in meshes], [mesh | morphs(motion) for mesh in meshes]
@@ -132,8 +131,8 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     nodes = [{"name": name, "mesh": i, **undone} for i, name in enumerate(names)]
     nodes += feature_nodes(features, buffer, looks, meshes)
     roots, moving = rigged(nodes, features, motion, laid, place, buffer)
-    picture = None if model.roots is None else roots_record(model.roots, looks)
-    fur_record = extension(pelts, model.length, tiles, planes, names, motion is not None, edges, picture)
+    picture = roots_record(model.roots, looks)
+    hairy = extension(pelts, model.length, tiles, planes, names, motion is not None, edges, picture)
     needed = [QUANTIZATION, *([MESHOPT] if buffer.unpacked else [])]
     document = {
         "asset": {"version": "2.0", "generator": f"furbake {version('furbake')}"},
@@ -146,7 +145,7 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
         **moving,
         **looks.records,
         **buffer.records("model.bin"),
-        "extensions": {EXTENSION: fur_record},
+        "extensions": {EXTENSION: hairy},
     }
     (folder / "model.bin").write_bytes(bytes(buffer.data))
     (folder / "model.gltf").write_text(dump(document), "utf-8", newline="\n")
