@@ -126,28 +126,28 @@ def fur_colour(surface: Surface, own: RGB, fur: VertexFur, tinted: bool = True) 
     """
     first = _material(surface.skin[0], surface).factor[:3] if surface.skin else own
     whole = np.array(surface.colour) * (np.ones(3) if fur.colour is None else fur.colour)
-    whole = whole if tinted else np.ones(3)
+    whole = fur.own if fur.own is not None else whole if tinted else np.ones(3)
     same = bool((np.abs(whole - np.array(first)) < ALIKE).all())
     return replace(fur, colour=None if same else np.broadcast_to(whole, (len(fur.lengths), 3)))
 
 
 def feature_nodes(features: Iterable[Feature], buffer: Buffer, looks: Looks, meshes: list[Record]) -> list[Record]:
-    """A node for each feature, placed and turned; all share the vertices of one ball of radius 1.
+    """A node for each feature, placed and turned; all share the vertices of one ball of radius 1, or of half of it.
 
     meshes : of the document so far; those of the features are added, one per material
     """
     nodes: list[Record] = []
-    shape: Record = {}
+    shapes: dict[bool, Record] = {}
     for feature in features:
-        if not shape:
-            vertices, faces = ball()
+        if feature.half not in shapes:
+            vertices, faces = ball(feature.half)
             # Normals of a ball are its positions.
-            shape = buffer.primitive({"POSITION": np.rint(32767.0 * vertices).astype(np.int16),
-                                      "NORMAL": signed(vertices)}, faces)  # fmt: skip
+            shapes[feature.half] = buffer.primitive({"POSITION": np.rint(32767.0 * vertices).astype(np.int16),
+                                                     "NORMAL": signed(vertices)}, faces)  # fmt: skip
         wears = Material(feature.name, factor=(*feature.colour, 1.0), roughness=feature.roughness)
         mesh = {
             "name": _text(feature.name),
-            "primitives": [shape | {"material": looks.material(wears, textured=False)}],
+            "primitives": [shapes[feature.half] | {"material": looks.material(wears, textured=False)}],
         }
         meshes.append(mesh)
         nodes.append(

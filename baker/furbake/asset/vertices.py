@@ -127,11 +127,15 @@ def coarse_uv(codes: Shorts, tiles: float, size: int) -> Shorts:
 
 
 def quantise_weights(weights: Floats, group: Ints) -> Bytes:
-    """(M,) weights as bytes that sum to exactly 255 in each group (largest remainders), as the weights sum to 1."""
+    """(M,) weights as bytes that sum to exactly 255 in each group (largest remainders), as the weights sum to 1.
+
+    Where fur is thinner, and they sum to less, so do their bytes.
+    """
     exact = 255.0 * np.clip(weights, 0.0, 1.0)
     floor = np.floor(exact + 1e-9)
     _, index = np.unique(group, return_inverse=True)
-    missing = np.rint(255.0 - np.bincount(index, floor)).astype(np.int64)
+    whole = np.rint(np.bincount(index, exact))
+    missing = np.rint(whole - np.bincount(index, floor)).astype(np.int64)
     order = np.lexsort((np.arange(len(index)), floor - exact, index))
     start = np.searchsorted(index[order], np.arange(len(missing)))
     rank = np.empty(len(index), dtype=np.int64)

@@ -10,6 +10,7 @@ import {
 } from 'three';
 import output from '../shaders/draw/output.glsl?raw';
 import colour from '../shaders/hair/colour.glsl?raw';
+import dissolve from '../shaders/hair/dissolve.glsl?raw';
 import frame from '../shaders/hair/frame.glsl?raw';
 import hairIn from '../shaders/hair/hair.frag.glsl?raw';
 import hairOut from '../shaders/hair/hair.vert.glsl?raw';
@@ -50,6 +51,7 @@ export class BaselineMaterial extends ShaderMaterial {
 				'#include <common>',
 				...texelChunks,
 				coverage,
+				dissolve,
 				opacity,
 				colour,
 				...('ROOTS' in shells.defines ? [drift] : []),

@@ -21,7 +21,13 @@ export interface FinPlaces {
 }
 
 /** Numbers per vertex of what `FurFins` needs. */
-const SIZES = { position: 3, normal: 3, tangent: 4, uv: 2, _fur: 4, _edge: 4, color: 3, uv1: 2 };
+const SIZES = {
+	...{ position: 3, normal: 3, tangent: 4, uv: 2, _fur: 4, _edge: 4 },
+	...{ color: 3, skinIndex: 4, skinWeight: 4, uv1: 2 },
+};
+
+/** Those that only some surfaces have, copied from their vertices. */
+const COPIED: readonly string[] = ['color', 'skinIndex', 'skinWeight'];
 
 /**
  * Four vertices per edge: root, root, tip, tip, first end before second. Fins run the way in which the fur is laid.
@@ -41,7 +47,7 @@ export function finQuads(surface: BufferGeometry, mask: Uint8Array, places: FinP
 	const count = edges.length;
 	const quads = new BufferGeometry();
 	for (const [name, size] of Object.entries(SIZES)) {
-		if (name === 'color' ? surface.hasAttribute(name) : name !== 'uv1' || scale)
+		if (COPIED.includes(name) ? surface.hasAttribute(name) : name !== 'uv1' || scale)
 			quads.setAttribute(name, new Float32BufferAttribute(count * 4 * size, size));
 	}
 	const roots = [new Root(surface, quads), new Root(surface, quads)] as const;
@@ -110,15 +116,18 @@ class Root {
 	 * @param along unit, the edge; `one`, `two`: normals of its faces
 	 */
 	write(at: number, along: Vector3, one: Vector3, two: Vector3, u: number, v: number): void {
-		const { position, normal, tangent, uv, _fur, _edge, color } = this.quads.attributes;
-		const { _fur: fur, color: colour } = this.surface.attributes;
+		const { position, normal, tangent, uv, _fur, _edge } = this.quads.attributes;
+		const { _fur: fur } = this.surface.attributes;
 		const [vertex, n] = [this.#vertex, this.#normal];
 		position?.setXYZ(at, ...this.place.toArray());
 		normal?.setXYZ(at, ...n.toArray());
 		tangent?.setXYZW(at, along.x, along.y, along.z, 1);
 		uv?.setXY(at, u, v);
 		_fur?.setXYZW(at, 1, fur?.getY(vertex) ?? 1, fur?.getZ(vertex) ?? 1, fur?.getW(vertex) ?? 0);
-		if (colour) color?.setXYZ(at, colour.getX(vertex), colour.getY(vertex), colour.getZ(vertex));
+		for (const name of COPIED) {
+			const [own, source] = [this.quads.attributes[name], this.surface.attributes[name]];
+			for (let c = 0; own && source && c < own.itemSize; c++) own.setComponent(at, c, source.getComponent(vertex, c));
+		}
 		// The comb, along the edge made perpendicular to the normal, and across.
 		const [upright, aside] = this.#spare;
 		aside.crossVectors(along, n).normalize();

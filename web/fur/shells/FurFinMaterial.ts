@@ -39,6 +39,7 @@ const SHARED = [
 	],
 	...['swing', 'stains', 'wetnesses', 'traits', 'mud', 'morphCount', 'morphs'],
 	...['skinColor', 'root', 'tip', 'tip2', 'tipShare', 'rampPower', 'roots', 'rootsUnit', 'drift'],
+	...['tileWidths', 'leans', 'surges', 'regionRamps', 'regionPowers'],
 ];
 
 /**
@@ -60,7 +61,7 @@ export class FurFinMaterial extends PeltMaterial {
 			(name) => [name, shells.uniforms[name]] as [string, IUniform],
 		);
 		super(
-			{ ...fin, means: shells.means },
+			shells.furs.map(({ means, pelts }) => ({ ...(pelts?.[0]?.fin ?? fin), means, pelts })),
 			textures,
 			{
 				name: 'FurFinMaterial',

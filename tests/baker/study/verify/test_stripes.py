@@ -16,10 +16,11 @@ from PIL import Image
 
 from furbake.options import override, preset
 from furbake.pipeline import bake
+from furbake.study.verify.apart import trace
 from furbake.study.verify.body import Options, prepared
 from furbake.study.verify.cells import Frame, Plan, cells, frame
 from furbake.study.verify.page import show
-from furbake.study.verify.truth import Scene, trace
+from furbake.study.verify.truth import Scene
 
 STRIPES, TILE = 12, 0.25
 """Stripes on a plane that is 1 wide, one pixel each, and the width of a tile."""

@@ -1,5 +1,5 @@
 import { readFileSync } from 'node:fs';
-import type { BufferAttribute, BufferGeometry } from 'three';
+import { type BufferAttribute, type BufferGeometry, Uint8BufferAttribute } from 'three';
 import { expect, it } from 'vitest';
 import { EdgeFaces } from '../../../../web/fur/fins/EdgeFaces.ts';
 import { finQuads } from '../../../../web/fur/fins/finQuads.ts';
@@ -116,4 +116,22 @@ it('takes the places of roots from one face of the shells', () => {
 		});
 		expect(faces.has(both.sort().join())).toBe(true);
 	}
+});
+
+it('lets a fin follow the joints of its ends', () => {
+	const moving = shells.clone();
+	const { count } = moving.getAttribute('position');
+	const joints = Float32Array.from({ length: 4 * count }, (_, i) => (Math.floor(i / 4) % 5) + (i % 4));
+	moving.setAttribute('skinIndex', new Uint8BufferAttribute(Uint8Array.from(joints), 4));
+	moving.setAttribute('skinWeight', new Uint8BufferAttribute(Uint8Array.from(joints, (_, i) => [200, 55, 0, 0][i % 4] as number), 4, true));
+	const made = finQuads(moving, mask, places);
+	for (let i = 0; i < made.getAttribute('position').count; i++) {
+		const copies = Array.from({ length: count }, (_, vertex) => vertex).filter(
+			(vertex) => place(moving, vertex) === place(made, i),
+		);
+		expect(copies.map((vertex) => `${row(moving, 'skinIndex', vertex)}`)).toContain(`${row(made, 'skinIndex', i)}`);
+		expect(row(made, 'skinWeight', i)[0]).toBeCloseTo(200 / 255, 5);
+		if (i > 400) break;
+	}
+	expect(finQuads(shells, mask, places).hasAttribute('skinIndex')).toBe(false);
 });

@@ -12,13 +12,12 @@ vec3 rootColour; // of this fragment
 #define baseColour vSkin.rgb
 #endif
 
-in vec2 vAt;
 in vec4 vSkin;
 in float vFade;
 out vec4 fragColour;
 
 void main() {
-	vec3 at = vec3(vAt, 0.0);
+	vec3 at = vAt;
 	FurTexel texel = furTexel(at);
 #ifdef ROOTS
 	rootColour = texture(roots, vRoot).rgb;

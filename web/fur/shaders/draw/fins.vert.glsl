@@ -15,7 +15,7 @@ uniform float tiles; // texture coordinates → tiles
 uniform float finHeights; // second texture coordinate → heights
 uniform float finLength; // length of the fin, lengths of the fur here
 
-out vec2 vAt; // tiles along the edge, height
+out vec3 vAt; // XY = tiles along the edge, height; Z = fur
 out vec4 vSkin; // RGB = factor of the hairs' colour, A = mix of tip and tip2
 out float vFade;
 
@@ -60,7 +60,7 @@ void main() {
 	vFade = finFade(facesTowards(viewer, upright, across), dot(across, viewer));
 #endif
 
-	vAt = uv * vec2(tiles, finHeights * furTrim);
+	vAt = vec3(uv * vec2(furTiles, finHeights * furTrim), float(furRegion));
 	// An invisible quad collapses to its root and has no fragments.
 	float s = vFade > 0.0 ? min(vAt.y, furTrim) : 0.0;
 	vec3 comb = finComb(frame * vec3(_edge.z, 0.0, _edge.w));
@@ -68,7 +68,7 @@ void main() {
 	gl_Position = projectionMatrix * vec4(pointVS, 1.0);
 #ifdef ROOTS
 	vSkin = vec4(skinColor, tipShare * _fur.w);
-	vRoot = uv1 - rootsUnit * driftAt(s);
+	vRoot = uv1 - rootsUnit * furWidth * driftAt(s);
 #else
 	vSkin = vec4(skinColor * color.rgb, tipShare * _fur.w);
 #endif

@@ -22,7 +22,7 @@ in float vHeight;
 vec3 hairColour(vec3 at, float tint) {
 #ifdef ROOTS
 	// Hairs of a texel stand aside of it by the drift of its slab.
-	rootColour = texture(roots, (at.xy - driftKnot(int(at.z + 0.5) + 1)) * rootsUnit).rgb;
+	rootColour = texture(roots, (at.xy - driftKnot(int(at.z + 0.5) - furRegion * LAYERS + 1)) * furWidth * rootsUnit).rgb;
 #endif
 #ifdef COLOUR_PLANE
 	return soiled(baseColour * mix(furBytes(colourPlane, at).rgb, furRamp(1.0, vHeight) * tint, vTip2));
