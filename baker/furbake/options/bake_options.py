@@ -18,6 +18,8 @@ Guide = Literal["nose-tail", "down"]
 Uv = Literal["lapped", "own"]
 ColourKind = Literal["texture", "vertex"]
 
+COLOURS = ("texture", "vertex")
+
 FILES = ("length_map", "mask", "comb", "features", "rig", "swatch", "regions", "groom")
 """Options that name files."""
 
@@ -144,6 +146,8 @@ class BakeOptions:
             )
         knobs.within("bits", self.bits, BITS.low, BITS.high)
         knobs.within("max-faces", self.max_faces, MAX_FACES.low, MAX_FACES.high)
+        if self.colour not in COLOURS:
+            raise OptionError(f"colour: got {knobs.show(self.colour)}, expected {' or '.join(COLOURS)}")
         if self.pose is not None:
             clip_at(self.pose)
         for name, length in (("length", self.length), ("tile", self.tile)):
