@@ -113,7 +113,9 @@ def bake(
                 worn = [each.with_fins(made) for each, made in zip(others, worn, strict=True)]
         with clock.stage("write"):
             record = _record(model, options, body, fitted) | _worn(body, worn)
-            furry = replace(_furry(model, options, body, fitted, fins), regions=_regions(body, fitted[0][0], worn, quads))
+            furry = replace(
+                _furry(model, options, body, fitted, fins), regions=_regions(body, fitted[0][0], worn, quads)
+            )
             record["asset"] = write_gltf(folder, furry, options.meshopt)
             (folder / "bake.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
             if archive is not None:

@@ -153,7 +153,9 @@ class BakeOptions:
         if self.regions is not None:
             for name, got in (("swatch", self.swatch), ("basis", self.basis), ("curves", self.curves)):
                 if got not in (None, "ptm", "slab"):
-                    raise OptionError(f"regions: got {self.regions} beside {name} {got}, expected grown fur, ptm and slab")
+                    raise OptionError(
+                        f"regions: got {self.regions} beside {name} {got}, expected grown fur, ptm and slab"
+                    )
         if self.swatch is not None and (len(self.states) > 1 or self.dirt):
             raise OptionError(f"swatch: got {self.swatch} beside wet or dirty states, expected dry fur alone")
         hairs = self.coat.guard.count + self.coat.under.count

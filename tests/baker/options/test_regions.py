@@ -68,7 +68,7 @@ def test_files_are_seen_from_the_toml_file(tmp_path: Path) -> None:
         (f"[mane]\n{BALL}\nborder = nan", "mane: border: got nan, expected"),
         (f"[mane]\n{BALL}\ndensity = 100", "mane: density: got 100, expected 0.1 to 8"),
         (f'[mane]\n{BALL}\npreset = "cat"', "mane: preset: got 'cat', expected one of"),
-        (f"[mane]\n{BALL}\ntip = [2, 0, 0]", "mane: ramp.tip: got 2, expected 0 to 1"),
+        (f"[mane]\n{BALL}\ntip = [2, 0, 0]", "mane: tip: got 2, expected 0 to 1"),
         (f"[mane]\n{BALL}\nset = {{ layers = 8 }}", "mane: set.layers: is the same on the whole body"),
         (f"[mane]\n{BALL}\nset = {{ coat.lien = 8 }}", "mane: got 'coat.lien', expected a knob such as coat.lean"),
     ],
