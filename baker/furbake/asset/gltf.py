@@ -163,7 +163,9 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
 
 def _fin_edges(model: FurModel, charts: Charts, stood: Attributes, buffer: Buffer) -> Record | None:
     """Fins as edges of the shells, of which readers make quads; None for those that are stored."""
-    if None in (model.fins, model.pelts[0].curves) or model.motion is not None or model.regions is not None:
+    if model.fins is None or model.pelts[0].curves is None:
+        return None
+    if model.motion is not None or model.regions is not None:
         return None
     return edges_record(charts, stood["POSITION"], model.fins, buffer)
 

@@ -19,7 +19,8 @@ def read(tmp_path: Path, text: str, coat: BakeOptions | None = None):
 
 
 def test_a_region_has_the_hairs_of_its_preset_and_the_slabs_of_the_coat(tmp_path: Path) -> None:
-    text = f'[mane]\n{BALL}\npreset = "teddy"\nlength = 0.2\ndensity = 0.5\ntip = [0.5, 0.2, 0.1]\nset = {{ coat.bend = 2 }}'
+    text = f'[mane]\n{BALL}\npreset = "teddy"\nlength = 0.2\ndensity = 0.5\ntip = [0.5, 0.2, 0.1]\n'
+    text += "set = { coat.bend = 2 }"
     (mane,) = read(tmp_path, text)
     coat, teddy = preset("fox"), preset("teddy")
     assert (mane.options.layers, mane.options.size, mane.options.colour_plane) == (24, 128, coat.colour_plane)

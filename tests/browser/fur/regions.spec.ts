@@ -49,7 +49,6 @@ test('furs dissolve at their border: all of the light, by the shares that the fi
 			];
 		}),
 	);
-	console.log(JSON.stringify({ alike, calls, rivals, worn, off, error }));
 	expect(error).toBe(0);
 	expect(calls[1], 'draws of two furs').toBe(calls[0]);
 	for (const decibels of alike) expect(decibels, 'the same fur in two regions and in one').toBeGreaterThan(50);

@@ -57,7 +57,8 @@ def soften(surface: Surface, shares: Floats, border: float) -> Floats:
         one, two = (corner + 1) % 3, (corner + 2) % 3
         to_one, to_two = triangles[:, one] - triangles[:, corner], triangles[:, two] - triangles[:, corner]
         cotangent = np.einsum("ij,ij->i", to_one, to_two) / np.maximum(2.0 * area, 1e-300)
-        rows.append(faces[:, one]), columns.append(faces[:, two])
+        rows.append(faces[:, one])
+        columns.append(faces[:, two])
         values.append(0.5 * np.clip(cotangent, 0.05, 20.0))  # above 0: shares stay within 0..1
     half = csr_array((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=(count, count))
     links = half + half.T
@@ -79,7 +80,7 @@ def face_areas(surface: Surface) -> Floats:
 def vertex_areas(surface: Surface) -> Floats:
     """(V,) a third of the faces around each vertex."""
     shares = np.repeat(face_areas(surface) / 3, 3)
-    return np.bincount(surface.faces.reshape(-1), shares, len(surface.vertices))
+    return np.asarray(np.bincount(surface.faces.reshape(-1), shares, len(surface.vertices)), dtype=np.float64)
 
 
 def bounds(masks: Sequence[Floats]) -> Bytes:
