@@ -125,7 +125,7 @@ export class FurMaterial extends PeltMaterial {
 					...weightUniforms(),
 					alphaCut: { value: ALPHA_CUT },
 					crispness: { value: new Vector2(1, 0) },
-					crispLevels: { value: crispLevels(textures, asset.layers) },
+					crispLevels: { value: [] },
 					skinColor: { value: new Color(1, 1, 1) },
 					root: { value: new Color(...ramp.root) },
 					tip: { value: new Color(...ramp.tip) },
@@ -143,6 +143,13 @@ export class FurMaterial extends PeltMaterial {
 			MIRRORED,
 		);
 		this.setValues(parameters);
+	}
+
+	/** {@inheritDoc PeltMaterial.setTextures} */
+	override setTextures(textures: FurTextures): void {
+		super.setTextures(textures);
+		const { crispLevels: levels } = this.uniforms;
+		if (levels) levels.value = crispLevels(textures);
 	}
 }
 

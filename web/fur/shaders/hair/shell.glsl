@@ -16,7 +16,12 @@ uniform float shellCount; // n of one body, or the largest of many; may be fract
 uniform int firstShell; // first shell that is drawn
 uniform vec4 drift[(LAYERS + 2) / 2]; // two knots each: mean displacement of the hairs at the root and in every slab's middle, tile widths
 
-uniform vec4 crispLevels[(LAYERS + 1) / 2]; // coverage of two slabs each that crispness leaves alone: X = of texels, Y = of those twice as large
+#ifdef WET
+#define CRISP_SLABS (LAYERS * WET)
+#else
+#define CRISP_SLABS LAYERS
+#endif
+uniform vec4 crispLevels[(CRISP_SLABS + 1) / 2]; // coverage of two slabs each, state after state, that crispness leaves alone: X = of texels, Y = of those twice as large
 #ifndef BODIES
 uniform vec2 crispness; // Y = share of the latter in the picture
 #endif
@@ -25,6 +30,8 @@ out vec3 vAt; // XY = tiles, Z = slab
 out float vWeight; // slabs that the shell stands for, times the patch's weight
 out float vFacing; // n·v
 out float vKept;
+
+#define TIE 0.7 // phase at which half as many shells as slabs are as bright as a few more or less
 
 #define SLABS (furTrim * float(LAYERS)) // slabs left after a cut
 
@@ -55,8 +62,24 @@ vec2 driftAt(float s) {
 int slabAt(float s, float i, float count) {
 	// With fewer shells than slabs, ties between two slabs are broken shell by shell: all shells changing at once would be
 	// visible when their number changes.
-	float nudge = count < SLABS ? 0.4 * (fract(0.618034 * i) - 0.5) : NUDGE;
+	float nudge = count < SLABS ? 0.4 * (fract(0.618034 * i + TIE) - 0.5) : NUDGE;
 	return clamp(int(s * float(LAYERS) + nudge), 0, TOP);
+}
+
+vec2 crispLevel(int slab) {
+	vec4 two = crispLevels[slab >> 1];
+	return (slab & 1) == 0 ? two.xy : two.zw;
+}
+
+// Coverage of a slab that crispness leaves alone, of texels and of those twice as large.
+vec2 keptLevels(int slab) {
+#ifdef WET
+	int below = stateBelow(vPlace);
+	vec2 drier = crispLevel(slab + below * LAYERS);
+	return mix(drier, crispLevel(slab + (below + 1) * LAYERS), clamp(vPlace - float(below), 0.0, 1.0));
+#else
+	return crispLevel(slab);
+#endif
 }
 
 // Number of shells of a slab, the outermost counted by its share. It equalises the slabs' weights, or fur would change its
@@ -109,8 +132,7 @@ ShellPoint shellPoint() {
 #endif
 	vAt = vec3(uv * tiles - (driftAt(point.s) - driftKnot(slab + 1)), float(slab));
 	vWeight = _fur.x * share / sharesOf(slab, count);
-	vec4 two = crispLevels[slab >> 1];
-	vec2 kept = (slab & 1) == 0 ? two.xy : two.zw;
+	vec2 kept = keptLevels(slab);
 	vKept = mix(kept.x, kept.y, crispness.y);
 	vFacing = dot(point.turn * n, viewerVS(point.pointVS));
 	gl_Position = point.there ? projectionMatrix * vec4(point.pointVS, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
