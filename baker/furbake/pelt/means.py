@@ -33,7 +33,7 @@ COUNT = 4
 """Curves, as many as a texel holds: the fourth gains .03 dB above the horizon, and a fifth of the light below it."""
 
 DARK_LIGHTS, DARKEST = 14, 2.0
-"""Directions below the horizon among `LIGHTS`, and the abscissa above which they lie: below it nearly nothing is lit."""
+"""Directions below the horizon among `LIGHTS`; the abscissa from which on they lie: lower ones light nearly nothing."""
 
 SMOOTH, FEW = 0.02, 0.1
 """Weight of a table's second differences beside the lights; weight of coarse lights where finer ones are known."""

@@ -145,7 +145,7 @@ export class FurMaterial extends PeltMaterial {
 		this.setValues(parameters);
 	}
 
-	/** {@inheritDoc PeltMaterial.setTextures} */
+	/** Replaces the planes, and the levels of crisp hairs with them. */
 	override setTextures(textures: FurTextures): void {
 		super.setTextures(textures);
 		const { crispLevels: levels } = this.uniforms;
