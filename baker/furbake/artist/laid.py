@@ -18,7 +18,7 @@ FLAT = 0.04
 """Least height of a tip that is told from the skin, share of its strand."""
 
 COMBED = 0.05
-"""What a comb costs beside a tip that is missed by its strand's length: the light of the tile is that of its own lean."""
+"""What a comb costs beside a tip that is missed by its strand's length: light on the tile knows its lean."""
 
 ROUNDS = 3
 """Rounds of averages over the edges, for length and comb: where one leaps, light does."""
@@ -69,4 +69,4 @@ def laid(surface: Surface, fields: Fields, direction: Floats, tall: Floats) -> L
     assert best is not None  # noqa: S101 — for the types
     found, even = best[1], averaging(surface, ROUNDS)
     covered = np.maximum(even(weight), 1e-30)
-    return replace(found, **{name: even(weight * getattr(found, name)) / covered for name in ("reach", "comb")})
+    return replace(found, reach=even(weight * found.reach) / covered, comb=even(weight * found.comb) / covered)

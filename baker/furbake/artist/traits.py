@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
-from furbake.artist.curves import Floats
+from furbake.artist.curves import Floats, Ints
 from furbake.artist.drawn import Source, distance
 from furbake.pelt.hairs.strands import Strands
 from furbake.pelt.hairs.tiling import TILE
@@ -100,7 +100,7 @@ def of_tile(source: Source, strands: Strands, rng: np.random.Generator) -> dict[
     }
 
 
-def _standing(source: Source, strands: Strands, hair: Floats, places: Floats, height: float) -> Floats:
+def _standing(source: Source, strands: Strands, hair: Ints, places: Ints, height: float) -> Floats:
     """(n, P, 3) points of the tile's hairs where strands of the groom stand: across the fur, along it, and up."""
     reach, comb = (source.stands.at(values)[places][:, None] for values in (source.laid.reach, source.laid.comb))
     s = strands.points[hair, :, 2] / height

@@ -11,8 +11,6 @@ from typing import Any
 import numpy as np
 import pytest
 import trimesh
-from helpers.command import TINY
-from helpers.grooms import strands, usda
 from scipy.stats import ks_2samp
 
 from furbake.artist.bind import bind, ground_of
@@ -26,8 +24,10 @@ from furbake.groom.strands import groom
 from furbake.options import BakeOptions, OptionError
 from furbake.pipeline import bake
 from furbake.show.report.groom import groom_section
-from furbake.study.verify.groom import artist_strands, held_out
+from furbake.study.grooms import artist_strands, held_out
 from furbake.surface.mesh import Surface, clean
+from helpers.command import TINY
+from helpers.grooms import strands, usda
 
 BAKE = {"layers": 4, "size": 8, "lights": 8, "max_faces": 2000}
 
@@ -77,7 +77,7 @@ def test_roots_are_bound_and_floating_strands_counted(ball: Surface) -> None:
     [
         (lambda p: 100 * p, "is 100 times too large, expected the body's own units"),
         (lambda p: p / 100, "is 100 times too small, expected the body's own units"),
-        (lambda p: p + [9.0, 0, 0], "expected a groom of this body"),
+        (lambda p: [*p, 9.0, 0, 0], "expected a groom of this body"),
         (lambda p: p[:, :, [0, 2, 1]] * [100, -100, 100] + [0, 0, 0], "100 times too large"),
     ],
 )
@@ -150,7 +150,9 @@ def test_a_bake_wears_the_groom(baked: Path) -> None:
     assert np.degrees(np.median(lean)) == pytest.approx(53, abs=8)
     down = np.array([0.0, -1.0, 0.0]) + root * root[:, 1:2]
     beside = np.abs(root[:, 1]) < 0.6
-    cosine = np.einsum("ij,ij->i", chord, down) / (np.linalg.norm(down, axis=1) * np.linalg.norm(chord, axis=1) * np.sin(lean))
+    cosine = np.einsum("ij,ij->i", chord, down) / (
+        np.linalg.norm(down, axis=1) * np.linalg.norm(chord, axis=1) * np.sin(lean)
+    )
     assert np.degrees(np.arccos(np.clip(cosine[beside], -1, 1))).mean() < 12
     upper, lower = found.colour[root[:, 1] > 0.3].mean((0, 1)), found.colour[root[:, 1] < -0.3].mean((0, 1))
     assert np.allclose(upper, (0.4, 0.2, 0.1), atol=0.03)

@@ -48,4 +48,6 @@ def _histogram(name: str, trait: dict[str, Any]) -> str:
 
 def _apart(trait: dict[str, Any]) -> str:
     apart = float(trait["apart"])
-    return f". They are {apart:.2f} apart (Kolmogorov)" + (", <b>more than strands that are alike</b>" if apart > FAR else "")
+    return f". They are {apart:.2f} apart (Kolmogorov)" + (
+        ", <b>more than strands that are alike</b>" if apart > FAR else ""
+    )
