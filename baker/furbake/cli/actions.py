@@ -59,7 +59,7 @@ def run_bake(args: SimpleNamespace) -> int:
         return 0
     samples, cache = Path(args.samples) if args.samples else None, pelt_cache(args)
     start = time.perf_counter()
-    with _spread(args) as spread, shown(STAGES, args.quiet) as progress:
+    with _spread(args) as spread, shown(STAGES, args.quiet, args.percent) as progress:
         result = bake(
             args.model, out, options, force=args.force or args.if_stale, samples=samples, progress=progress,
             cache=cache, spread=spread,

@@ -14,9 +14,8 @@ out vec2 vCrispness;
 uniform float tiles; // texture coordinates → tiles
 uniform float shellCount; // n of one body, or the largest of many; may be fractional
 uniform int firstShell; // first shell that is drawn
-uniform vec4 drift[(LAYERS + 2) / 2]; // two knots each: mean displacement of the hairs at the root and in every slab's middle, tile widths
 
-uniform vec4 crispLevels[(LAYERS + 1) / 2]; // coverage of two slabs each that crispness leaves alone: X = of texels, Y = of those twice as large
+uniform vec4 crispLevels[(FURS * LAYERS + 1) / 2]; // coverage of two slabs each that crispness leaves alone: X = of texels, Y = of those twice as large
 #ifndef BODIES
 uniform vec2 crispness; // Y = share of the latter in the picture
 #endif
@@ -25,6 +24,12 @@ out vec3 vAt; // XY = tiles, Z = slab
 out float vWeight; // slabs that the shell stands for, times the patch's weight
 out float vFacing; // n·v
 out float vKept;
+#ifdef PARTED
+in vec4 regionSlope; // growth of the two bounds along u and v, per unit of texture coordinates: XY of the lower, ZW of the upper
+uniform float furCells; // cells along a tile of the coat in which all hairs are of one fur
+out vec2 vBounds; // bounds at the hairs' root
+out vec2 vRoot; // that root, cells
+#endif
 
 #define SLABS (furTrim * float(LAYERS)) // slabs left after a cut
 
@@ -36,20 +41,8 @@ struct ShellPoint {
 	mat3 frameVS; // (T, B, N)
 	vec3 comb; // displacement of the tip in that frame, share of the length
 	vec3 pointVS;
+	int slab;
 };
-
-vec2 driftKnot(int k) {
-	vec4 two = drift[k >> 1];
-	return (k & 1) == 0 ? two.xy : two.zw;
-}
-
-// Mean displacement of the hairs: 0 at the root, linear between slab middles and on beyond the last.
-vec2 driftAt(float s) {
-	float x = s * float(LAYERS) + 0.5;
-	if (x < 1.0 || LAYERS == 1) return driftKnot(1) * (2.0 * x - 1.0);
-	int k = min(int(x), LAYERS - 1);
-	return mix(driftKnot(k), driftKnot(k + 1), x - float(k));
-}
 
 // Slab shown by shell `i` of `count` at height s.
 int slabAt(float s, float i, float count) {
@@ -107,8 +100,16 @@ ShellPoint shellPoint() {
 #else
 	int slab = slabAt(point.s, i, count);
 #endif
-	vAt = vec3(uv * tiles - (driftAt(point.s) - driftKnot(slab + 1)), float(slab));
-	vWeight = _fur.x * share / sharesOf(slab, count);
+	vec2 drifted = driftAt(point.s);
+	vAt = vec3(uv * furTiles - (drifted - driftKnot(slab + 1)), float(slab + furRegion * LAYERS));
+	vWeight = _fur.x * FUR_SHARE * share / sharesOf(slab, count);
+#ifdef PARTED
+	drifted *= furWidth;
+	vBounds = _region.xy - vec2(dot(regionSlope.xy, drifted), dot(regionSlope.zw, drifted)) / tiles;
+	vRoot = (uv * tiles - drifted) * furCells;
+#endif
+	point.slab = slab;
+	slab += furRegion * LAYERS;
 	vec4 two = crispLevels[slab >> 1];
 	vec2 kept = (slab & 1) == 0 ? two.xy : two.zw;
 	vKept = mix(kept.x, kept.y, crispness.y);
