@@ -16,6 +16,7 @@ from furbake.artist.fields import Fields, Standing, areas, direction_of, fields_
 from furbake.artist.follow import filled, followers
 from furbake.artist.laid import Laid, laid
 from furbake.artist.read.reading import read_curves
+from furbake.artist.traits import compared
 from furbake.options import BakeOptions
 from furbake.options.knobs import KNOBS
 from furbake.pelt.hairs.ramp import Ramp
@@ -82,7 +83,7 @@ def groomed(options: BakeOptions, skin: Surface, ground: Surface) -> Groomed:
     combed = combed_by(str(options.groom), options, skin, ground)
     bound, stands, fields = combed.bound, combed.stands, combed.fields
     tall = bound.height / np.maximum(stands.at(fields.height), 1e-3 * stands.at(fields.length))
-    fur = laid(fields, combed.direction, tall)
+    fur = laid(ground, fields, combed.direction, tall)
     density = _quantile(fields.density, fields.area * ~fields.bald, DENSE)
     tile = options.tile or _width(skin, density, float(fur.reach.max()))
     source = Source(bound, stands, fields, fur, combed.direction, ground_of(skin), tile, density)
@@ -102,7 +103,7 @@ def groomed(options: BakeOptions, skin: Surface, ground: Surface) -> Groomed:
         strands=strands,
         coat=_coat(options.coat, strands, length / tile, fur.lean / tile),
         ramp=options.ramp if colours is None else colours.ramp,
-        record=_record(combed, fur, density, len(which)),
+        record=_record(combed, fur, density, len(which)) | {"traits": compared(source, strands, options.seed)},
         notices=(*combed.notices, _told(combed, fur, tile, len(which))),
     )
 

@@ -134,7 +134,6 @@ def _furry(model: str, options: BakeOptions, body: Body, fitted: Fitted, fins: F
         bare=None if is_builtin(model) else fitted[0][0].ramp.root,
         motion=_motion(body),
         tinted=options.swatch is None,
-        thinned=body.groom is not None,
     )
 
 

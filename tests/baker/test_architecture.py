@@ -55,7 +55,7 @@ FLOORS: dict[str, set[str]] = {
     "batch": {"asset", "pelt", "surface", "options", "cores", "apart", "freshness", "identity", "pipeline", "show"},
     "cluster": {"asset", "identity", "options", "tile", "apart", "batch", "pelt", "surface", "cores", "rti"},
     "groom": {"artist", "asset", "pelt", "options"},
-    "show": {"asset", "pelt", "options", "identity", "tile", "page", "daylight", "rti"},
+    "show": {"artist", "asset", "pelt", "options", "identity", "tile", "page", "daylight", "rti"},
     "study": {
         "apart",
         "asset",

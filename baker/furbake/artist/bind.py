@@ -125,7 +125,7 @@ def bind(name: str, curves: Curves, surface: Surface) -> Bound:
         width = np.full(curves.count, THIN * spacing)
         notices.append(f"{name}: no widths, {_length(THIN * spacing)} taken")
     else:
-        width = np.bincount(curves.of, curves.widths, curves.count) / curves.counts
+        width = curves.mean(curves.widths)
     colours = curves.colours
     return Bound(
         curves=curves, face=face, shares=shares, normal=normal,

@@ -61,6 +61,14 @@ class Curves:
         of = self.of
         return np.asarray(np.bincount(of[1:], np.where(of[1:] == of[:-1], steps, 0.0), self.count), np.float64)
 
+    def mean(self, values: Single) -> Floats:
+        """(S,) mean along each strand of values (N,) at its points."""
+        steps = np.linalg.norm(np.diff(self.points.astype(np.float64), axis=0), axis=1)
+        of = self.of
+        steps = np.where(of[1:] == of[:-1], np.maximum(steps, 1e-30), 0.0)
+        between = (values[1:] + values[:-1]) / 2
+        return np.asarray(np.bincount(of[1:], steps * between, self.count) / np.bincount(of[1:], steps, self.count))
+
     def some(self, which: NDArray[np.bool_]) -> Curves:
         """Some of the strands, (S,)."""
         points = np.repeat(which, self.counts)

@@ -25,8 +25,15 @@ DRAWS = 24
 LIKE = 0.35
 """Difference of the logarithm of density and length up to which a place is typical."""
 
-STRETCH = (0.25, 4.0)
+STRETCH = (0.5, 2.0)
 """Bounds of the factor by which a strand's own bends are brought to the length that is typical."""
+
+
+BEYOND = 2.0
+"""Square of the distance, over that of the tip, up to which the surface falls off."""
+
+WIDER = (0.5, 2.0)
+"""Bounds of the factor by which a place above a curved surface is wider than below."""
 
 
 @dataclass(frozen=True)
@@ -160,23 +167,20 @@ def _in_tile(source: Source, which: Ints, roots: Floats) -> Strands:
 
 
 def _seen_from_roots(source: Source, which: Ints, points: Floats) -> tuple[Floats, Floats]:
-    """How far points lie aside, across the fur and along it (n, P, 2), and above the surface (n, P); model units."""
-    count, length, _ = points.shape
-    across, along, normal = frames(source, which)
-    root = _feet(source, which)
-    flat = points.reshape(-1, 3)
-    face, shares, apart = source.skin.feet(flat)
-    there = source.skin.at(source.skin.surface.normals, face, shares)
-    foot = np.einsum("nc,nck->nk", shares, source.skin.corners[face])
-    chord = (points - root[:, None]).reshape(-1, 3)
-    up = np.repeat(normal, length, axis=0)
-    plane = np.einsum("ij,ij->i", chord, up)
-    other = np.einsum("ij,ij->i", there, up) <= 0.0
-    side = np.einsum("ij,ij->i", flat - foot, there)
-    above = np.where(other, plane, np.sign(side) * apart)
-    way = np.where(other[:, None], chord, foot - np.repeat(root, length, axis=0)).reshape(count, length, 3)
-    aside = np.stack([np.einsum("npk,nk->np", way, axis) for axis in (across, along)], axis=-1)
-    return aside, np.maximum(above.reshape(count, length), 0.0)
+    """How far points lie aside, across the fur and along it (n, P, 2), and above the surface (n, P); model units.
+
+    The surface falls off from the plane of the root by the square of the distance, as much as it does below the tip.
+    Feet of single points would jump from face to face.
+    """
+    way = points - _feet(source, which)[:, None]
+    axes = frames(source, which)
+    across, along, above = (np.einsum("npk,nk->np", way, axis) for axis in axes)
+    far = across**2 + along**2
+    falls = (source.bound.height[which] - above[:, -1]) / np.maximum(far[:, -1], 1e-30)
+    above = np.maximum(above + falls[:, None] * np.minimum(far, BEYOND * far[:, -1:]), 0.0)
+    # Above a round body a place is wider than below: by 1 + height / radius.
+    wider = np.clip(1 + 2 * falls[:, None] * above, *WIDER)
+    return np.stack([across, along], axis=-1) / wider[..., None], above
 
 
 def _unit(vectors: Floats) -> Floats:

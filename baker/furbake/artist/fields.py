@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array
+from scipy.sparse import coo_array
 
 from furbake.artist.bind import Bound, Ground
 from furbake.artist.curves import Floats, Ints
@@ -13,7 +14,7 @@ from furbake.surface.lay.field import comb_field
 from furbake.surface.lay.guide import Guide
 from furbake.surface.mesh import Surface
 
-FIRM = 3000.0
+FIRM = 1000.0
 """Weight of the strands against that of the guide, for the direction: they are everywhere."""
 
 UNSURE = 0.02
@@ -76,7 +77,7 @@ def fields_of(stands: Standing, bound: Bound) -> Fields:
     """Smooth means over the strands."""
     surface = stands.ground.surface
     area = areas(surface)
-    step = _averaging(surface, area, bound.count)
+    step = averaging(surface, rounds_for(surface, area, bound.count))
     corners = surface.faces[stands.face]
     count = len(surface.vertices)
 
@@ -87,7 +88,7 @@ def fields_of(stands: Standing, bound: Bound) -> Fields:
         parts = [np.bincount(corners.reshape(-1), part.reshape(-1), count) for part in each]
         return step(np.stack(parts, -1)).reshape(count, *values.shape[1:])
 
-    mass, ground = summed(np.ones(bound.count)), step(area[:, None])[:, 0]
+    mass, ground = summed(np.ones(bound.count)), step(area)
     density = mass / ground
     typical = float(np.median(stands.at(density)))
     bald = density < BALD * typical
@@ -127,27 +128,29 @@ def areas(surface: Surface) -> Floats:
     )
 
 
-class _averaging:  # noqa: N801 — called as the function that it is
-    """Rounds of averages over the edges, as many as spread each strand over the distance to the next ones."""
+def rounds_for(surface: Surface, area: Floats, strands: int) -> int:
+    """Rounds of averages that spread each strand over the distance to the next ones."""
+    start, end = surface.faces.reshape(-1), np.roll(surface.faces, -1, axis=1).reshape(-1)
+    edge = float(np.linalg.norm(surface.vertices[start] - surface.vertices[end], axis=1).mean())
+    spacing = np.sqrt(area.sum() / strands)
+    return int(np.clip(np.ceil((SPREAD * spacing / edge) ** 2), 1, MOST_ROUNDS))
 
-    def __init__(self, surface: Surface, area: Floats, strands: int) -> None:
-        start, end = surface.faces.reshape(-1), np.roll(surface.faces, -1, axis=1).reshape(-1)
-        rows, columns = np.r_[start, end], np.r_[end, start]
-        count = len(surface.vertices)
-        links = coo_array((np.ones(len(rows)), (rows, columns)), shape=(count, count)).tocsr()
-        links.data[:] = 1.0
-        degree = np.asarray(np.bincount(links.indices, minlength=count), np.float64)
-        edge = float(np.linalg.norm(surface.vertices[start] - surface.vertices[end], axis=1).mean())
-        spacing = np.sqrt(area.sum() / strands)
-        self.rounds = int(np.clip(np.ceil((SPREAD * spacing / edge) ** 2), 1, MOST_ROUNDS))
-        # Half stays, half is shared out along the edges: no sum changes.
-        self.links: csr_array = links
-        self.degree = np.maximum(degree, 1.0)[:, None]
 
-    def __call__(self, values: Floats) -> Floats:
-        for _ in range(self.rounds):
-            values = 0.5 * values + 0.5 * (self.links @ (values / self.degree))
+def averaging(surface: Surface, rounds: int) -> Callable[[Floats], Floats]:
+    """Rounds of averages over the edges of sums at the vertices, (V, ...): half stays, half is shared out."""
+    start, end = surface.faces.reshape(-1), np.roll(surface.faces, -1, axis=1).reshape(-1)
+    count = len(surface.vertices)
+    ends = np.r_[start, end], np.r_[end, start]
+    links = coo_array((np.ones(2 * len(start)), ends), shape=(count, count)).tocsr()
+    links.data[:] = 1.0
+    degree = np.maximum(np.bincount(links.indices, minlength=count), 1.0)
+
+    def even(values: Floats) -> Floats:
+        for _ in range(rounds):
+            values = 0.5 * values + 0.5 * (links @ (values.T / degree).T)
         return np.asarray(values)
+
+    return even
 
 
 def _tangent(vectors: Floats, normals: Floats) -> Floats:

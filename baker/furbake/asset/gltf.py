@@ -28,6 +28,7 @@ from furbake.asset.vertices import (
     grid,
     shell_vertices,
     shifted_by_tiles,
+    thinned,
     tiles_across,
 )
 from furbake.pelt.fin import fin_environment
@@ -69,7 +70,6 @@ class FurModel:
     features : further opaque meshes of the scene; where they stand on the skin they are put there
     bare : linear colour of a skin that brings no colour at all; None: white
     motion : what moves skin and ground; None: nothing. Where its rig has a pose all of the above is in it
-    thinned : whether hairs are fewer in places, where the weights of its charts sum to less than 1
     tinted : whether the fur takes the colour of the skin below it; else it has its own alone
     """
 
@@ -84,7 +84,6 @@ class FurModel:
     bare: RGB | None = None
     motion: Motion | None = None
     tinted: bool = True
-    thinned: bool = False
 
 
 def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
@@ -98,8 +97,8 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
         model.skin, model.charts, model.fins, model.fur, model.pelts, model.motion
     )  # fmt: skip
     pelt = pelts[0]
-    looks = Looks(folder, [name for each in pelts for name in write_planes(folder, each, _prefix(each, pelt))])
-    planes = list(looks.images)
+    planes = [name for each in pelts for name in write_planes(folder, each, _prefix(each, pelt))]
+    looks = Looks(folder, list(planes))
     buffer = Buffer(compress)
     ground = model.ground or surface
     place = grid(surface.vertices, ground.vertices)
@@ -108,7 +107,6 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     own = bare_colour(surface, fur, model.bare)
     skin = skin_primitives(body, own, fur.colour if model.ground is None else None, buffer, looks)
     fur = fur_colour(surface, own, fur, model.tinted)
-
     uv = shifted_by_tiles(charts)
     tiles = tiles_across(uv, *([] if fins is None else [fins.uv]))
     stood = shell_vertices(ground, charts, fur, below.positions, uv, tiles) | below.joints(charts.source)
@@ -130,6 +128,7 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     nodes += feature_nodes(features, buffer, looks, meshes)
     roots, moving = rigged(nodes, features, motion, laid, place, buffer)
     needed = [QUANTIZATION, *([MESHOPT] if buffer.unpacked else [])]
+    fur_record = extension(pelts, model.length, tiles, planes, names, motion is not None, edges)
     document = {
         "asset": {"version": "2.0", "generator": f"furbake {version('furbake')}"},
         "extensionsUsed": [EXTENSION, *needed],
@@ -141,15 +140,12 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
         **moving,
         **looks.records,
         **buffer.records("model.bin"),
-        "extensions": {
-            EXTENSION: extension(pelts, model.length, tiles, planes, names, motion is not None, edges)
-            | ({"thinned": True} if model.thinned else {})
-        },
+        "extensions": {EXTENSION: fur_record | thinned(charts)},
     }
     (folder / "model.bin").write_bytes(bytes(buffer.data))
     (folder / "model.gltf").write_text(dump(document), "utf-8", newline="\n")
-    files = ("model.gltf", "model.bin", *looks.images)
-    return _counts(model) | {"bytes": {name: (folder / name).stat().st_size for name in files}}
+    sizes = {name: (folder / name).stat().st_size for name in ("model.gltf", "model.bin", *looks.images)}
+    return _counts(model) | {"bytes": sizes}
 
 
 def _fin_edges(model: FurModel, charts: Charts, stood: Attributes, buffer: Buffer) -> Record | None:
@@ -222,9 +218,7 @@ def extension(
         "version": version,
         **{name: i for i, name in enumerate(nodes)},
         **({} if edges is None else {"edges": edges}),
-        "layers": pelt.layers,
-        "size": pelt.size,
-        "coefficients": pelt.coefficients,
+        **{name: getattr(pelt, name) for name in ("layers", "size", "coefficients")},
         "length": numbers(np.array([length]))[0],
         "height": numbers(np.array([pelt.height]))[0],
         "tiles": tiles,

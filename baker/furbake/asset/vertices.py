@@ -43,6 +43,10 @@ FULL_FUR = (255, 255, 255, 0)
 """Default of _FUR: the whole weight and length, open, of the first tip colour."""
 
 
+THIN = 0.5 / 255
+"""Difference from 1 that the bytes of weights can tell."""
+
+
 def shell_vertices(
     surface: Surface, charts: Charts, fur: VertexFur, positions: Shorts, uv: Floats, tiles: float
 ) -> Attributes:
@@ -145,6 +149,12 @@ def quantise_weights(weights: Floats, group: Ints) -> Bytes:
     rank = np.empty(len(index), dtype=np.int64)
     rank[order] = np.arange(len(index)) - start[index[order]]
     return np.asarray(floor + (rank < missing[index]), dtype=np.uint8)
+
+
+def thinned(charts: Charts) -> dict[str, bool]:
+    """`thinned` of the extension, where weights sum to less than 1."""
+    _, index = np.unique(charts.group, return_inverse=True)
+    return {"thinned": True} if (np.bincount(index, charts.weights) < 1 - THIN).any() else {}
 
 
 def signed(vectors: Floats) -> NDArray[np.int8]:

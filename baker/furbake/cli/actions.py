@@ -34,8 +34,8 @@ from furbake.show.lesson import write as write_lesson
 from furbake.show.report import STAGES as REPORT_STAGES
 from furbake.show.report import write as write_report
 from furbake.show.swatch import save
+from furbake.study import grooms
 from furbake.study.verify import body
-from furbake.study.verify import groom as groom_fields
 from furbake.study.verify.colour import colour_lines, verify_colour
 from furbake.study.verify.tables import lines as body_lines
 from furbake.study.verify.tile import SAMPLES, lines, verify
@@ -247,12 +247,12 @@ def run_verify(args: SimpleNamespace) -> int:
 
 
 def _verify_groom(args: SimpleNamespace) -> int:
-    with shown(groom_fields.STAGES, args.quiet) as progress:
-        figures = groom_fields.held_out(Path(args.folder), Path(args.groom), progress)
+    with shown(grooms.STAGES, args.quiet) as progress:
+        figures = grooms.held_out(Path(args.folder), Path(args.groom), progress)
     if args.json:
         say(json.dumps(asdict(figures)))
     elif not args.quiet:
-        say("\n".join(groom_fields.lines(figures)))
+        say("\n".join(grooms.lines(figures)))
     return 0
 
 

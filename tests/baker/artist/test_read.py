@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from helpers.grooms import hair, strands, tfx, usda
 from scipy.interpolate import BSpline, CubicHermiteSpline, CubicSpline
 
 from furbake.artist.curves import GroomError
@@ -15,6 +14,7 @@ from furbake.artist.read.reading import read_curves
 from furbake.artist.read.splines import weights
 from furbake.groom.files import write_groom
 from furbake.groom.strands import Groom
+from helpers.grooms import hair, strands, tfx, usda
 
 POINTS = strands(20)
 
@@ -35,15 +35,19 @@ def usd() -> None:
 def test_a_hair_file_gives_its_strands(tmp_path: Path) -> None:
     found = read_curves(written(tmp_path / "a.hair", hair(POINTS)))
     assert np.allclose(found.points.reshape(POINTS.shape), POINTS, atol=1e-6)
-    assert found.widths is not None and np.allclose(found.widths, 0.01)
-    assert found.colours is not None and np.allclose(found.colours, (0.5, 0.25, 0.125))
+    assert found.widths is not None
+    assert np.allclose(found.widths, 0.01)
+    assert found.colours is not None
+    assert np.allclose(found.colours, (0.5, 0.25, 0.125))
 
 
 def test_a_hair_file_may_have_strands_of_many_lengths(tmp_path: Path) -> None:
     counts = np.array([3, 2, 5])
     flat = POINTS.reshape(-1, 3)[:10]
     header = hair(POINTS, 3, strands=3, points=10)[:128]
-    found = read_curves(written(tmp_path / "a.hair", header + (counts - 1).astype("<u2").tobytes() + flat.astype("<f4").tobytes()))
+    found = read_curves(
+        written(tmp_path / "a.hair", header + (counts - 1).astype("<u2").tobytes() + flat.astype("<f4").tobytes())
+    )
     assert found.counts.tolist() == counts.tolist()
     steps = [np.linalg.norm(np.diff(part, axis=0), axis=1).sum() for part in np.split(flat, [3, 5])]
     assert np.allclose(found.lengths(), steps, rtol=1e-5)
@@ -52,7 +56,8 @@ def test_a_hair_file_may_have_strands_of_many_lengths(tmp_path: Path) -> None:
 def test_a_tfx_file_gives_its_strands(tmp_path: Path) -> None:
     found = read_curves(written(tmp_path / "a.tfx", tfx(POINTS)))
     assert np.allclose(found.points.reshape(POINTS.shape), POINTS, atol=1e-6)
-    assert found.widths is not None and np.allclose(found.widths, 0.01)
+    assert found.widths is not None
+    assert np.allclose(found.widths, 0.01)
 
 
 @pytest.mark.parametrize("flat", [False, True])
@@ -61,8 +66,10 @@ def test_an_archive_gives_its_strands(tmp_path: Path, flat: bool) -> None:
     np.savez(tmp_path / "a.npz", **more, widths=np.linspace(1, 2, 20), colours=np.array([0.1, 0.2, 0.3]))
     found = read_curves(tmp_path / "a.npz")
     assert np.allclose(found.points.reshape(POINTS.shape), POINTS, atol=1e-6)
-    assert found.widths is not None and np.allclose(found.widths[::5], np.linspace(1, 2, 20))
-    assert found.colours is not None and np.allclose(found.colours, (0.1, 0.2, 0.3))
+    assert found.widths is not None
+    assert np.allclose(found.widths[::5], np.linspace(1, 2, 20))
+    assert found.colours is not None
+    assert np.allclose(found.colours, (0.1, 0.2, 0.3))
 
 
 @pytest.mark.parametrize("ending", [".npz", ".usdc", ".usda"])
@@ -106,12 +113,17 @@ def test_bases_are_those_of_other_books() -> None:
 def test_a_stage_is_placed_by_its_units_axes_and_transforms(tmp_path: Path) -> None:
     head = 'metersPerUnit = 0.01\nupAxis = "Z"'
     told = {"double3 xformOp:translate": "(0, 0, 100)", "uniform token[] xformOpOrder": '["xformOp:translate"]'}
-    more = {"float[] widths": "[2] (\n interpolation = \"constant\"\n)", "color3f[] primvars:displayColor": "[(1, 0.5, 0)]"}
+    more = {
+        "float[] widths": '[2] (\n interpolation = "constant"\n)',
+        "color3f[] primvars:displayColor": "[(1, 0.5, 0)]",
+    }
     found = read_curves(usda(tmp_path / "a.usda", 100 * POINTS, head, **told, **more))
     x, y, z = POINTS.reshape(-1, 3).T
     assert np.allclose(found.points, np.stack([x, z + 1, -y], axis=1), atol=1e-5)
-    assert found.widths is not None and np.allclose(found.widths, 0.02)
-    assert found.colours is not None and np.allclose(found.colours, (1, 0.5, 0))
+    assert found.widths is not None
+    assert np.allclose(found.widths, 0.02)
+    assert found.colours is not None
+    assert np.allclose(found.colours, (1, 0.5, 0))
 
 
 def broken_archive(path: Path, **arrays: np.ndarray) -> Path:
@@ -133,7 +145,11 @@ def broken_archive(path: Path, **arrays: np.ndarray) -> Path:
         ("a.tfx", lambda p: written(p, tfx(POINTS, strands=10**9)), "for the points that its header counts"),
         ("a.tfx", lambda p: written(p, tfx(POINTS, version=np.nan)), "version nan"),
         ("a.npz", lambda p: written(p, b"PK"), "cannot be read as .npz"),
-        ("a.npz", lambda p: broken_archive(p, points=np.full((3, 4, 3), np.nan)), "every curve has a point that is NaN"),
+        (
+            "a.npz",
+            lambda p: broken_archive(p, points=np.full((3, 4, 3), np.nan)),
+            "every curve has a point that is NaN",
+        ),
         ("a.npz", lambda p: broken_archive(p, points=np.zeros((3, 4))), "points of shape (3, 4)"),
         ("a.npz", lambda p: broken_archive(p, lines=np.zeros(3)), "has no array 'points'"),
         ("a.npz", lambda p: broken_archive(p, points=np.zeros((4, 3)), counts=np.array([7])), "4 points for strands"),
@@ -184,6 +200,15 @@ def test_strands_that_are_none_are_left_out_and_told(tmp_path: Path) -> None:
     assert found.notices == (f"{tmp_path / 'a.npz'}: 1 curves with NaN or infinity left out",)
 
 
+def refusal(path: Path) -> str | None:
+    """Sentence with which a groom is refused, if it is."""
+    try:
+        read_curves(path)
+    except GroomError as error:
+        return str(error)
+    return None
+
+
 def test_headers_that_lie_get_one_sentence(tmp_path: Path) -> None:
     rng = np.random.default_rng(0)
     whole = {".hair": hair(POINTS), ".tfx": tfx(POINTS)}
@@ -197,12 +222,7 @@ def test_headers_that_lie_get_one_sentence(tmp_path: Path) -> None:
             data[rng.integers(0, min(len(data), 200))] = rng.integers(0, 256)
         if rng.random() < 0.2:
             data = data[: rng.integers(0, len(data))]
-        try:
-            read_curves(written(tmp_path / f"f{ending}", bytes(data)))
-        except GroomError as error:
-            refused += 1
-            assert "\n" not in str(error)
+        said = refusal(written(tmp_path / f"f{ending}", bytes(data)))
+        refused += said is not None
+        assert "\n" not in (said or "")
     assert INPUTS / 5 < refused < INPUTS
-
-
-

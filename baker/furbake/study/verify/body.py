@@ -18,11 +18,11 @@ from furbake.asset.read import Asset, read_asset
 from furbake.groom.ground import Ints, read_skin
 from furbake.groom.strands import Groom, groom, recorded
 from furbake.pelt.hairs.strands import Coat
+from furbake.study.grooms import artist_strands
 from furbake.study.verify.apart import trace
 from furbake.study.verify.ceiling import sampled_ceiling
 from furbake.study.verify.cells import PLANS, Cell, Floats, Frame, cells, frame
 from furbake.study.verify.figures import contrast, correlation, figures, overlap
-from furbake.study.verify.groom import artist_strands
 from furbake.study.verify.page import SAMPLES, Shown, show
 from furbake.study.verify.pathtrace import VerifyError, load
 from furbake.study.verify.sheet import write_sheets

@@ -27,6 +27,9 @@ HELD = 5
 DISC = 0.025
 """Radius of the discs in which strands are counted, share of the body's largest side: 5 cm on a body of two metres."""
 
+ENOUGH = 12
+"""Held-out strands of a disc at least, on the mean: on sparse grooms discs are larger."""
+
 DISCS, SAMPLES = 1500, 400_000
 """Discs at most, and points of the surface by which the density in them is summed."""
 
@@ -183,7 +186,7 @@ def _counted(stands: Standing, density: Floats) -> tuple[Floats, Floats]:
     places, normals = (stands.ground.at(part, face, shares) for part in (surface.vertices, surface.normals))
     each = np.einsum("nc,nc->n", shares, density[surface.faces[face]]) * areas(surface).sum() / SAMPLES
     feet, ways = stands.at(surface.vertices), stands.at(surface.normals)
-    radius = DISC * surface.extent
+    radius = max(DISC * surface.extent, float(np.sqrt(ENOUGH * areas(surface).sum() / (np.pi * len(feet)))))
     chosen = rng.permutation(len(feet))[:DISCS]
     strands, points = cKDTree(feet), cKDTree(places)
     counted, expected = np.zeros(len(chosen)), np.zeros(len(chosen))
