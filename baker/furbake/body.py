@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import json
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.asset.planes import PlaneError, read_png
+from furbake.dressing import Part, dressing
+from furbake.groomed import Groomed, groomed
 from furbake.options import BakeOptions
-from furbake.options.bake_options import OF_VERTICES, clip_at
-from furbake.size import questions, sized
+from furbake.options.bake_options import clip_at
+from furbake.painted import painted
+from furbake.pelt.hairs.strands import Strands
+from furbake.size import Size, questions, sized
 from furbake.surface.charts import Charts, laid
 from furbake.surface.files import read_text
 from furbake.surface.lay.field import Stroke, comb_field
@@ -23,7 +26,7 @@ from furbake.surface.lay.own import own_charts
 from furbake.surface.mesh import MAX_FACES, MeshError, Surface, load_mesh, simplify
 from furbake.surface.place.features import Feature, clearing, read_features
 from furbake.surface.place.occlusion import openness
-from furbake.surface.place.paint import brought, uncover, vertex_map, vertex_numbers
+from furbake.surface.place.paint import brought, uncover
 from furbake.surface.place.thickness import length_by_thickness
 from furbake.surface.place.variation import noise, underside
 from furbake.surface.place.vertex_fur import VertexFur
@@ -52,6 +55,9 @@ class Body:
     direction : (V, 3) unit tangents of the ground along which the fur is laid
     tile, length : width of a tile and longest fur, model units
     features : eyes, a nose and the like
+    regions : the coat and the parts with a fur of their own; () where all of it is one
+    bounds : (R + 2, V) of the ground, as of `surface.place.shares.bounds`; None without regions
+    groom : of an artist, which it wears
     notices : how long the fur is where that was not given, and units that look wrong, one sentence each
     """
 
@@ -63,7 +69,19 @@ class Body:
     tile: float
     length: float
     features: tuple[Feature, ...] = ()
+    regions: tuple[Part, ...] = ()
+    bounds: NDArray[np.uint8] | None = None
     notices: tuple[str, ...] = ()
+    groom: Groomed | None = None
+
+    @property
+    def strands(self) -> Strands | None:
+        """Strands of the tile that no options grow; None: they are grown."""
+        return None if self.groom is None else self.groom.strands
+
+    def dressed(self, options: BakeOptions) -> BakeOptions:
+        """The options with what a groom has in place of the preset's."""
+        return options if self.groom is None else replace(options, coat=self.groom.coat, ramp=self.groom.ramp)
 
 
 def load_surface(model: str, max_faces: int | None = None, pose: tuple[str, float] | None = None) -> Surface:
@@ -75,6 +93,11 @@ def load_surface(model: str, max_faces: int | None = None, pose: tuple[str, floa
     return load_mesh(Path(model), MAX_FACES if max_faces is None else max_faces, pose)
 
 
+def grounded(skin: Surface) -> Surface:
+    """The surface under shells and fins: the skin, or a simpler copy of a large one."""
+    return simplify(skin, SHELL_FACES) if len(skin.faces) > MANY_FACES else skin
+
+
 def prepare(model: str, options: BakeOptions) -> Body:
     """Read `model` and lay its fur. Raises MeshError or OptionError, each with one sentence."""
     pose = None if options.pose is None else clip_at(options.pose)
@@ -82,23 +105,22 @@ def prepare(model: str, options: BakeOptions) -> Body:
         skin = load_surface(model, options.max_faces, pose)
     else:
         skin = with_skeleton(model, load_surface(model, options.max_faces), Path(options.rig), pose)
-    ground = simplify(skin, SHELL_FACES) if len(skin.faces) > MANY_FACES else skin
+    ground = grounded(skin)
+    if options.groom is not None:
+        return wearing(model, options, skin, ground)
     size = sized(ground, skin.extent, options)
-    maps = brought(ground)
-    if options.length_map is not None:
-        maps["length"] = painted(ground, options.length_map)
-    if options.mask is not None:
-        maps["mask"] = painted(ground, options.mask)
-    lengths = size.shares
-    if options.length_by_thickness:
-        lengths = lengths * length_by_thickness(ground)
-    if options.length_noise:
-        lengths = lengths * (1 - options.length_noise * noise(ground, options.seed))
-    for name in ("length", "mask"):
-        lengths = lengths * maps.get(name, 1.0)
+    maps = painted_maps(ground, options)
+    lengths, longest = _lengths(ground, size, options, maps), size.length
+    furs = dressing(ground, skin, options, size)
+    if furs is not None:
+        sizes = zip(furs.sizes, furs.parts, strict=True)
+        own = [each.length * _lengths(ground, each, part.options, maps) for each, part in sizes]
+        longest = max(each.length for each in furs.sizes)
+        lengths = furs.blended(own) / longest
     if "mask" in maps and (maps["mask"] < 0.5 / 255).any():
         ground, kept = uncover(ground, maps["mask"], model)
         lengths = lengths[kept]
+        furs = None if furs is None else replace(furs, bounds=furs.bounds[:, kept])
     features = () if options.features is None else _features(Path(options.features), skin)
     if features:
         lengths = lengths * clearing(ground, features)
@@ -113,7 +135,10 @@ def prepare(model: str, options: BakeOptions) -> Body:
     else:
         charts = own_charts(ground, size.tile, model)
         direction = laid(charts, ground.normals)
-    tip = np.maximum(options.tip_noise * noise(ground, options.seed + 1), options.belly * underside(ground))
+    tip, comb = _tip(ground, options), options.sweep * field.strength[:, None] * direction
+    if furs is not None:
+        tip = furs.blended([_tip(ground, part.options) for part in furs.parts])
+        comb = furs.blended([part.options.sweep * field.strength[:, None] * direction for part in furs.parts])
     return Body(
         skin=skin,
         ground=ground,
@@ -121,15 +146,88 @@ def prepare(model: str, options: BakeOptions) -> Body:
         fur=VertexFur(
             lengths=np.asarray(lengths),
             occlusion=openness(ground),
-            tip=np.asarray(tip),
-            comb=options.sweep * field.strength[:, None] * direction,
+            tip=tip,
+            comb=comb,
             colour=ground.colours,
         ),
         direction=direction,
         tile=size.tile,
-        length=size.length,
+        length=longest,
         features=features,
-        notices=(*questions(size.tile, size.length, skin.extent, options), *size.notices),
+        regions=() if furs is None else furs.parts,
+        bounds=None if furs is None else furs.bounds,
+        notices=(
+            *questions(size.tile, size.length, skin.extent, options),
+            *size.notices,
+            *(() if furs is None else furs.notices),
+        ),
+    )
+
+
+def wearing(model: str, options: BakeOptions, skin: Surface, ground: Surface) -> Body:
+    """A model in an artist's groom; maps, a mask and features shorten its strands. Raises MeshError or GroomError."""
+    groom = groomed(options, skin, ground)
+    maps = painted_maps(ground, options)
+    mask = np.where(groom.bald, 0.0, maps.get("mask", 1.0))
+    direction, comb, density, colour = groom.direction, groom.comb, groom.density, groom.colour
+    lengths = groom.lengths * maps.get("length", 1.0) * mask
+    if (mask < 0.5 / 255).any():
+        ground, kept = uncover(ground, mask, model)
+        lengths, direction, comb, density = lengths[kept], direction[kept], comb[kept], density[kept]
+        colour = None if colour is None else colour[kept]
+    features = () if options.features is None else _features(Path(options.features), skin)
+    if features:
+        lengths = lengths * clearing(ground, features)
+    charts = lap(ground, direction, groom.tile, options.seed)
+    charts = replace(charts, weights=charts.weights * density[charts.source])
+    fur = VertexFur(
+        lengths=lengths,
+        occlusion=openness(ground),
+        tip=_tip(ground, options),
+        comb=comb,
+        colour=ground.colours,
+        own=colour,
+    )
+    return Body(
+        skin=skin,
+        ground=ground,
+        charts=charts,
+        fur=fur,
+        direction=direction,
+        tile=groom.tile,
+        length=groom.length,
+        features=features,
+        notices=groom.notices,
+        groom=groom,
+    )
+
+
+def painted_maps(ground: Surface, options: BakeOptions) -> dict[str, Floats]:
+    """(V,) 0..1 numbers for the fur, by name: those that the file brings, and those that the options name."""
+    maps = brought(ground)
+    if options.length_map is not None:
+        maps["length"] = painted(ground, options.length_map)
+    if options.mask is not None:
+        maps["mask"] = painted(ground, options.mask)
+    return maps
+
+
+def _lengths(ground: Surface, size: Size, options: BakeOptions, maps: dict[str, Floats]) -> Floats:
+    """(V,) 0..1, share of the longest hair of one fur at each vertex."""
+    lengths = size.shares
+    if options.length_by_thickness:
+        lengths = lengths * length_by_thickness(ground)
+    if options.length_noise:
+        lengths = lengths * (1 - options.length_noise * noise(ground, options.seed))
+    for name in ("length", "mask"):
+        lengths = lengths * maps.get(name, 1.0)
+    return lengths
+
+
+def _tip(ground: Surface, options: BakeOptions) -> Floats:
+    """(V,) 0..1, from the first tip colour to the second."""
+    return np.asarray(
+        np.maximum(options.tip_noise * noise(ground, options.seed + 1), options.belly * underside(ground))
     )
 
 
@@ -154,19 +252,6 @@ def patch_figures(model: str, faces: int | None = None, tile_share: float = Bake
     charts = lap(surface, direction, tile)
     took = time.perf_counter() - start
     return {"faces": len(surface.faces), **lapped_figures(surface, charts, direction, tile), "seconds": took}
-
-
-def painted(surface: Surface, where: str) -> Floats:
-    """(V,) 0..1 of a picture over the surface, or of its own vertices: `vertex:red`, `vertex:` + attribute.
-
-    Raises MeshError where there is none.
-    """
-    if where.startswith(OF_VERTICES):
-        return vertex_numbers(surface, where.removeprefix(OF_VERTICES), where)
-    try:
-        return vertex_map(surface, read_png(Path(where)), where)
-    except PlaneError as error:
-        raise MeshError(str(error)) from error
 
 
 def read_strokes(path: Path) -> tuple[Stroke, ...]:

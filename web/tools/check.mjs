@@ -37,6 +37,7 @@ await command(async () => {
 					...(write ? ['--write'] : []),
 					'.',
 					'../tests',
+					'../baker/blender/page',
 					'../public/models/models.json',
 				),
 		],
@@ -49,6 +50,8 @@ await command(async () => {
 		['ruff check', () => py('ruff', 'check', ...(write ? ['--fix'] : []), ...pyproject, ...sources)],
 		['ruff format', () => py('ruff', 'format', ...(write ? [] : ['--check']), ...pyproject, ...sources)],
 		['mypy', () => py('mypy', '--strict', 'furbake')],
+		// Those that do without Blender, which has no types.
+		['mypy blender', () => py('mypy', '--strict', ...['command', 'job', 'serve'].map((name) => `blender/${name}.py`))],
 	];
 	/** @type {string[]} */
 	const failed = [];

@@ -65,7 +65,7 @@ class Looks:
             "roughnessFactor": numbers(np.array([material.roughness]))[0],
         }
         if textured and material.picture is not None:
-            surface["baseColorTexture"] = {"index": self._texture(material.picture, material.wrap)}
+            surface["baseColorTexture"] = {"index": self.texture(material.picture, material.wrap)}
         record: Record = {"name": _text(material.name) or "skin", "pbrMetallicRoughness": surface}
         if material.double_sided:
             record["doubleSided"] = True
@@ -75,9 +75,10 @@ class Looks:
             record["alphaCutoff"] = numbers(np.array([material.cutoff]))[0]
         return _index(self.materials, record)
 
-    def _texture(self, picture: Picture, wrap: tuple[int, int]) -> int:
+    def texture(self, picture: Picture, wrap: tuple[int, int], stem: str | None = None) -> int:
+        """Index of a texture; stem : of its file's name, by default `skin` and a number."""
         if picture not in self._pictures:
-            name = f"skin{len(self._pictures)}.{ENDINGS[picture.kind]}"
+            name = f"{stem or f'skin{len(self._pictures)}'}.{ENDINGS[picture.kind]}"
             (self.folder / name).write_bytes(picture.data)
             self._pictures[picture] = len(self.images)
             self.images.append(name)
@@ -125,7 +126,7 @@ def fur_colour(surface: Surface, own: RGB, fur: VertexFur, tinted: bool = True) 
     """
     first = _material(surface.skin[0], surface).factor[:3] if surface.skin else own
     whole = np.array(surface.colour) * (np.ones(3) if fur.colour is None else fur.colour)
-    whole = whole if tinted else np.ones(3)
+    whole = fur.own if fur.own is not None else whole if tinted else np.ones(3)
     same = bool((np.abs(whole - np.array(first)) < ALIKE).all())
     return replace(fur, colour=None if same else np.broadcast_to(whole, (len(fur.lengths), 3)))
 

@@ -21,13 +21,12 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import connected_components
 
 from furbake.surface.charts import Charts
 from furbake.surface.mesh import Surface
 from furbake.surface.place.fins import Fins
 from furbake.surface.place.vertex_fur import VertexFur, tangential
+from furbake.surface.roots.layout import patches_of
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -103,10 +102,7 @@ def grid(*parts: Floats) -> tuple[Floats, float]:
 
 def shifted_by_tiles(charts: Charts) -> Floats:
     """(M, 2) texture coordinates with each patch moved by whole tiles to where they are positive and small."""
-    count = len(charts.source)
-    start, end = charts.faces.reshape(-1), np.roll(charts.faces, -1, axis=1).reshape(-1)
-    links = csr_array((np.ones(len(start)), (start, end)), shape=(count, count))
-    patches, patch = connected_components(links, directed=False)
+    patches, patch = patches_of(charts)
     low = np.full((patches, 2), np.inf)
     np.minimum.at(low, patch, charts.uv)
     return np.asarray(np.maximum(charts.uv - np.floor(low + 1e-9)[patch], 0.0))
@@ -131,11 +127,15 @@ def coarse_uv(codes: Shorts, tiles: float, size: int) -> Shorts:
 
 
 def quantise_weights(weights: Floats, group: Ints) -> Bytes:
-    """(M,) weights as bytes that sum to exactly 255 in each group (largest remainders), as the weights sum to 1."""
+    """(M,) weights as bytes that sum to exactly 255 in each group (largest remainders), as the weights sum to 1.
+
+    Where fur is thinner, and they sum to less, so do their bytes.
+    """
     exact = 255.0 * np.clip(weights, 0.0, 1.0)
     floor = np.floor(exact + 1e-9)
     _, index = np.unique(group, return_inverse=True)
-    missing = np.rint(255.0 - np.bincount(index, floor)).astype(np.int64)
+    whole = np.rint(np.bincount(index, exact))
+    missing = np.rint(whole - np.bincount(index, floor)).astype(np.int64)
     order = np.lexsort((np.arange(len(index)), floor - exact, index))
     start = np.searchsorted(index[order], np.arange(len(missing)))
     rank = np.empty(len(index), dtype=np.int64)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import time
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import SimpleNamespace
@@ -19,6 +19,7 @@ from furbake.cli.caches import pelt_cache
 from furbake.cli.chosen import chosen, options_for
 from furbake.cli.command import INVALID
 from furbake.cli.output import complain, say
+from furbake.cli.parsing import UsageError
 from furbake.cli.progress import shown
 from furbake.cores import cores
 from furbake.freshness import fresh_record
@@ -33,10 +34,13 @@ from furbake.show.lesson import write as write_lesson
 from furbake.show.report import STAGES as REPORT_STAGES
 from furbake.show.report import write as write_report
 from furbake.show.swatch import save
+from furbake.study import grooms
 from furbake.study.verify import body
 from furbake.study.verify.colour import colour_lines, verify_colour
 from furbake.study.verify.tables import lines as body_lines
 from furbake.study.verify.tile import SAMPLES, lines, verify
+from furbake.surface.read.reading import STAGES as USD
+from furbake.surface.read.reading import kind_of
 from furbake.tile.tile import Spread
 
 VERIFY_STAGES = ("strands", "light", "trace")
@@ -44,6 +48,7 @@ VERIFY_STAGES = ("strands", "light", "trace")
 
 def run_bake(args: SimpleNamespace) -> int:
     """Bake a mesh into a folder."""
+    args.model = args.model or mesh_of(args.groom)
     options = options_for(args.model, args)
     out = Path(args.out)
     if args.if_stale and (record := fresh_record(args.model, out, options)):
@@ -54,7 +59,7 @@ def run_bake(args: SimpleNamespace) -> int:
         return 0
     samples, cache = Path(args.samples) if args.samples else None, pelt_cache(args)
     start = time.perf_counter()
-    with _spread(args) as spread, shown(STAGES, args.quiet) as progress:
+    with _spread(args) as spread, shown(STAGES, args.quiet, args.percent) as progress:
         result = bake(
             args.model, out, options, force=args.force or args.if_stale, samples=samples, progress=progress,
             cache=cache, spread=spread,
@@ -71,6 +76,15 @@ def run_bake(args: SimpleNamespace) -> int:
         if not args.if_stale:
             say(f"to see it: npm start, then {_on_the_page(out)}")
     return 0
+
+
+def mesh_of(groom: str | None) -> str:
+    """The model of a bake that names none: the mesh beside the strands. Raises UsageError where it has none."""
+    if groom is None:
+        raise UsageError("MODEL: missing, expected furbake bake MODEL -o DIR")
+    if kind_of(groom) not in USD:
+        raise UsageError(f"MODEL: missing, and {groom} holds strands alone, expected furbake bake MODEL -o DIR")
+    return groom
 
 
 def _spread(args: SimpleNamespace) -> AbstractContextManager[Spread | None]:
@@ -221,12 +235,24 @@ def run_verify(args: SimpleNamespace) -> int:
     picture = Path(args.out) if args.out else None
     if args.body:
         return _verify_body(args, picture)
+    if args.groom:
+        return _verify_groom(args)
     with shown(VERIFY_STAGES, args.quiet) as progress:
         figures = verify(Path(args.folder), picture=picture, spp=args.spp or SAMPLES, progress=progress)
     if args.json:
         say(json.dumps(figures))
     elif not args.quiet:
         say("\n".join(lines(figures)))
+    return 0
+
+
+def _verify_groom(args: SimpleNamespace) -> int:
+    with shown(grooms.STAGES, args.quiet) as progress:
+        figures = grooms.held_out(Path(args.folder), Path(args.groom), progress)
+    if args.json:
+        say(json.dumps(asdict(figures)))
+    elif not args.quiet:
+        say("\n".join(grooms.lines(figures)))
     return 0
 
 
@@ -240,6 +266,7 @@ def _verify_body(args: SimpleNamespace, picture: Path | None) -> int:
         ceiling=args.ceiling,
         look=(args.gloss, args.backlight),
         truth=Path(args.truth) if args.truth else None,
+        groom=Path(args.groom) if args.groom else None,
         fast=not args.scalar,
     )
     if args.colour:

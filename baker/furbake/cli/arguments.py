@@ -6,7 +6,7 @@ import click
 
 from furbake.cli.parsing import Argument, Command, action, option, switch, unset_switch
 from furbake.cli.values import GUIDE, NAMES, NUMBER, PLACE, SETTING, WHOLE
-from furbake.options.knobs import BITS, KNOBS, MAX_FACES
+from furbake.options.knobs import BITS, FOLLOW, KNOBS, MAX_FACES
 
 QUIET = "no progress, no summary"
 
@@ -41,7 +41,10 @@ def preset_options(default: str | None) -> list[click.Option]:
 
 
 BAKE = [
-    Argument("model", "MODEL", "a mesh file, or sphere, plane, plane:RxC, torus, torus:RxC", type=PLACE),
+    Argument(
+        "model", "MODEL", "a mesh file, or sphere, plane, plane:RxC, torus, torus:RxC; by default the mesh of --groom",
+        type=PLACE, required=False,
+    ),
     out("DIR", "folder to write, whole or not at all"),
     *preset_options("paper"),
     option("--layers", metavar="K", type=WHOLE, help=ranged("slabs of the tile", "layers")),
@@ -67,12 +70,17 @@ BAKE = [
     option("--comb", metavar="FILE.json", type=PLACE, help="strokes along which it is combed, besides"),
     option("--uv", metavar="lapped|own", help="lapped patches (default), or the model's own coordinates"),
     option(
+        "--colour", metavar="texture|vertex",
+        help="each hair in the colour of the model's picture at its root (default), or one colour per vertex",
+    ),
+    option(
         "--max-faces", metavar="F", type=WHOLE,
         help=f"simplify larger models, {MAX_FACES.range} (default: 60000)",
     ),
     option("--pose", metavar="CLIP@SECONDS", help="lay the fur in a pose of the model, not in the one it is bound in"),
     option("--length-map", metavar="FILE.png|vertex:red", type=PLACE, help="black is no length"),
     option("--mask", metavar="FILE.png|vertex:red", type=PLACE, help="black is bare skin"),
+    option("--regions", metavar="FILE.toml", type=PLACE, help="parts of the body with a fur of their own"),
     option("--features", metavar="FILE.json", type=PLACE, help="eyes, a nose and the like"),
     option("--rig", metavar="FILE.json", type=PLACE, help="joints and clips for a model that stands still"),
     unset_switch(
@@ -93,6 +101,14 @@ BAKE = [
         "--swatch", metavar="FILE.lp|FILE.ptm|info.json", type=PLACE,
         help="real fur or cloth under many lamps, as a thin skin: the tile is made of it, not grown",
     ),
+    option(
+        "--groom", metavar="FILE", type=PLACE,
+        help="an artist's strands (.usd, .hair, .tfx, .npz): length, direction, density, colours and tile are theirs",
+    ),
+    option(
+        "--follow", metavar="N", type=WHOLE,
+        help=f"hairs beside each strand of the groom, {FOLLOW.range} (default: as many as cover the skin)",
+    ),
     option("--samples", metavar="FILE.npz", type=PLACE, help="write the sampled physics too, for others to check"),
     option("--cache", metavar="DIR", type=PLACE, help="where finished pelts are kept (default: the user's cache)"),
     switch("--no-cache", "neither take a finished pelt nor keep this one"),
@@ -100,6 +116,7 @@ BAKE = [
     switch("--force", "replace DIR if it is a bake"),
     switch("--if-stale", "only if DIR differs in options, input or versions; implies --force"),
     switch("--json", "print one JSON object with the record and the seconds of every stage"),
+    switch("--percent", "progress as a line for every percent, for other programs to read"),
     switch("--quiet", QUIET),
 ]  # fmt: skip
 
@@ -133,7 +150,7 @@ GROOM = [
 COMMANDS = {
     command.name: command
     for command in (
-        Command("bake", "MODEL -o DIR", action("actions", "run_bake"), BAKE),
+        Command("bake", "[MODEL] -o DIR", action("actions", "run_bake"), BAKE),
         Command("inspect", "DIR", action("actions", "run_inspect"), [folder(), switch("--json", "as one JSON object")]),
         Command("validate", "DIR", action("actions", "run_validate"), [folder()]),
         Command("presets", "[NAME]", action("actions", "run_presets"), PRESETS),

@@ -13,7 +13,7 @@ from furbake.surface.shapes import is_builtin
 GIVEN = (
     "layers", "size", "lights", "basis", "coefficients", "bits", "curves", "length", "tile", "height", "seed", "flat",
     "guide", "length_by_thickness", "fins", "uv", "max_faces", "length_map", "mask", "comb", "features", "directions",
-    "meshopt", "states", "dirt", "pose", "swatch", "rig",
+    "meshopt", "states", "dirt", "pose", "swatch", "colour", "regions", "rig", "groom", "follow",
 )  # fmt: skip
 """Options of the command that are options of the bake; one that is not given is the preset's."""
 
@@ -42,6 +42,7 @@ def chosen(args: SimpleNamespace) -> BakeOptions:
 def options_for(model: str, args: SimpleNamespace) -> BakeOptions:
     """As `chosen`, of a bake of this model: the length of fur on a file follows its thickness unless that is said."""
     options = chosen(args)
-    if args.length_by_thickness is None and not (options.length_by_thickness or options.flat or is_builtin(model)):
+    plain = options.length_by_thickness or options.flat or options.groom is not None or is_builtin(model)
+    if args.length_by_thickness is None and not plain:
         options = replace(options, auto_length=True)
     return options

@@ -12,8 +12,14 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 
 @contextmanager
-def shown(stages: Sequence[str], quiet: bool) -> Iterator[Callable[[str, float], None]]:
-    """A bar with the stages on a terminal, else a line for each stage that is done; both on standard error."""
+def shown(stages: Sequence[str], quiet: bool, every: bool = False) -> Iterator[Callable[[str, float], None]]:
+    """A bar with the stages on a terminal, else a line for each stage that is done; both on standard error.
+
+    every : a line for every percent of the whole instead, which other programs read
+    """
+    if every:
+        yield _percents(stages)
+        return
     if quiet:
         yield _silent
         return
@@ -37,6 +43,19 @@ def shown(stages: Sequence[str], quiet: bool) -> Iterator[Callable[[str, float],
             print(f"furbake: {stage} {now - start:.1f} s", file=sys.stderr)
 
     yield line
+
+
+def _percents(stages: Sequence[str]) -> Callable[[str, float], None]:
+    last = -1
+
+    def line(stage: str, fraction: float) -> None:
+        nonlocal last
+        percent = int(100 * (stages.index(stage) + min(max(fraction, 0.0), 1.0)) / len(stages))
+        if percent > last:
+            last = percent
+            print(f"furbake: {percent} % {stage}", file=sys.stderr, flush=True)
+
+    return line
 
 
 def _silent(_stage: str, _fraction: float) -> None:

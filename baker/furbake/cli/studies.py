@@ -52,6 +52,10 @@ VERIFY = [
         "--backlight", metavar="N", type=NUMBER, default=0.0,
         help="with --body: light from behind on the page (default: 0)",
     ),
+    option(
+        "--groom", metavar="FILE", type=PLACE,
+        help="fields of a baked groom beside strands they have not seen; with --body: the strands that are the truth",
+    ),
     option("--truth", metavar="FILE.npz", type=PLACE, help="with --body: keeps what was traced for the next run"),
     switch("--scalar", "with --body: trace without LLVM: slow, but it bears any number of hairs"),
     switch("--json", "figures as one JSON object"),

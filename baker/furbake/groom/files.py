@@ -8,14 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from furbake.artist.curves import GroomError
 from furbake.asset.store import atomic_file
 from furbake.groom.strands import Groom
 
 ENDINGS = (".npz", ".usdc", ".usda", ".usd")
-
-
-class GroomError(ValueError):
-    """A groom that cannot be written; one sentence that says why, and what would help."""
 
 
 def write_groom(path: Path, groom: Groom) -> None:

@@ -161,6 +161,9 @@ LENGTH = _number(1e-30, 1e30)
 MAX_FACES = _whole(4, 2_000_000)
 """Faces of a model that is not simplified."""
 
+FOLLOW = _whole(0, 64)
+"""Hairs beside each strand of a groom."""
+
 BITS = _whole(4, 8)
 """Bits of a stored number."""
 

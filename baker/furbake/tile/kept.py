@@ -12,11 +12,14 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from furbake.cache.entries import Cache
 from furbake.options import BakeOptions
 from furbake.pelt.curves import Curves
 from furbake.pelt.hairs.ramp import Ramp
 from furbake.pelt.hairs.states import PeltState
+from furbake.pelt.hairs.strands import Strands
 from furbake.pelt.multiple import Multiple
 from furbake.pelt.pelt import FinPelt, Pelt
 from furbake.pelt.texels.basis import Basis
@@ -35,10 +38,10 @@ Sides = list[tuple[FinPelt, dict[str, float]]]
 class KeptPelts:
     """The pelts of one fur in a cache. Everything else that a bake makes depends on its body and is not kept."""
 
-    def __init__(self, folder: Path, options: BakeOptions, height: float) -> None:
-        """options, height : of the tile, as of `Tile.grow`."""
+    def __init__(self, folder: Path, options: BakeOptions, height: float, strands: Strands | None = None) -> None:
+        """options, height, strands : of the tile, as of `Tile.grow`."""
         self.cache = Cache(folder, CLASSES)
-        self.key = pelt_key(options, height)
+        self.key = pelt_key(options, height, strands)
 
     def pelts(self) -> Fitted | None:
         """All states without fins; None where they are to be made."""
@@ -61,8 +64,11 @@ class KeptPelts:
         self.cache.put(f"{self.key}-fins", [(pelt.fin, figures["fin"]) for pelt, figures in fitted])
 
 
-def pelt_key(options: BakeOptions, height: float) -> str:
-    """SHA-256 of all that decides a pelt: options and height of the tile, code, libraries, kind of machine."""
+def pelt_key(options: BakeOptions, height: float, strands: Strands | None = None) -> str:
+    """SHA-256 of all that decides a pelt: options and height of the tile, code, libraries, kind of machine.
+
+    strands : that are not grown of the options
+    """
     parts: dict[str, Any] = {
         "code": code_hash(ROOMS),
         "libraries": {name: version(name) for name in ("furbake", *LIBRARIES)},
@@ -70,7 +76,10 @@ def pelt_key(options: BakeOptions, height: float) -> str:
         "options": options.as_record(),
         "height": height,
     }
-    return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()
+    found = hashlib.sha256(json.dumps(parts, sort_keys=True).encode())
+    for array in () if strands is None else vars(strands).values():
+        found.update(np.ascontiguousarray(array).tobytes())
+    return found.hexdigest()
 
 
 @cache

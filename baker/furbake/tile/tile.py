@@ -41,9 +41,9 @@ class Tile:
     furs: tuple[Fur, ...]
 
     @classmethod
-    def grow(cls, options: BakeOptions, height: float) -> Tile:
-        """Strands of every state that the options ask for."""
-        strands = grow(options.coat, height, options.seed)
+    def grow(cls, options: BakeOptions, height: float, strands: Strands | None = None) -> Tile:
+        """Strands of every state that the options ask for; strands : dry ones in place of those that they grow."""
+        strands = grow(options.coat, height, options.seed) if strands is None else strands
         states = chosen(options.states, options.dirt)
         return cls(
             options,

@@ -164,7 +164,7 @@ BAD = {
     ("swatch", "good.ptm", "--preset", "fox", "-o", "a.png"): "swatch: got good.ptm and --preset, --set or --state",
     ("swatch", "good.ptm", "--format", "hsh", "-o", "a.png"): "format: got 'hsh', expected lrgb or rgb",
     ("swatch", "folder", "other", "-o", "a.png"): "swatch: got other beside folder, expected one baked folder",
-    ("export", "folder"): "export: got neither --ptm nor --relight, expected one of them",
+    ("export", "folder"): "export: got none of --ptm, --relight and --glb, expected one of them",
     ("export", "folder", "--ptm", "a.ptm", "--planes", "gif"): "planes: got 'gif', expected jpg or png",
     ("export", "folder", "--ptm", "a.ptm"): "model.gltf: no such file or directory, expected JSON",
     ("bake", "plane", "-o", "out", "--swatch", "none.lp"): "none.lp: 0 photographs of one size",

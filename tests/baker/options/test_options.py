@@ -75,7 +75,18 @@ def test_every_knob_of_the_options_can_be_set() -> None:
             for name in (names(value, f"{prefix}{key}.") if isinstance(value, dict) else {prefix + key})
         }
 
-    only_for_one_bake = {"preset", "length", "tile", "flat", "height_share", "max_faces", "bits", "meshopt", *FILES}
+    only_for_one_bake = {
+        "preset",
+        "length",
+        "tile",
+        "flat",
+        "height_share",
+        "max_faces",
+        "bits",
+        "meshopt",
+        "follow",
+        *FILES,
+    }
     assert set(KNOBS) == names(BakeOptions().as_record()) - only_for_one_bake
 
 

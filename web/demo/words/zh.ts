@@ -100,6 +100,7 @@ export const zh: Words = {
 	},
 	titles: {
 		bunny: '兔子',
+		tiger: '小老虎',
 		torus: '圆环',
 		sphere: '球体',
 		paper: '论文原始毛发',

@@ -1,5 +1,5 @@
 /**
- * `npm run packages [-- --out FOLDER]`: the packages for npm and PyPI with their checksums, into `packages/` or the folder that
+ * `npm run packages [-- --out FOLDER]`: the packages for npm, PyPI and Blender with their checksums, into `packages/` or the folder that
  * is named, looked over by publint, attw and twine. Nothing is published. Installs what it builds with, uv, build and twine.
  */
 import { createHash } from 'node:crypto';
@@ -8,6 +8,7 @@ import { join, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
 import { ensureNode, ensurePython, python } from '../environment.mjs';
 import { ask, command, Failure, root, runAside, say, windows } from '../process.mjs';
+import { packExtension } from './extension.mjs';
 
 /** Each runs in an environment of its own, by uv. */
 const BUILD = 'build==1.6.1';
@@ -55,7 +56,9 @@ await command(async () => {
 	rmSync(join(folder, SUMS), { force: true });
 	mkdirSync(folder, { recursive: true });
 	if (readdirSync(folder).length > 0) throw new Failure(`${folder}: holds files, expected an empty folder`);
+	// Before Blender's: npm builds the library for its own.
 	await packNode(folder);
+	packExtension(folder);
 	await packPython(folder);
 	const sums = readdirSync(folder)
 		.sort()

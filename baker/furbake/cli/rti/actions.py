@@ -22,17 +22,23 @@ from furbake.rti.ptm import write_ptm
 from furbake.rti.relight import write_relight
 from furbake.rti.relit import LRGB, RGB, Relit, RtiError
 from furbake.show.export import exported
+from furbake.show.plain import write_plain
 from furbake.show.swatch import FROM_THE_SIDE, light_direction
 
 
 def run_export(args: SimpleNamespace) -> int:
-    """Write a pelt from above as a PTM, and as planes of relight."""
-    if not (args.ptm or args.relight):
-        raise OptionError("export: got neither --ptm nor --relight, expected one of them")
+    """Write a pelt from above as a PTM, and as planes of relight; the body as a GLB."""
+    if not (args.ptm or args.relight or args.glb):
+        raise OptionError("export: got none of --ptm, --relight and --glb, expected one of them")
     _among("format", args.kind, (LRGB, RGB))
     _among("planes", args.planes, ("jpg", "png"))
     source = Path(args.folder)
     check(source)
+    if args.glb:
+        with atomic_file(Path(args.glb)) as file:
+            write_plain(file, source)
+        if not (args.ptm or args.relight):
+            return _told_body(args)
     folder = atomic_folder(Path(args.relight)) if args.relight else nullcontext()
     with folder as fresh, atomic_file(Path(args.ptm)) if args.ptm else nullcontext() as file:
         with shown(("fit",), args.quiet) as progress:
@@ -44,7 +50,7 @@ def run_export(args: SimpleNamespace) -> int:
             write_ptm(file, found.relit)
         if fresh is not None:
             write_relight(fresh, found.relit, args.planes)
-    written = [name for name in (args.ptm, args.relight) if name]
+    written = [name for name in (args.ptm, args.relight, args.glb) if name]
     relit = found.relit
     if args.json:
         coding = {"coding": "linear" if args.linear else "srgb", "white": found.white}
@@ -54,6 +60,15 @@ def run_export(args: SimpleNamespace) -> int:
         told = f"linear, byte 255 is {found.white:.3g}" if args.linear else "sRGB"
         size_told = f"{relit.width} x {relit.height}"
         say(f"{', '.join(written)}: {relit.kind}, {size_told}, {told}, {found.psnr:.1f} dB on lamps left out")
+    return 0
+
+
+def _told_body(args: SimpleNamespace) -> int:
+    size = Path(args.glb).stat().st_size
+    if args.json:
+        say(json.dumps({"files": [args.glb], "bytes": size}))
+    elif not args.quiet:
+        say(f"{args.glb}: the body without its fur, {size / 1e6:.2f} MB")
     return 0
 
 

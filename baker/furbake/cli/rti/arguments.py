@@ -13,6 +13,7 @@ EXPORT = [
         "--relight", metavar="FOLDER", type=PLACE,
         help="info.json and planes, for OpenLIME and relight; a new folder",
     ),
+    option("--glb", metavar="FILE.glb", type=PLACE, help="the body without its fur, for any program that reads glTF"),
     option(
         "--format", "kind", metavar="lrgb|rgb", default="lrgb",
         help="a polynomial beside a colour (default), or one for each channel",

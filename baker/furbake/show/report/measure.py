@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from furbake.asset.hairs import tile_strands
 from furbake.asset.inspect import summary
 from furbake.asset.read import Asset, AssetError, read_asset
 from furbake.asset.stored import read_pelt
 from furbake.options import BakeOptions, OptionError
-from furbake.pelt.hairs.strands import grow
 from furbake.pelt.hairs.volume import Volume, coarsen, fine_shape, voxelise
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.texels.fill import fill
@@ -117,7 +117,7 @@ def measure(folder: Path, progress: Progress = lambda stage, fraction: None) -> 
     options = recorded_options(asset, pelt)
     files = dict(summary(asset)["files"]) | {"bake.json": (folder / "bake.json").stat().st_size}
     progress("strands", 0.0)
-    strands = grow(options.coat, pelt.height, options.seed)
+    strands = tile_strands(asset, options.coat, pelt.height, options.seed)
     progress("strands", 1.0)
     progress("volume", 0.0)
     fine = voxelise(strands, pelt.height, *fine_shape(options.layers, options.size, pelt.height), options.coat.opacity)

@@ -10,6 +10,7 @@ import numpy as np
 
 from furbake.asset.stored import skin_colour
 from furbake.show.report import charts
+from furbake.show.report.groom import groom_section
 from furbake.show.report.measure import Measured, number
 from furbake.show.report.pictures import SPAN, colour_scale, data_uri, error_colours, grey, lightness, row
 from furbake.show.report.section import section
@@ -55,6 +56,7 @@ def page(measured: Measured, opening: str = "") -> str:
     )
     sections = (
         opening,
+        groom_section(record),
         _swatches(measured),
         *([_states(measured)] if len(fur["pelts"]) > 1 else []),
         _figures(measured),

@@ -18,6 +18,7 @@ from furbake.asset.read import Asset, read_asset
 from furbake.groom.ground import Ints, read_skin
 from furbake.groom.strands import Groom, groom, recorded
 from furbake.pelt.hairs.strands import Coat
+from furbake.study.grooms import artist_strands
 from furbake.study.verify.apart import trace
 from furbake.study.verify.ceiling import sampled_ceiling
 from furbake.study.verify.cells import PLANS, Cell, Floats, Frame, cells, frame
@@ -53,6 +54,7 @@ class Options:
     ceiling : whether the samples' own composite is drawn, too, as the last method: what shells show without any fit
     look : strength of highlights and of light from behind on the page, which the truth has not
     truth : file that keeps what was traced, for the next time the same strands are seen
+    groom : file of the strands of a baked groom, where its record's is no longer there
     fast : by LLVM, where its library is found
     """
 
@@ -64,6 +66,7 @@ class Options:
     ceiling: bool = False
     look: tuple[float, float] = (0.0, 0.0)
     truth: Path | None = None
+    groom: Path | None = None
     fast: bool = True
 
     def check(self) -> None:
@@ -159,7 +162,10 @@ def prepared(folder: Path, options: Options, progress: Progress, *, coloured: bo
     coat = recorded(asset).coat
     vertices, faces = read_skin(asset)
     name, seen, wanted = planned(asset, vertices, options)
-    strands = groom(folder, lambda stage, fraction: progress("strands", fraction * (0.5 if stage == "roots" else 1)))
+    if options.groom is not None or asset.record.get("options", {}).get("groom") is not None:
+        strands = artist_strands(asset, recorded(asset), options.groom)
+    else:
+        strands = groom(folder, lambda stage, done: progress("strands", done * (0.5 if stage == "roots" else 1)))
     return Case(asset, coat, vertices, faces, name, seen, wanted, strands)
 
 

@@ -67,11 +67,16 @@ class Field:
 
 
 def comb_field(
-    surface: Surface, guide: Guide = "nose-tail", strokes: Sequence[Stroke] = (), attribute: Floats | None = None
+    surface: Surface,
+    guide: Guide = "nose-tail",
+    strokes: Sequence[Stroke] = (),
+    attribute: Floats | None = None,
+    firmness: float = FIRM,
 ) -> Field:
     """The smoothest field that follows the guide, the strokes and the attribute, the latter two before the guide.
 
     attribute : (V, 3) float, direction at each vertex of the surface, model axes; its length (up to 1) is its strength
+    firmness : weight of an attribute of strength 1 against that of the guide
     """
     vertices = (surface.vertices - surface.vertices.min(axis=0)) / surface.extent
     normals = surface.normals
@@ -87,7 +92,7 @@ def comb_field(
     if attribute is not None:
         given = np.where(np.isfinite(attribute).all(axis=1, keepdims=True), attribute, 0.0)
         length = np.linalg.norm(given, axis=1)
-        firm = FIRM * np.minimum(length, 1.0)
+        firm = firmness * np.minimum(length, 1.0)
         wish, weight = wish + firm * _heading(_along(unit(given), e1, e2)), weight + firm
     z = _solve(_stiffness(vertices, surface.faces, normals, e1, e2), mass * weight, mass * wish)
     size = np.abs(z)

@@ -23,6 +23,7 @@ class VertexFur:
     comb : (V, 3) displacement of the tips, share of the hair's own length; what points along the normal is left out,
         what is longer than `FARTHEST` is shortened to it
     colour : (V, 3) linear 0..1, a factor of the skin's base colour, or None
+    own : (V, 3) linear 0..1, a factor of the hairs' colours that takes the place of the skin's, or None
     """
 
     lengths: Floats
@@ -30,6 +31,7 @@ class VertexFur:
     tip: Floats
     comb: Floats
     colour: Floats | None = None
+    own: Floats | None = None
 
     @classmethod
     def even(cls, vertices: int) -> VertexFur:

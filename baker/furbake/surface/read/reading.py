@@ -18,6 +18,7 @@ from furbake.surface.read.archive import sources
 from furbake.surface.read.gltf_data import UndecodableError
 from furbake.surface.read.gltf_scene import Scene, read_gltf
 from furbake.surface.read.others import read_other
+from furbake.surface.read.usd import read_usd
 from furbake.surface.rig.rig import Rig
 from furbake.surface.soup import MeshError, Soup, join
 
@@ -26,6 +27,9 @@ MESHES = ("glb", "gltf", "obj", "off", "ply", "stl", "stl_ascii")
 
 ARCHIVES = ("zip", "tar.gz", "tar.bz2", "bz2")
 """Ends of the names of archives in which such files are found."""
+
+STAGES = ("usd", "usda", "usdc", "usdz")
+"""Ends of the names of stages of USD, of which an optional extra reads the meshes."""
 
 STATUE = "joints, clips and morph targets of {} models in an archive left out: the fur stands still"
 
@@ -52,6 +56,8 @@ def read(path: Path) -> Reading:
             raise MeshError(f"{name}: is a folder, expected a mesh file")
         if not path.exists():
             raise MeshError(f"{name}: no such file, expected a mesh file or sphere, plane, plane:RxC, torus, torus:RxC")
+        if kind in STAGES:
+            return _reading(name, read_usd(path))
         if kind not in (*MESHES, *ARCHIVES):
             raise MeshError(f"{name}: file type is '{kind}', expected one of {', '.join((*MESHES, *ARCHIVES))}")
         model = source(path)
@@ -73,6 +79,11 @@ def read(path: Path) -> Reading:
             ) from error
         except Exception as error:  # readers raise anything on a broken file: struct.error, KeyError, MemoryError, ...
             raise MeshError(f"{name}: cannot be read as {kind} ({reason(error)}), expected a valid file") from error
+    return _reading(name, scene)
+
+
+def _reading(name: str, scene: Scene) -> Reading:
+    """A scene that has triangles. Raises MeshError for one that has none."""
     if scene.soup is None:
         raise MeshError(f"{name}: no faces, expected a surface of triangles")
     return Reading(scene.soup, scene.materials, scene.missing, scene.notices, scene.rig)

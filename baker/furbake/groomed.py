@@ -1,0 +1,190 @@
+"""A body in an artist's groom: its strands read, bound, made fields over the ground, and a tile."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from furbake.artist.bind import Bound, bind, ground_of
+from furbake.artist.colours import Colours, colours_of
+from furbake.artist.drawn import Source, draw
+from furbake.artist.fields import Fields, Standing, areas, direction_of, fields_of, standing
+from furbake.artist.follow import filled, followers
+from furbake.artist.laid import Laid, laid
+from furbake.artist.read.reading import read_curves
+from furbake.artist.traits import compared
+from furbake.options import BakeOptions
+from furbake.options.knobs import KNOBS
+from furbake.pelt.hairs.ramp import Ramp
+from furbake.pelt.hairs.strands import Coat, Strands
+from furbake.surface.mesh import Surface
+
+Floats = NDArray[np.float64]
+
+HAIRS = 900
+"""Hairs of a tile, about, where its width is not given."""
+
+WIDTHS = (0.03, 0.2)
+"""Least and greatest width of such a tile, shares of the body's largest side."""
+
+DENSE = 0.9
+"""Share of the body that is no denser than the tile."""
+
+PER_CLUMP = 16
+"""Hairs of a clump of wet fur."""
+
+
+@dataclass(frozen=True)
+class Groomed:
+    """Fur of a groom on the V vertices of a ground.
+
+    direction : (V, 3) unit tangents; lengths : (V,) 0..1, shares of `length`; comb : (V, 3), share of the own length
+    density : (V,) 0..1, share of the tile's hairs; bald : (V,) where none grow; colour : (V, 3) 0..1, or None
+    tile, length : model units; strands : of the tile; coat, ramp : what the options have in place of the preset's
+    record : figures for `bake.json`; notices : one sentence each
+    """
+
+    direction: Floats
+    lengths: Floats
+    comb: Floats
+    density: Floats
+    bald: NDArray[np.bool_]
+    colour: Floats | None
+    tile: float
+    length: float
+    strands: Strands
+    coat: Coat
+    ramp: Ramp
+    record: dict[str, Any]
+    notices: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Combed:
+    """A groom on a ground: its strands, their followers among them, and the fields.
+
+    follow : followers of each guide; direction : (V, 3) unit tangents; notices : one sentence each
+    """
+
+    bound: Bound
+    stands: Standing
+    fields: Fields
+    direction: Floats
+    follow: int
+    notices: tuple[str, ...]
+
+
+def groomed(options: BakeOptions, skin: Surface, ground: Surface) -> Groomed:
+    """The groom that the options name, on a body and the copy of it that carries the fur. Raises GroomError."""
+    combed = combed_by(str(options.groom), options, skin, ground)
+    bound, stands, fields = combed.bound, combed.stands, combed.fields
+    tall = bound.height / np.maximum(stands.at(fields.height), 1e-3 * stands.at(fields.length))
+    fur = laid(ground, fields, combed.direction, tall)
+    density = _quantile(fields.density, fields.area * ~fields.bald, DENSE)
+    tile = options.tile or _width(skin, density, float(fur.reach.max()))
+    source = Source(bound, stands, fields, fur, combed.direction, ground_of(skin), tile, density)
+    strands, which = draw(source, options.seed)
+    colours = colours_of(bound, stands, fields, which)
+    strands = _shaded(strands, colours, options)
+    length = float(fur.reach.max())
+    return Groomed(
+        direction=combed.direction,
+        lengths=fur.reach / length,
+        comb=fur.comb[:, None] * combed.direction,
+        density=np.clip(fields.density / density, 0.0, 1.0),
+        bald=fields.bald,
+        colour=None if colours is None else colours.places,
+        tile=tile,
+        length=length,
+        strands=strands,
+        coat=_coat(options.coat, strands, length / tile, fur.lean / tile),
+        ramp=options.ramp if colours is None else colours.ramp,
+        record=_record(combed, fur, density, len(which)) | {"traits": compared(source, strands, options.seed)},
+        notices=(*combed.notices, _told(combed, fur, tile, len(which))),
+    )
+
+
+def combed_by(name: str, options: BakeOptions, skin: Surface, ground: Surface) -> Combed:
+    """A groom's strands on a body, filled in between where they are guides alone. Raises GroomError."""
+    bound = bind(name, read_curves(Path(name)), skin)
+    notices = list(bound.notices)
+    area = float(areas(skin).sum())
+    follow = followers(bound, area, options.follow)
+    if follow:
+        some = (
+            "asked for" if options.follow is not None else "alone they hardly cover the skin (--follow 0: as they are)"
+        )
+        notices.append(f"{name}: {follow} hairs grown beside each of {bound.count} guides, {some}")
+        bound = bind(name, filled(bound, follow, options.seed), skin)
+    stands = standing(ground_of(ground), bound, ground_of(skin))
+    fields = fields_of(stands, bound)
+    direction = direction_of(ground, fields, options.guide)
+    return Combed(bound, stands, fields, direction, follow, tuple(notices))
+
+
+def _width(skin: Surface, density: float, length: float) -> float:
+    """Width of a tile of about as many hairs as are usual."""
+    least, most = WIDTHS[0] * skin.extent, WIDTHS[1] * skin.extent
+    knob = KNOBS["height"]
+    return float(np.clip(np.clip(np.sqrt(HAIRS / density), least, most), length / knob.high, length / knob.low))
+
+
+def _quantile(values: Floats, weights: Floats, share: float) -> float:
+    """The value that this share of the weights is below."""
+    order = np.argsort(values)
+    total = np.cumsum(weights[order])
+    return float(values[order][min(np.searchsorted(total, share * total[-1]), len(values) - 1)])
+
+
+def _shaded(strands: Strands, colours: Colours | None, options: BakeOptions) -> Strands:
+    """The strands in their own brightness, or in the preset's where the groom has no colours."""
+    if colours is not None:
+        return replace(strands, tint=colours.tint[:, None] * np.ones(strands.radius.shape))
+    coat, rng = options.coat, np.random.default_rng([options.seed, 5])
+    spread = coat.guard.tint + coat.shade * rng.normal(0.0, 1.0, (len(strands.points), 1))
+    tint = np.clip(spread, 0.35 * coat.guard.tint, 1.0) * np.ones(strands.radius.shape)
+    return replace(strands, tint=tint, hue=rng.random((len(tint), 1)) * np.ones(tint.shape))
+
+
+def _coat(coat: Coat, strands: Strands, height: float, lean: float) -> Coat:
+    """The preset's coat with the hairs' number and lean, and an opacity by which shells hide as much as the hairs.
+
+    A hair of radius r that fills the share f of a volume takes 2f / (πr) of the light that crosses it.
+    """
+    count, radius = len(strands.points), float(strands.radius.mean())
+    knob = KNOBS["coat.opacity"]
+    opacity = float(np.clip(height / 16 * 2 / (np.pi * radius), knob.low, knob.high))
+    high = KNOBS["coat.lean"].high
+    return replace(
+        coat,
+        guard=replace(coat.guard, count=count),
+        under=replace(coat.under, count=0),
+        lean=(0.0, float(np.clip(lean, -high, high))),
+        clumps=max(1, count // PER_CLUMP),
+        opacity=opacity,
+    )
+
+
+def _record(combed: Combed, fur: Laid, density: float, drawn: int) -> dict[str, Any]:
+    bound = combed.bound
+    return {
+        "strands": bound.count // (1 + combed.follow),
+        "follow": combed.follow,
+        "drawn": drawn,
+        "density": density,
+        "taller": fur.taller,
+        "lean": fur.lean,
+        "missed": fur.missed,
+    }
+
+
+def _told(combed: Combed, fur: Laid, tile: float, drawn: int) -> str:
+    low, high = (float(np.quantile(combed.bound.length, share)) for share in (0.05, 0.95))
+    return (
+        f"groom: strands {low:.2g} to {high:.2g} long, {drawn} of them in a tile {tile:.2g} wide, "
+        f"tips {100 * fur.missed:.0f} % of a length off"
+    )

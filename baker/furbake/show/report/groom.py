@@ -1,0 +1,53 @@
+"""The section of a report that shows an artist's groom and the tile made of it side by side."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import Any
+
+from furbake.artist.traits import NAMES
+from furbake.show.report.section import figure, section
+from furbake.show.report.svg import Axis, Series, axis, plot
+
+FAR = 0.1
+"""Kolmogorov's distance from which on two histograms are said to differ."""
+
+
+def groom_section(record: dict[str, Any]) -> str:
+    """The section as HTML; nothing where the fur is no artist's. record : of `bake.json`"""
+    groom = record.get("groom")
+    traits = groom.get("traits") if isinstance(groom, dict) else None
+    if not isinstance(groom, dict) or not isinstance(traits, dict):
+        return ""
+    drawn = [
+        figure(_histogram(name, traits[name]), f"<b>{escape(name)}</b>: {escape(text)}{_apart(traits[name])}")
+        for name, text in NAMES.items()
+        if name in traits
+    ]
+    beside = f", {groom['follow']} hairs beside each" if groom.get("follow") else ""
+    return section(
+        "The groom and its tile",
+        f"{groom['strands']:,} strands of the artist{beside}; {groom['drawn']:,} of them fill the tile. "
+        "Bars are the groom, the line is the fur on the body. <b>Look for</b> lines that leave the bars.",
+        f'<div class="histograms">{"".join(drawn)}</div>',
+    )
+
+
+def _histogram(name: str, trait: dict[str, Any]) -> str:
+    """Shares of the strands in each bin: of the groom as bars, of the tile as a line."""
+    count = len(trait["groom"])
+    step = (trait["high"] - trait["low"]) / count
+    middles = [trait["low"] + (i + 0.5) * step for i in range(count)]
+    across = axis([trait["low"], trait["high"]], name, low=trait["low"], count=3)
+    across = Axis(trait["low"], trait["high"], [tick for tick in across.ticks if tick[0] <= trait["high"]], name)
+    up = axis([100 * share for share in (*trait["groom"], *trait["tile"])], "% of the strands", low=0.0)
+    bars = Series(middles, [100 * share for share in trait["groom"]], "truth", "bars", "groom")
+    line = Series(middles, [100 * share for share in trait["tile"]], "fit", "line", "tile")
+    return plot(f"{name}: groom and tile", across, up, [bars, line])
+
+
+def _apart(trait: dict[str, Any]) -> str:
+    apart = float(trait["apart"])
+    return f". They are {apart:.2f} apart (Kolmogorov)" + (
+        ", <b>more than strands that are alike</b>" if apart > FAR else ""
+    )
