@@ -80,7 +80,9 @@ def _several(asset: Asset, progress: Progress) -> Groom:
         kinds = (np.arange(len(strands.points)) >= options.coat.guard.count).astype(np.int64)
         chosen = partial(own_roots, asset, ground, fur=fur)
         told = partial(_told, progress, fur / count, 1.0 / count)
-        own = on_body(ground, strands, kinds, height, options.seed, read_pelt(one).ramp, options.colour_plane, told, chosen)
+        own = on_body(
+            ground, strands, kinds, height, options.seed, read_pelt(one).ramp, options.colour_plane, told, chosen
+        )
         grooms.append(replace(own, hair=own.hair + first))
         first += len(strands.points)
     return Groom(**{name: np.concatenate([getattr(own, name) for own in grooms]) for name in vars(grooms[0])})

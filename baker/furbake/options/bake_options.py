@@ -176,11 +176,14 @@ class BakeOptions:
         """Raise `OptionError` for what several furs on one body cannot have."""
         if self.regions is None:
             return
-        for name, got in (("swatch", self.swatch), ("groom", self.groom), ("basis", self.basis), ("curves", self.curves)):
+        for name, got in (
+            ("swatch", self.swatch),
+            ("groom", self.groom),
+            ("basis", self.basis),
+            ("curves", self.curves),
+        ):
             if got not in (None, "ptm", "slab"):
-                raise OptionError(
-                    f"regions: got {self.regions} beside {name} {got}, expected grown fur, ptm and slab"
-                )
+                raise OptionError(f"regions: got {self.regions} beside {name} {got}, expected grown fur, ptm and slab")
 
     def _check_groom(self) -> None:
         """Raise `OptionError` for what a groom says by itself, and for what only a groom can have."""

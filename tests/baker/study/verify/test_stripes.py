@@ -78,7 +78,7 @@ def edges(picture: np.ndarray, seen: Frame) -> np.ndarray:
 @pytest.mark.skipif(os.environ.get("FURBAKE_TEST_ALL") != "1", reason="minutes of tracing: npm test -- --all")
 @pytest.mark.parametrize("combed", [False, True])
 def test_edges_lie_where_the_tracer_has_them(combed: bool, tmp_path: Path) -> None:
-    """Within half of a hair's spacing, RMS. Combed hairs lean and bend across the stripes, by a third of a tile and more."""
+    """Within half of a hair's spacing, RMS. Combed hairs lean across the stripes, by a third of a tile and more."""
     laid = {"sweep": "0.5"} if combed else {"coat.lean": "0,0"}
     white = {f"ramp.{name}": WHITE for name in ("root", "tip", "tip2")}
     options = replace(
