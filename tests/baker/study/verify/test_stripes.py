@@ -78,8 +78,9 @@ def edges(picture: np.ndarray, seen: Frame) -> np.ndarray:
 @pytest.mark.skipif(os.environ.get("FURBAKE_TEST_ALL") != "1", reason="minutes of tracing: npm test -- --all")
 @pytest.mark.parametrize("combed", [False, True])
 def test_edges_lie_where_the_tracer_has_them(combed: bool, tmp_path: Path) -> None:
-    """Within half of a hair's spacing, RMS, upright. Combed across the stripes, roots are a third of a tile away from tips:
-    the mean drift of a slab leaves 1.3 spacings, a twentieth of a tile.
+    """Within half of a hair's spacing, RMS, upright.
+
+    Combed across the stripes, tips are a third of a tile off their roots: the mean drift of a slab leaves 1.3 spacings.
     """
     laid = {"sweep": "0.5"} if combed else {"coat.lean": "0,0"}
     white = {f"ramp.{name}": WHITE for name in ("root", "tip", "tip2")}
