@@ -48,8 +48,8 @@ Floats = NDArray[np.float64]
 EXTENSION = "FUR_ptm_shells"
 VERSION, VERSION_STATES, VERSION_CURVES, VERSION_MOTION, VERSION_EDGES = "1.0", "1.1", "2.0", "2.1", "2.2"
 VERSION_LATEST = "2.3"
-"""Format versions: one pelt, several states of it, mean curves, bodies that move, fins as edges; pictures of roots, several
-furs on one body, fins as edges of bodies that move."""
+"""Format versions: one pelt, several states of it, mean curves, bodies that move, fins as edges; pictures of roots,
+several furs on one body, fins as edges of bodies that move."""
 
 QUANTIZATION = "KHR_mesh_quantization"
 
@@ -144,10 +144,9 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     nodes = [{"name": name, "mesh": i, **undone} for i, name in enumerate(names)]
     nodes += feature_nodes(features, buffer, looks, meshes)
     roots, moving = rigged(nodes, features, motion, laid, place, buffer)
-    picture = roots_record(model.roots, looks)
     needed = [QUANTIZATION, *([MESHOPT] if buffer.unpacked else [])]
     moves = motion is not None
-    fur_record = extension(pelts, model.length, tiles, planes, names, moves, edges, picture)
+    fur_record = extension(pelts, model.length, tiles, planes, names, moves, edges, roots_record(model.roots, looks))
     fur_record |= {"thinned": True} if model.thinned else {}
     if model.regions is not None:
         furs = [extension(each.pelts, model.length, tiles, named, names, moves) for each, named in others]

@@ -1,6 +1,6 @@
 """Writes the tiger cub: its mesh, the picture of its skin, the length of its fur and where its mane is.
 
-    baker/.venv/bin/python baker/models/tiger/make.py public/models/tiger.glb
+baker/.venv/bin/python baker/models/tiger/make.py public/models/tiger.glb
 """
 
 from __future__ import annotations
@@ -13,9 +13,10 @@ import trimesh
 from numpy.typing import NDArray
 from paint import colours, length, mane
 from PIL import Image
+from scipy.ndimage import distance_transform_edt
 from shape import cub, surface
 
-from furbake.surface.mesh import simplify, clean
+from furbake.surface.mesh import clean, simplify
 from furbake.surface.roots.raster import drawn
 
 Floats = NDArray[np.float64]
@@ -73,8 +74,6 @@ def rows(size: Floats) -> tuple[Floats, bool]:
 
 def picture(vertices: Floats, faces: Ints, uv: Floats) -> Image.Image:
     """The skin's colours; what is between islands has those of the nearest."""
-    from scipy.ndimage import distance_transform_edt
-
     total, number = np.zeros((SIDE * FINER, SIDE * FINER, 3)), np.zeros((SIDE * FINER, SIDE * FINER), dtype=bool)
     for face, row, column, shares in drawn(uv * SIDE * FINER, number.shape):
         total[row, column] = colours(np.einsum("nc,nck->nk", shares, vertices[faces[face]]))
@@ -85,6 +84,7 @@ def picture(vertices: Floats, faces: Ints, uv: Floats) -> Image.Image:
 
 
 def main(out: Path) -> None:
+    """Write the model into a file."""
     vertices, faces = surface(cub(), (-0.85, -0.06, -0.95), (0.95, 1.95, 0.75))
     whole = clean("tiger", vertices, faces, max_faces=10**6)
     mesh = trimesh.Trimesh(whole.vertices, whole.faces, process=False)
@@ -92,8 +92,8 @@ def main(out: Path) -> None:
     body = simplify(clean("tiger", mesh.vertices, mesh.faces, max_faces=10**6), FACES)
     vertices, faces = body.vertices, body.faces
     uv = unfolded(vertices, faces, islands(vertices, faces))
-    corners = np.column_stack([np.repeat(vertices[faces.reshape(-1)], 1, axis=0), uv.reshape(-1, 2)]).round(9)
-    rows_, first, index = np.unique(corners, axis=0, return_index=True, return_inverse=True)
+    corners = np.column_stack([vertices[faces.reshape(-1)], uv.reshape(-1, 2)]).round(9)
+    _, first, index = np.unique(corners, axis=0, return_index=True, return_inverse=True)
     source = faces.reshape(-1)[first]
     points, coordinates = vertices[source], uv.reshape(-1, 2)[first]
     skin = trimesh.visual.material.PBRMaterial(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 from shape import TAIL
@@ -20,7 +22,7 @@ HEAD = np.array([0.0, 1.36, 0.12])
 
 def colours(points: Floats) -> Floats:
     """(n, 3) sRGB 0..255 at (n, 3) points."""
-    x, y, z = points.T
+    y = points[:, 1]
     rise = np.clip((y - 0.1) / 1.5, 0.0, 1.0)[:, None]
     found = DEEP + (ORANGE - DEEP) * rise
     for where, colour in ((white(points), WHITE), (black(points), BLACK), (inner_ear(points), PINK)):
@@ -45,7 +47,7 @@ def white(points: Floats) -> Flags:
 
 def black(points: Floats) -> Flags:
     """All stripes, the backs of the ears, the end of the tail."""
-    x, y, z = points.T
+    z = points[:, 2]
     back = ears(points) & (z < 0.07) & ~spot(points)
     return np.asarray(torso(points) | limbs(points) | face(points) | rings(points) | back)
 
@@ -86,13 +88,20 @@ def face(points: Floats) -> Flags:
     at = (over - 38.0 + 0.9 * np.maximum(side, 0.0) * 60.0 + 3.0 * wave(points, 9.0)) / 17.0
     number = np.floor(at)
     long = 0.20 + 0.06 * np.cos(2.1 * number)
-    crown = (np.abs(at - number - 0.5) < 0.26 * np.clip(1.0 - side / long, 0.0, 1.0) ** 0.5) & (over > 38) & (over < 235)
+    crown = (
+        (np.abs(at - number - 0.5) < 0.26 * np.clip(1.0 - side / long, 0.0, 1.0) ** 0.5) & (over > 38) & (over < 235)
+    )
     middle = (side < 0.016) & (over > 30) & (over < 62)
     turn = np.degrees(np.arctan2(side, way[:, 2]))  # 0 in front, 90 at the side
     rows = (y - 1.10 + 0.10 * np.cos(np.radians(turn)) + 0.012 * wave(points, 9.0)) / 0.095
     begin = 52.0 + 10.0 * np.sin(2.4 * np.floor(rows))
     wedge = 0.30 * np.clip((turn - begin) / 40.0, 0.0, 1.0) ** 0.7
-    cheeks = (np.abs(rows - np.floor(rows) - 0.5) < wedge * np.clip((185 - turn) / 40, 0, 1)) & (turn < 185) & (y < 1.56) & (side > 0.2)
+    cheeks = (
+        (np.abs(rows - np.floor(rows) - 0.5) < wedge * np.clip((185 - turn) / 40, 0, 1))
+        & (turn < 185)
+        & (y < 1.56)
+        & (side > 0.2)
+    )
     eye = np.hypot((side - 0.155) / 1.15, y - 1.385)
     lined = (eye > 0.05) & (eye < 0.082) & (z > 0.2)
     tear = (np.abs(side - 0.105 - 0.25 * (1.36 - y)) < 0.014) & (y < 1.37) & (y > 1.27) & (z > 0.3)
@@ -108,11 +117,13 @@ def rings(points: Floats) -> Flags:
 
 
 def ears(points: Floats) -> Flags:
+    """Both ears, from where they leave the head."""
     x, y, _ = points.T
     return np.asarray((np.hypot(np.abs(x) - 0.335, y - 1.69) < 0.19) & (y > 1.60 + 0.6 * (0.31 - np.abs(x))))
 
 
 def inner_ear(points: Floats) -> Flags:
+    """Hollows of the ears."""
     x, y, z = points.T
     return np.asarray(ears(points) & (z > 0.055) & (np.hypot(np.abs(x) - 0.33, y - 1.672) < 0.10))
 
@@ -124,6 +135,7 @@ def spot(points: Floats) -> Flags:
 
 
 def on_tail(points: Floats) -> Flags:
+    """The tail, as far as it is free of the body."""
     _, apart = down_the_tail(points)
     x, y, z = points.T
     free = (z < -0.56) | (np.abs(x) > 0.50) & (y < 0.3)
@@ -133,7 +145,7 @@ def on_tail(points: Floats) -> Flags:
 def down_the_tail(points: Floats) -> tuple[Floats, Floats]:
     """How far along the tail the nearest point of its line is, and how far away."""
     far, along, gone = np.full(len(points), np.inf), np.zeros(len(points)), 0.0
-    for one, two in zip(TAIL, TAIL[1:], strict=False):
+    for one, two in pairwise(TAIL):
         way = np.subtract(two, one)
         length = float(np.linalg.norm(way))
         share = np.clip((points - one) @ way / length**2, 0.0, 1.0)
@@ -147,7 +159,9 @@ def down_the_tail(points: Floats) -> tuple[Floats, Floats]:
 def wave(points: Floats, rate: float) -> Floats:
     """A smooth pattern within −1..1, without repeats on the cub."""
     x, y, z = points.T * rate
-    return np.asarray((np.sin(x + 1.3 * np.sin(y)) + np.sin(1.1 * y + 1.7 * np.sin(z)) + np.sin(0.9 * z + np.sin(x))) / 3)
+    return np.asarray(
+        (np.sin(x + 1.3 * np.sin(y)) + np.sin(1.1 * y + 1.7 * np.sin(z)) + np.sin(0.9 * z + np.sin(x))) / 3
+    )
 
 
 def mane(points: Floats) -> Floats:

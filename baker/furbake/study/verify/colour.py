@@ -42,7 +42,7 @@ def verify_colour(
     case = prepared(folder, options, progress, coloured=True)
     asset, coat, seen, wanted = case.asset, case.coat, case.seen, case.cells
     ramp = read_pelt(asset).ramp
-    colours = case.strands.colour
+    colours = np.asarray(case.strands.colour, np.float64)
     if "COLOR_0" not in asset.primitive(asset.fur["shells"])["attributes"]:  # the page shows a white skin
         colours = colours / np.maximum(np.array(skin_colour(asset), np.float32), 1e-6)
     red, green, blue = (SHADE * part for part in ramp.root)

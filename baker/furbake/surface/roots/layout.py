@@ -46,7 +46,7 @@ def laid_out(charts: Charts, drift: Floats) -> Floats:
 
 
 def _packed(masks: list[Flags], side: int) -> tuple[Floats, int]:
-    """(P, 2) places of masks in a strip `side` tiles wide, each the first that is free; and the longer side of it all."""
+    """(P, 2) places of masks in a strip `side` tiles wide, each the first free one; and the longer side of it all."""
     taken = np.zeros((0, side * CELLS), dtype=bool)
     places = []
     for mask in masks:
@@ -56,7 +56,7 @@ def _packed(masks: list[Flags], side: int) -> tuple[Floats, int]:
 
 
 def _mask(charts: Charts, mine: Flags, drift: Floats) -> tuple[Flags, Floats]:
-    """Cells that a patch, its roots and a margin of a cell take, from a corner of whole tiles on; that corner, tiles."""
+    """Cells that a patch, its roots and a margin of a cell take, from a corner of whole tiles on; and that corner."""
     faces = charts.faces[mine[charts.faces[:, 0]]]
     low = np.floor(np.minimum(charts.uv[mine], charts.uv[mine] - drift).min(axis=0) - 1.0 / CELLS)
     high = np.maximum(charts.uv[mine], charts.uv[mine] - drift).max(axis=0) + 2.0 / CELLS

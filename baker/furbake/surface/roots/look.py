@@ -77,7 +77,7 @@ def _rim(pixels: Bytes, inside: Flags) -> tuple[tuple[Ints, Ints], Bytes]:
     height, width = inside.shape
     padded = np.pad(inside, 1)
     shifted = [padded[1 + y : 1 + y + height, 1 + x : 1 + x + width] for y, x in NEIGHBOURS]
-    number = np.sum(shifted, axis=0, dtype=np.uint8)
+    number = np.asarray(np.sum(shifted, axis=0, dtype=np.uint8))
     row, column = np.nonzero(~inside & (number > 0))
     total = np.zeros((len(row), 3))
     for y, x in NEIGHBOURS:

@@ -141,9 +141,7 @@ def test_the_smaller_of_two_encodings() -> None:
 
 
 @pytest.mark.parametrize("stored", [False, True])
-def test_a_folder_with_a_picture_of_its_roots(
-    sphere: Surface, tmp_path: Path, stored: bool
-) -> None:
+def test_a_folder_with_a_picture_of_its_roots(sphere: Surface, tmp_path: Path, stored: bool) -> None:
     bake("sphere", tmp_path / "baked", BakeOptions(layers=4, size=8, lights=8))
     pelt = read_pelt(read_asset(tmp_path / "baked"))
     charts = lapped(sphere)
