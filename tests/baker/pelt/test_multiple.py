@@ -20,7 +20,7 @@ from furbake.pelt.hairs.states import DIRTY, PeltState, in_state, moistened
 from furbake.pelt.hairs.strands import grow
 from furbake.pelt.hairs.volume import Volume, coarsen
 from furbake.pelt.light.paths import BODY_RADIUS
-from furbake.pelt.light.transport import Setting, sample_apart
+from furbake.pelt.light.transport import Setting, hemisphere, sample_apart
 from furbake.pelt.means import Measured, coarser, directions, mean_light
 from furbake.pelt.multiple import Multiple, multiple_of, shares_of, shrinking, terms
 from furbake.pelt.pelt import Pelt
@@ -53,8 +53,7 @@ def test_fur_of_other_greys_is_as_bright_as_transport_has_it(
 ) -> None:
     options, fine, pelt = baked
     coat, multiple = options.coat, told(pelt)
-    lights = directions(BODY_RADIUS, 16)
-    lights = lights[lights[:, 2] > 0]
+    lights = hemisphere(10)
     wide = coarser(fine, 8, 16)
     alpha = coarsen(wide, 8, 16).coverage
     share = colour / coat.albedo
