@@ -79,6 +79,7 @@ def load_surface(model: str, max_faces: int | None = None, pose: tuple[str, floa
     return load_mesh(Path(model), MAX_FACES if max_faces is None else max_faces, pose)
 
 
+# Long: stages of one body, each of which needs those before.
 def prepare(model: str, options: BakeOptions) -> Body:
     """Read `model` and lay its fur. Raises MeshError or OptionError, each with one sentence."""
     skin = load_surface(model, options.max_faces, None if options.pose is None else clip_at(options.pose))
