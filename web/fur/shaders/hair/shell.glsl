@@ -14,7 +14,7 @@ out vec2 vCrispness;
 uniform float tiles; // texture coordinates → tiles
 uniform float shellCount; // n of one body, or the largest of many; may be fractional
 uniform int firstShell; // first shell that is drawn
-uniform vec4 drift[FURS * ((LAYERS + 2) / 2)]; // of each fur, two knots each: mean displacement of the hairs at the root and in every slab's middle, tile widths
+uniform vec4 drift[FURS * ((LAYERS + 2) / 2)]; // two knots each, fur after fur: mean displacement of the hairs at the root and in every slab's middle, tile widths
 
 uniform vec4 crispLevels[(FURS * LAYERS + 1) / 2]; // coverage of two slabs each that crispness leaves alone: X = of texels, Y = of those twice as large
 #ifndef BODIES

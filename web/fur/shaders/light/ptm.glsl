@@ -2,7 +2,7 @@
 
 uniform sampler2DArray plane0; // (a0, a1, a2, a5); with three coefficients (a0, a1, a2, α)
 #ifdef REGIONS
-uniform vec4 codings[4 * REGIONS]; // of each fur scale0, offset0, scale1, offset1 below
+uniform vec4 codings[4 * REGIONS]; // scale0, offset0, scale1, offset1 below, fur after fur
 #if REGIONS == 2 // a choice of two is cheaper than a place in a list
 #define CODING(i) (furRegion == 0 ? codings[i] : codings[4 + i])
 #else
