@@ -98,6 +98,7 @@ def grounded(skin: Surface) -> Surface:
     return simplify(skin, SHELL_FACES) if len(skin.faces) > MANY_FACES else skin
 
 
+# Long: stages of one body, each of which needs those before.
 def prepare(model: str, options: BakeOptions) -> Body:
     """Read `model` and lay its fur. Raises MeshError or OptionError, each with one sentence."""
     pose = None if options.pose is None else clip_at(options.pose)

@@ -13,8 +13,8 @@ export {
 	type Fin,
 	type Multiple,
 	type Pelt,
-	type RGB,
 	type RegionFur,
+	type RGB,
 	type Slot,
 } from './format.ts';
 export { curvedMoments, type MeanCurves } from './light/curves.ts';

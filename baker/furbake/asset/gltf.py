@@ -95,6 +95,7 @@ class FurModel:
     thinned: bool = False
 
 
+# Long: one document, put together in the order of its parts.
 def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     """Write model.gltf, model.bin and all images into `folder`; counts and file sizes for the record.
 

@@ -9,7 +9,7 @@ export class PeltLight {
 	readonly uniforms: Record<string, IUniform>;
 	/** Mean curves with the dry pelt's weights; format 2.x only. */
 	readonly means: SlabMeanCurves | undefined;
-	/** Of each fur. */
+	/** Texels of each fur. */
 	readonly #texels: readonly TexelCoding[];
 	readonly #planes: readonly Texture[];
 	readonly #layers: number;

@@ -44,7 +44,7 @@ export class SlabLight {
 	/** A row per slab, state after state, in each fur after fur. */
 	texture: DataTexture;
 	readonly #means: readonly MeanCurves[];
-	/** Of each fur, for each of `RADII`, an entry per curve. */
+	/** Entries per curve, for each of `RADII`, of each fur. */
 	readonly #skies: readonly CurveSky[][][];
 	#states: readonly SlabState[];
 

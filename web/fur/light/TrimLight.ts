@@ -33,7 +33,7 @@ export class TrimLight {
 		this.texture = new DataTexture(new Float32Array(16 * rows), 4, rows, RGBAFormat, FloatType);
 	}
 
-	/** Of each fur, places in whole fur with the light that the slabs of cut fur get; see `standIns`. */
+	/** Places, of each fur, in whole fur with the light that the slabs of cut fur get; see `standIns`. */
 	places(share: number): Float64Array[] {
 		return this.#slabs.map((slabs) => standIns(slabs, share));
 	}

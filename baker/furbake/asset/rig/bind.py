@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
@@ -18,12 +18,9 @@ from furbake.surface.rig.follow import Follow
 from furbake.surface.rig.pose import blend, unposed
 from furbake.surface.rig.rig import Floats, Ints, Rig
 
-if TYPE_CHECKING:
-    from furbake.asset.gltf import FurModel
 
-
-def bound(model: FurModel) -> FurModel:
-    """The model in the bind pose, in which it is stored."""
+def bound(model: Any) -> Any:
+    """A `FurModel` in the bind pose, in which it is stored."""
     motion = model.motion
     if motion is None or motion.rig.pose is None:
         return model

@@ -6,23 +6,22 @@ uniform sampler2DArray colourPlane; // colour of the texel's hairs
 #ifdef ROOTS
 uniform sampler2D roots; // colour of the skin at the roots of the hairs
 in vec2 vRoot;
-vec3 rootColour; // of this fragment
+vec3 rootColour; // colour at the roots of this fragment's hairs
 #define baseColour (vSkin.rgb * rootColour)
 #else
 #define baseColour vSkin.rgb
 #endif
 
 in vec4 vSkin;
-in float vFade;
 out vec4 fragColour;
 
 void main() {
-	vec3 at = vAt;
+	vec3 at = vec3(vAt, float(furRegion));
 	FurTexel texel = furTexel(at);
 #ifdef ROOTS
 	rootColour = texture(roots, vRoot).rgb;
 #endif
-	float alpha = texel.alpha * vFade * finOpacity;
+	float alpha = texel.alpha * (vFade - 2.0 * float(furRegion)) * finOpacity;
 	if (alpha < 0.01) discard;
 	vec3 colour = furRamp(vSkin.a, clamp(vAt.y, 0.0, 1.0)) * texel.tint;
 #ifdef COLOUR_PLANE

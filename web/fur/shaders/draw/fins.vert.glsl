@@ -15,9 +15,9 @@ uniform float tiles; // texture coordinates → tiles
 uniform float finHeights; // second texture coordinate → heights
 uniform float finLength; // length of the fin, lengths of the fur here
 
-out vec3 vAt; // XY = tiles along the edge, height; Z = fur
+out vec2 vAt; // tiles along the edge, height
 out vec4 vSkin; // RGB = factor of the hairs' colour, A = mix of tip and tip2
-out float vFade;
+out float vFade; // opacity of the fin, and 2 more for each fur before its own
 
 // Cosines between the viewer and the two faces' normals. upright, across: axes about the edge from which their angles count.
 vec2 facesTowards(vec3 viewer, vec3 upright, vec3 across) {
@@ -55,14 +55,15 @@ void main() {
 #ifdef USE_SKINNING
 	vec3 restEdge = normalize(restTangent);
 	vec3 restAcross = normalize(cross(restEdge, restNormal));
-	vFade = finFade(facesTowards(viewer, normalize(cross(restAcross, restEdge)), restAcross), dot(across, viewer));
+	float fade = finFade(facesTowards(viewer, normalize(cross(restAcross, restEdge)), restAcross), dot(across, viewer));
 #else
-	vFade = finFade(facesTowards(viewer, upright, across), dot(across, viewer));
+	float fade = finFade(facesTowards(viewer, upright, across), dot(across, viewer));
 #endif
 
-	vAt = vec3(uv * vec2(furTiles, finHeights * furTrim), float(furRegion));
+	vFade = fade + 2.0 * float(furRegion);
+	vAt = uv * vec2(furTiles, finHeights * furTrim);
 	// An invisible quad collapses to its root and has no fragments.
-	float s = vFade > 0.0 ? min(vAt.y, furTrim) : 0.0;
+	float s = fade > 0.0 ? min(vAt.y, furTrim) : 0.0;
 	vec3 comb = finComb(frame * vec3(_edge.z, 0.0, _edge.w));
 	vec3 pointVS = (placement * vec4(furPoint(rootPosition, n, comb, _fur.y * finLength, s), 1.0)).xyz;
 	gl_Position = projectionMatrix * vec4(pointVS, 1.0);
@@ -76,5 +77,5 @@ void main() {
 	vSkin.rgb *= furTraits.y;
 #endif
 	float slab = clamp(s * float(LAYERS) - 0.5, 0.0, float(LAYERS) - 1.0);
-	passLight(vFade > 0.0, FurPoint(turn * frame, comb * frame, pointVS, furReach(_fur.y), s, slab, furCurvature(_fur.y)), _fur.z);
+	passLight(fade > 0.0, FurPoint(turn * frame, comb * frame, pointVS, furReach(_fur.y), s, slab, furCurvature(_fur.y)), _fur.z);
 }

@@ -2,7 +2,7 @@
 // surface in which the hair has its root, so that it is the same from root to tip, and in all furs.
 
 #ifdef PARTED
-in vec2 vBounds; // of the numbers of this fur's hairs at the root
+in vec2 vBounds; // bounds of the numbers of this fur's hairs at the root
 in vec2 vRoot; // root of the hairs, cells
 
 // Number of a cell, 0..1: PCG (M. E. O'Neill 2014) of its two places.

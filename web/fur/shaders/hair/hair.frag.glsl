@@ -7,7 +7,7 @@ uniform sampler2DArray colourPlane; // colour of the texel's hairs (paper, eq. 4
 #ifdef ROOTS
 uniform sampler2D roots; // colour of the skin below the tiles of the shells
 uniform vec2 rootsUnit; // coordinates of that picture per tile
-vec3 rootColour; // of this fragment
+vec3 rootColour; // colour at the roots of this fragment's hairs
 #define baseColour (vColour * rootColour)
 #else
 #define baseColour vColour

@@ -15,7 +15,7 @@ uniform float tiles; // texture coordinates → tiles
 uniform float shellCount; // n of one body, or the largest of many; may be fractional
 uniform int firstShell; // first shell that is drawn
 
-#define FUR_SLABS (FURS * LAYERS) // of all furs in one state
+#define FUR_SLABS (FURS * LAYERS) // slabs of all furs in one state
 #ifdef WET
 #define CRISP_SLABS (FUR_SLABS * WET)
 #else

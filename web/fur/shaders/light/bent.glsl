@@ -2,12 +2,12 @@
 // change, by the law of pelt/bent.py. `furbake bend` compares it with bakes of the bent hairs.
 
 #ifdef REGIONS
-uniform vec2 leans[REGIONS]; // of each fur
+uniform vec2 leans[REGIONS]; // lean of each fur
 #define lean leans[furRegion]
 #else
 uniform vec2 lean; // mean displacement of the tips inside the tile, share of the length along (T, B)
 #endif
-uniform vec4 bent[6 * FURS]; // of each fur: weights of eight terms, two vectors for each of 1, s, s²
+uniform vec4 bent[6 * FURS]; // weights of eight terms, fur after fur, two vectors for each of 1, s, s²
 
 #if defined(STRAIGHT) && !defined(SWING)
 #if STRAIGHT

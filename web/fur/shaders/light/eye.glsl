@@ -2,9 +2,9 @@
 // sides of them. By the law of pelt/eye.py, with numbers fitted by each bake.
 
 #ifdef EYE
-uniform vec4 eye[9 * FURS]; // of each fur: weights of twelve terms, three vectors for each of 1, s, s²
+uniform vec4 eye[9 * FURS]; // weights of twelve terms, fur after fur, three vectors for each of 1, s, s²
 #ifdef REGIONS
-uniform vec4 surges[REGIONS]; // of each fur
+uniform vec4 surges[REGIONS]; // surge of each fur
 #define furSurge surges[furRegion]
 #else
 #define furSurge surge

@@ -2,11 +2,16 @@
 
 uniform sampler2DArray plane0; // (a0, a1, a2, a5); with three coefficients (a0, a1, a2, α)
 #ifdef REGIONS
-uniform vec4 codings[4 * REGIONS]; // of each fur scale0, offset0, scale1, offset1 below
-#define scale0 codings[4 * furRegion]
-#define offset0 codings[4 * furRegion + 1]
-#define scale1 codings[4 * furRegion + 2].xy
-#define offset1 codings[4 * furRegion + 3].xy
+uniform vec4 codings[4 * REGIONS]; // scale0, offset0, scale1, offset1 below, fur after fur
+#if REGIONS == 2 // a choice of two is cheaper than a place in a list
+#define CODING(i) (furRegion == 0 ? codings[i] : codings[4 + i])
+#else
+#define CODING(i) codings[4 * furRegion + i]
+#endif
+#define scale0 CODING(0)
+#define offset0 CODING(1)
+#define scale1 CODING(2).xy
+#define offset1 CODING(3).xy
 #ifdef TWO_PLANES
 uniform sampler2DArray plane1; // (a3, a4, α, tint)
 #endif

@@ -1,6 +1,6 @@
 // Drift of the hairs inside the tile of their fur.
 
-uniform vec4 drift[FURS * ((LAYERS + 2) / 2)]; // of each fur, two knots each: mean displacement of the hairs at the root and in every slab's middle, tile widths
+uniform vec4 drift[FURS * ((LAYERS + 2) / 2)]; // two knots each, fur after fur: mean displacement of the hairs at the root and in every slab's middle, tile widths
 
 vec2 driftKnot(int k) {
 	vec4 two = drift[furRegion * ((LAYERS + 2) / 2) + (k >> 1)];
