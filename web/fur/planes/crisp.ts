@@ -49,7 +49,7 @@ interface Slab {
 export function crispLevels({ plane0, plane1 }: FurTextures): Vector4[] {
 	const { plane, channel } = alphaChannel(plane1 ? 6 : 3);
 	const { mipmaps, image } = (plane === 1 ? plane1 : plane0) as CompressedArrayTexture;
-	const layers = (image as { depth: number }).depth;
+	const layers = (image as { depth: number } | null)?.depth ?? 0;
 	const levels = Array.from({ length: layers }, (_, k) =>
 		SLABS.map((slabs, level) => {
 			const found = (mipmaps?.[level] ?? mipmaps?.[0]) as Level | undefined;
