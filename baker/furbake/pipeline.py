@@ -12,8 +12,8 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from furbake.artist.stored import write_strands
 from furbake.asset.gltf import FurModel, write_gltf
-from furbake.asset.hairs import write_strands
 from furbake.asset.regions.parted import chosen_fins
 from furbake.asset.regions.record import RegionFur, Regions, shaped
 from furbake.asset.rig.motion import Motion

@@ -43,7 +43,7 @@ FLOORS: dict[str, set[str]] = {
     "rti": {"asset", "pelt", "surface", "daylight"},
     "identity": {"options", "surface", "rti"},
     "size": {"surface", "options"},
-    "artist": {"pelt", "surface", "usd"},
+    "artist": {"asset", "pelt", "surface", "usd"},
     "groomed": {"artist", "options", "pelt", "surface"},
     "body": {"asset", "surface", "options", "size", "groomed", "pelt"},
     "cache": set(),
