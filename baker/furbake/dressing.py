@@ -12,7 +12,7 @@ from furbake.options.regions import COAT, Region, read_regions
 from furbake.painted import painted
 from furbake.size import Size, questions, sized
 from furbake.surface.mesh import Floats, MeshError, Surface
-from furbake.surface.place.shares import STEPS, bounds, in_balls, on_material, soften
+from furbake.surface.place.shares import STEPS, bounds, in_balls, on_material, soften, vertex_areas
 
 Bytes = NDArray[np.uint8]
 
@@ -25,7 +25,7 @@ class Part:
     """A region with its fur.
 
     options : of its fur; tile, length : width of its tile and its longest hair, model units
-    covers : share of the furry surface's vertices
+    covers : share of the surface
     """
 
     name: str
@@ -78,16 +78,23 @@ def dressing(ground: Surface, skin: Surface, options: BakeOptions, coat: Size) -
     names = [COAT] + [region.name for region in regions]
     for name, share in zip(names, shares, strict=True):
         if not share.any():
-            raise OptionError(f"regions: {name} is nowhere on the body, expected some of it for each region and the coat")
+            raise OptionError(
+                f"regions: {name} is nowhere on the body, expected some of it for each region and the coat"
+            )
     own = [options] + [region.options for region in regions]
     for i, region in enumerate(regions, 1):
         if region.options.length is not None:
             sizes[i] = _whole(sizes[i], shares[i])
+    areas = vertex_areas(ground)
     parts = tuple(
-        Part(name, of, size.tile, size.length, float(share.mean()) / STEPS)
+        Part(name, of, size.tile, size.length, float(areas @ share / areas.sum()) / STEPS)
         for name, of, size, share in zip(names, own, sizes, shares, strict=True)
     )
-    doubts = [f"{part.name}: {doubt}" for part in parts[1:] for doubt in questions(part.tile, part.length, skin.extent, part.options)]
+    doubts = [
+        f"{part.name}: {doubt}"
+        for part in parts[1:]
+        for doubt in questions(part.tile, part.length, skin.extent, part.options)
+    ]
     told = ", ".join(f"{part.name} {100 * part.covers:.3g} % ({part.length:.3g} long)" for part in parts)
     return Dressing(parts, cut, tuple(sizes), (f"regions: {told}", *doubts))
 

@@ -120,7 +120,9 @@ def bake(
                 worn = [each.with_fins(made) for each, made in zip(others, worn, strict=True)]
         with clock.stage("write"):
             record = _record(model, given, options, body, fitted) | _worn(body, worn)
-            furry = replace(_furry(model, options, body, fitted, fins), regions=_regions(body, fitted[0][0], worn, quads))
+            furry = replace(
+                _furry(model, options, body, fitted, fins), regions=_regions(body, fitted[0][0], worn, quads)
+            )
             record["asset"] = write_gltf(folder, furry, options.meshopt)
             if body.strands is not None:
                 record["asset"]["bytes"] |= write_strands(folder, body.strands)

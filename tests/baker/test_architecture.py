@@ -37,6 +37,7 @@ FLOORS: dict[str, set[str]] = {
     "surface/shapes": {"surface/mesh", "surface/charts", "surface/repair"},
     "surface/lay": {"surface/mesh", "surface/charts", "surface/soup", "surface/repair"},
     "surface/place": {f"surface/{name}" for name in ("mesh", "charts", "colours", "repair", "lay", "files")},
+    "surface/roots": {f"surface/{name}" for name in ("mesh", "charts", "colours", "material", "repair", "soup")},
     "surface/skeleton": {f"surface/{name}" for name in ("mesh", "soup", "files", "repair", "rig", "lay", "place")},
     "asset": {"pelt", "surface"},
     "options": {"pelt", "lazy", "surface/files", "surface/limits", "surface/soup"},

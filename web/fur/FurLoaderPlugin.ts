@@ -142,7 +142,10 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 
 	/** Skin, shells' mesh and base colour; the skin stays unshaded until there is fur. */
 	async #body(asset: FurAsset, scene: Object3D): Promise<{ skin: Skin; surface: Mesh; colour: Color }> {
-		const [surface, object] = await Promise.all([this.#mesh(asset.shells, 'shells', asset.regions), this.#skin(asset.skin)]);
+		const [surface, object] = await Promise.all([
+			this.#mesh(asset.shells, 'shells', asset.regions),
+			this.#skin(asset.skin),
+		]);
 		const pieces = isMesh(object) ? [object] : (object.children as Mesh[]);
 		for (const piece of pieces) checkGeometry(`${FUR_EXTENSION}/skin`, piece.geometry, jointsOf(piece));
 		// Vertex colours of the shells already contain the base colour of every material or picture.

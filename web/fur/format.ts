@@ -34,7 +34,13 @@ export function parseFur(extension: unknown): FurAsset | undefined {
 /** The furs of an asset, each as if it were alone: the coat, then those of its regions. */
 export function fursOf({ regions, ...coat }: FurAsset): [FurAsset, ...FurAsset[]] {
 	const furs = regions?.furs ?? [];
-	return [coat, ...furs.map(({ name: _, tile: __, ...own }) => ({ ...coat, eye: undefined, surge: undefined, bent: undefined, ...own }) as FurAsset)];
+	return [
+		coat,
+		...furs.map(
+			({ name: _, tile: __, ...own }) =>
+				({ ...coat, eye: undefined, surge: undefined, bent: undefined, ...own }) as FurAsset,
+		),
+	];
 }
 
 /** Width of a tile of the coat, model units. */
@@ -74,7 +80,8 @@ function checkRegions({ regions, basis, pelts, eye }: FurAsset): void {
 			[name, wetness, dirt, colour === undefined, !multiple, fin?.width, fin?.height, !fin?.colour].join(' '),
 		);
 	for (const fur of regions.furs) {
-		if ((fur.eye === undefined) !== (eye === undefined)) refuse(`${fur.name}.eye`, fur.eye && 'one', eye ? 'one' : 'none');
+		if ((fur.eye === undefined) !== (eye === undefined))
+			refuse(`${fur.name}.eye`, fur.eye && 'one', eye ? 'one' : 'none');
 		const [own, wanted] = [traits(fur.pelts), traits(pelts)];
 		if (`${own}` !== `${wanted}`) refuse(`${fur.name}.pelts`, own.join(', '), wanted.join(', '));
 	}

@@ -120,10 +120,14 @@ const blender = 'bpy==4.5.15';
 const blenderPython = '3.11';
 const blenderVenv = join(root, 'baker', '.bpy');
 
-/** Python with Blender in it, `baker/.bpy`, for tests of the extension; a wheel of 0.35 GB, which pip keeps in its cache. */
+/**
+ * Python with Blender in it, `baker/.bpy`, for tests of the extension; a wheel of 0.35 GB, which pip keeps in its cache.
+ *
+ * @returns {Promise<string>} its path
+ */
 export async function ensureBlender() {
 	const inside = join(blenderVenv, windows ? 'Scripts' : 'bin', windows ? 'python.exe' : 'python');
-	if (existsSync(inside) && (await ask(inside, ['-c', 'import bpy'])) !== undefined) return;
+	if (existsSync(inside) && (await ask(inside, ['-c', 'import bpy'])) !== undefined) return inside;
 	const candidates = windows ? [['py', `-${blenderPython}`]] : [[`python${blenderPython}`], ['python3']];
 	const program = 'import sys; print("%d.%d" % sys.version_info[:2])';
 	for (const [name, ...args] of candidates) {
@@ -131,7 +135,7 @@ export async function ensureBlender() {
 		say('installing Blender as a Python package (baker/.bpy)');
 		const made = await runAside(name, [...args, '-m', 'venv', '--clear', blenderVenv]);
 		const quiet = ['--quiet', '--disable-pip-version-check'];
-		if (made === 0 && (await runAside(inside, ['-m', 'pip', 'install', ...quiet, blender])) === 0) return;
+		if (made === 0 && (await runAside(inside, ['-m', 'pip', 'install', ...quiet, blender])) === 0) return inside;
 		rmSync(blenderVenv, { recursive: true, force: true });
 		throw new Failure(`pip install ${blender} failed`);
 	}

@@ -1,12 +1,13 @@
 /**
  * `npm run pictures`: regenerates the project's pictures: `public/og.jpg` for shared links, `still.jpg`, the bunny under
  * three lights, and `demo.jpg` and `learn.jpg`, the pages themselves. `npm run pictures -- --fox models/my-fox` makes
- * `fox.jpg` of README's fox, baked there; `npm run pictures -- --truth` traces the lesson's ring (minutes; `mitsuba`).
+ * `fox.jpg` of README's fox, baked there, `-- --bear models/my-bear` `usd.jpg` of a groomed one; `npm run pictures -- --truth` traces the lesson's ring (minutes; `mitsuba`);
+ * `npm run pictures -- --blender` furs, bakes and renders the monkey of the docs in Blender (minutes; installs `bpy`).
  */
-import { readFileSync } from 'node:fs';
-import { join } from 'node:path';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { basename, join } from 'node:path';
 import { browserArgs, ensureBrowser } from './browser.mjs';
-import { ensureNode, ensurePython, python } from './environment.mjs';
+import { ensureBlender, ensureNode, ensurePython, furbake, python } from './environment.mjs';
 import { readOptions } from './measure/measure.mjs';
 import { command, Failure, root, run, say } from './process.mjs';
 import { serve } from './site/vite.mjs';
@@ -20,6 +21,10 @@ const FOX = [
 	'clip=Survey&time=1.2&camera=28,12,0.64&light=-0.4,0.7,0.5',
 	'clip=Walk&time=0.3&camera=42,4,0.78&env=sunset',
 ];
+/** The side from which a groomed bear is seen. */
+const BEAR = 'camera=-35,10,0.8';
+/** The monkey of the docs at rest, as Cycles has seen it, and in its clip. */
+const MONKEY = ['camera=25,12,0.8&light=-0.5,0.75,0.35', 'clip=nod&time=0.5&camera=-20,8,0.8&light=0.6,0.6,0.5'];
 /** Light from the left, from above, from behind. */
 const LIGHTS = ['-0.9,0.45,0.2', '0.05,0.98,0.2', '0.75,0.45,-0.5'];
 const WORDS = ['furbake', 'Fur that you relight by dragging,', 'baked from any mesh'];
@@ -92,14 +97,15 @@ async function still(browser, site) {
  * @param {string} site
  * @param {string[]} views parameters of their addresses
  * @param {string} name of the file in public/
+ * @param {string[]} [first] addresses of pictures before these
  */
-async function strip(browser, site, views, name) {
+async function strip(browser, site, views, name, first = []) {
 	const side = 560;
-	const pictures = [];
+	const pictures = [...first];
 	for (const what of views) pictures.push(await view(browser, site, what, { width: side, height: side }));
 	const images = pictures.map((picture) => `<img src="${picture}" width="${side}" height="${side}" />`);
 	const body = `<div style="display: flex">${images.join('')}</div>`;
-	await keep(browser, body, { width: side * views.length, height: side }, name, 84);
+	await keep(browser, body, { width: side * pictures.length, height: side }, name, 84);
 }
 
 /** Two methods side by side. @param {Browser} browser; @param {string} site */
@@ -147,8 +153,35 @@ async function truth() {
 	if (code !== 0) throw new Failure('the pictures were not traced: the reason stands above');
 }
 
+/** The monkey of the docs by Cycles and on the page. @param {Browser} browser; @param {string} site */
+async function blender(browser, site) {
+	await ensurePython();
+	const inside = await ensureBlender();
+	const folder = mkdtempSync(join(root, 'public', 'models', 'blender-'));
+	try {
+		const code = await run(inside, [join(root, 'web', 'tools', 'site', 'monkey.py'), furbake, folder]);
+		if (code !== 0) throw new Failure('the monkey was not baked: the reason stands above');
+		const rendered = readFileSync(join(folder, 'monkey.png')).toString('base64');
+		const model = `models/${basename(folder)}/monkey`;
+		const shown = MONKEY.map((what) => `model=${model}&${what}`);
+		await strip(browser, site, shown, 'blender.jpg', [`data:image/png;base64,${rendered}`]);
+	} finally {
+		rmSync(folder, { recursive: true, force: true });
+	}
+}
+
 await command(async () => {
-	const { fox, truth: traced } = readOptions({ fox: { type: 'string' }, truth: { type: 'boolean' } });
+	const {
+		fox,
+		bear,
+		truth: traced,
+		blender: furred,
+	} = readOptions({
+		fox: { type: 'string' },
+		bear: { type: 'string' },
+		truth: { type: 'boolean' },
+		blender: { type: 'boolean' },
+	});
 	await ensureNode();
 	if (traced) {
 		await truth();
@@ -158,6 +191,15 @@ await command(async () => {
 	const server = await serve();
 	const browser = await chromium.launch({ executablePath: await ensureBrowser(), args: browserArgs });
 	try {
+		if (furred) {
+			await blender(browser, server.url);
+			return;
+		}
+		if (bear) {
+			const views = LIGHTS.map((light) => `model=${bear}&${BEAR}&light=${light}`);
+			await strip(browser, server.url, views, 'usd.jpg');
+			return;
+		}
 		if (fox) {
 			await strip(
 				browser,

@@ -135,8 +135,7 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     edges = _fin_edges(model, charts, stood, buffer) if compress else None
     if fins is not None and edges is None:
         stood = fin_vertices(ground, fins, fur, below.positions, tiles) | below.joints(fins.source)
-        if model.roots is not None:
-            stood |= fin_roots(whole, fins, model.roots)
+        stood |= fin_roots(whole, fins, model.roots)
         stood |= {} if model.regions is None else fin_bounds(model.regions.quads)
         quads = buffer.primitive(stood, fins.faces)
         meshes.append({"name": "fins", "primitives": [quads | below.fin_targets(buffer, fins)]})
@@ -145,7 +144,7 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     nodes = [{"name": name, "mesh": i, **undone} for i, name in enumerate(names)]
     nodes += feature_nodes(features, buffer, looks, meshes)
     roots, moving = rigged(nodes, features, motion, laid, place, buffer)
-    picture = None if model.roots is None else roots_record(model.roots, looks)
+    picture = roots_record(model.roots, looks)
     needed = [QUANTIZATION, *([MESHOPT] if buffer.unpacked else [])]
     moves = motion is not None
     fur_record = extension(pelts, model.length, tiles, planes, names, moves, edges, picture)

@@ -53,9 +53,9 @@ def packed(job: Job) -> Parcel:
             add(places[name], Path(value))
     if job.options.regions is not None:
         home = Path(job.options.regions).parent
-        for file in region_files(job.options.regions):
-            if Path(file).is_relative_to(home):
-                add(f"regions/{Path(file).relative_to(home).as_posix()}", Path(file))
+        for named in map(Path, region_files(job.options.regions)):
+            if named.is_relative_to(home):
+                add(f"regions/{named.relative_to(home).as_posix()}", named)
     if job.options.swatch is not None:
         swatch = Path(job.options.swatch)
         with suppress(RtiError):

@@ -80,7 +80,8 @@ def _several(asset: Asset, progress: Progress) -> Groom:
         kinds = (np.arange(len(strands.points)) >= options.coat.guard.count).astype(np.int64)
         chosen = partial(own_roots, asset, ground, fur=fur)
         told = partial(_told, progress, fur / count, 1.0 / count)
-        own = on_body(ground, strands, kinds, height, options.seed, read_pelt(one).ramp, options.colour_plane, told, chosen)
+        ramp, hues = read_pelt(one).ramp, options.colour_plane
+        own = on_body(ground, strands, kinds, height, options.seed, ramp, hues, told, chosen)
         grooms.append(replace(own, hair=own.hair + first))
         first += len(strands.points)
     return Groom(**{name: np.concatenate([getattr(own, name) for own in grooms]) for name in vars(grooms[0])})
@@ -93,7 +94,7 @@ def _told(progress: Progress, start: float, share: float, stage: str, fraction: 
 
 
 def recorded(asset: Asset, fur: int = 0) -> BakeOptions:
-    """The options of one of the furs in bake.json, 0: the coat. Raises AssetError where they are missing or unreadable."""
+    """The options in bake.json of one of the furs, 0: the coat. Raises AssetError where they cannot be read."""
     regions = asset.record.get("regions", [])
     record = regions[fur - 1] if 0 < fur <= len(regions) else asset.record
     if not isinstance(record.get("options"), dict) or fur > len(regions):

@@ -18,6 +18,8 @@ Guide = Literal["nose-tail", "down"]
 Uv = Literal["lapped", "own"]
 ColourKind = Literal["texture", "vertex"]
 
+COLOURS = ("texture", "vertex")
+
 FILES = ("length_map", "mask", "comb", "features", "rig", "swatch", "regions", "groom")
 """Options that name files."""
 
@@ -144,6 +146,8 @@ class BakeOptions:
             )
         knobs.within("bits", self.bits, BITS.low, BITS.high)
         knobs.within("max-faces", self.max_faces, MAX_FACES.low, MAX_FACES.high)
+        if self.colour not in COLOURS:
+            raise OptionError(f"colour: got {knobs.show(self.colour)}, expected {' or '.join(COLOURS)}")
         if self.pose is not None:
             clip_at(self.pose)
         for name, length in (("length", self.length), ("tile", self.tile)):
@@ -161,22 +165,20 @@ class BakeOptions:
             raise OptionError(f"states: got {','.join(self.states)}, expected {expected}")
         if self.dirt and self.coefficients < 4:
             raise OptionError("dirt: got 3 coefficients, which leave no room for the share of mud, expected 4 to 6")
-        self._check_regions()
         if self.swatch is not None and (len(self.states) > 1 or self.dirt):
             raise OptionError(f"swatch: got {self.swatch} beside wet or dirty states, expected dry fur alone")
+        self._check_regions()
         self._check_groom()
         hairs = self.coat.guard.count + self.coat.under.count
         knobs.within("coat.guard.count + coat.under.count", hairs, 1, KNOBS["coat.guard.count"].high)
 
     def _check_regions(self) -> None:
-        """Raise `OptionError` for what several furs on one body cannot have."""
+        """Raise `OptionError` for what cannot stand beside regions."""
         if self.regions is None:
             return
         for name, got in (("swatch", self.swatch), ("groom", self.groom), ("basis", self.basis), ("curves", self.curves)):
             if got not in (None, "ptm", "slab"):
-                raise OptionError(
-                    f"regions: got {self.regions} beside {name} {got}, expected grown fur, ptm and slab"
-                )
+                raise OptionError(f"regions: got {name} {got} beside them, expected grown fur, ptm and slab")
 
     def _check_groom(self) -> None:
         """Raise `OptionError` for what a groom says by itself, and for what only a groom can have."""

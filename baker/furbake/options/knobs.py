@@ -139,7 +139,6 @@ BAKE = {
     "guide": Knob("word", words=("nose-tail", "down")),
     "sweep": _number(0, 0.8),
     "uv": Knob("word", words=("lapped", "own")),
-    "colour": Knob("word", words=("texture", "vertex")),
     "length_by_thickness": Knob("switch"),
     "length_noise": _number(0, 0.9),
     "tip_noise": _number(0, 1),

@@ -76,9 +76,11 @@ def _drop_nodes(document: dict[str, Any], gone: set[int]) -> None:
     new = {index: place for place, index in enumerate(kept)}
     document["nodes"] = [document["nodes"][index] for index in kept]
     for owner in [*document["scenes"], *document["nodes"], *document.get("skins", [])]:
-        for name in ("nodes", "children", "joints"):
+        for name in ("nodes", "children"):
             if name in owner:
-                owner[name] = [new[index] for index in owner[name] if index in new]
+                owner[name] = [new[index] for index in owner[name] if index not in gone]
+        if "joints" in owner:
+            owner["joints"] = [new[index] for index in owner["joints"]]
         if "skeleton" in owner:
             owner["skeleton"] = new[owner["skeleton"]]
     for clip in document.get("animations", []):

@@ -101,7 +101,7 @@ def main(out: Path) -> None:
     )
     visual = trimesh.visual.TextureVisuals(uv=coordinates * (1, -1) + (0, 1), material=skin)
     whole_mesh = trimesh.Trimesh(points, index.reshape(-1, 3), process=False, visual=visual)
-    whole_mesh.vertex_attributes["_LONG"] = length(points).astype(np.float32)[:, None]
+    whole_mesh.vertex_attributes["_LENGTH"] = length(points).astype(np.float32)[:, None]
     whole_mesh.vertex_attributes["_MANE"] = mane(points).astype(np.float32)[:, None]
     out.write_bytes(whole_mesh.export(file_type="glb"))
     print(out, len(points), "vertices", len(faces), "faces", out.stat().st_size, "bytes")

@@ -11,7 +11,7 @@ Flags = NDArray[np.bool_]
 
 ORANGE, DEEP, WHITE, BLACK, PINK = (
     np.array(colour, dtype=np.float64)
-    for colour in ((232, 128, 38), (205, 92, 22), (250, 243, 228), (26, 20, 18), (214, 160, 140))
+    for colour in ((250, 168, 78), (240, 138, 48), (255, 252, 244), (30, 23, 21), (236, 178, 158))
 )
 """sRGB."""
 
@@ -86,15 +86,15 @@ def face(points: Floats) -> Flags:
     at = (over - 38.0 + 0.9 * np.maximum(side, 0.0) * 60.0 + 3.0 * wave(points, 9.0)) / 17.0
     number = np.floor(at)
     long = 0.20 + 0.06 * np.cos(2.1 * number)
-    crown = (np.abs(at - number - 0.5) < 0.26 * np.clip(1.0 - side / long, 0.0, 1.0) ** 0.5) & (over > 38) & (over < 200)
+    crown = (np.abs(at - number - 0.5) < 0.26 * np.clip(1.0 - side / long, 0.0, 1.0) ** 0.5) & (over > 38) & (over < 235)
     middle = (side < 0.016) & (over > 30) & (over < 62)
     turn = np.degrees(np.arctan2(side, way[:, 2]))  # 0 in front, 90 at the side
     rows = (y - 1.10 + 0.10 * np.cos(np.radians(turn)) + 0.012 * wave(points, 9.0)) / 0.095
     begin = 52.0 + 10.0 * np.sin(2.4 * np.floor(rows))
     wedge = 0.30 * np.clip((turn - begin) / 40.0, 0.0, 1.0) ** 0.7
-    cheeks = (np.abs(rows - np.floor(rows) - 0.5) < wedge) & (turn < 150) & (y < 1.56) & (side > 0.2)
+    cheeks = (np.abs(rows - np.floor(rows) - 0.5) < wedge * np.clip((185 - turn) / 40, 0, 1)) & (turn < 185) & (y < 1.56) & (side > 0.2)
     eye = np.hypot((side - 0.155) / 1.15, y - 1.385)
-    lined = (eye < 0.075) & (z > 0.2)
+    lined = (eye > 0.05) & (eye < 0.082) & (z > 0.2)
     tear = (np.abs(side - 0.105 - 0.25 * (1.36 - y)) < 0.014) & (y < 1.37) & (y > 1.27) & (z > 0.3)
     return np.asarray(head & (crown | middle | cheeks | lined | tear))
 
@@ -154,7 +154,7 @@ def mane(points: Floats) -> Floats:
     """(n,) 0..1: the ruff of cheeks and neck, and the chest below it."""
     x, y, z = points.T
     side = np.abs(x)
-    cheek = np.exp(-(((side - 0.36) / 0.13) ** 2 + ((y - 1.17) / 0.13) ** 2 + ((z - 0.10) / 0.17) ** 2))
+    cheek = np.exp(-(((side - 0.38) / 0.15) ** 2 + ((y - 1.17) / 0.15) ** 2 + ((z - 0.08) / 0.2) ** 2))
     chest = np.exp(-((side / 0.20) ** 2 + ((y - 0.97) / 0.14) ** 2 + ((z - 0.30) / 0.14) ** 2))
     return np.asarray(np.clip(1.5 * np.maximum(cheek, chest), 0.0, 1.0))
 
@@ -163,11 +163,11 @@ def length(points: Floats) -> Floats:
     """(n,) of the fur over the longest: the mane's is; short on the face, the ears and the feet."""
     x, y, z = points.T
     side = np.abs(x)
-    found = np.full(len(points), 0.62)
+    found = np.full(len(points), 0.5)
     face_share = np.clip((z - 0.22) / 0.15, 0.0, 1.0) * np.clip((y - 1.02) / 0.1, 0.0, 1.0)
-    found -= 0.40 * face_share
-    found = np.where(ears(points), 0.26, found)
+    found -= 0.34 * face_share
+    found = np.where(ears(points), 0.2, found)
     feet = np.clip((0.24 - y) / 0.14, 0.0, 1.0) * np.clip((z - 0.1) / 0.15, 0.0, 1.0) * (side < 0.6)
-    found -= 0.36 * feet
+    found -= 0.3 * feet
     found += (1.0 - found) * mane(points) * (1.0 - face_share)
     return np.asarray(np.clip(found, 0.12, 1.0))

@@ -50,6 +50,16 @@ def test_json_is_all_there_is_on_standard_output(run: Callable[..., Any]) -> Non
     assert "seconds" not in record
 
 
+def test_percent_is_told_line_by_line_up_to_the_end(run: Callable[..., Any]) -> None:
+    done = run("bake", "plane", "-o", "out", *TINY, "--percent", "--json", "--no-cache")
+    told = [re.fullmatch(r"furbake: (\d+) % (\w+)", line) for line in done.err.splitlines() if " % " in line]
+    percents = [int(line[1]) for line in told if line]
+    assert len(percents) == len(told) > 7
+    assert percents == sorted(set(percents))
+    assert percents[-1] == 100
+    assert json.loads(done.out)["baked"] is True
+
+
 def test_quiet(run: Callable[..., Any]) -> None:
     done = run("bake", "plane", "-o", "out", *TINY, "--quiet")
     assert (done.status, done.out, done.err) == (0, "", "")

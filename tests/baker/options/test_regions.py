@@ -19,7 +19,8 @@ def read(tmp_path: Path, text: str, coat: BakeOptions | None = None):
 
 
 def test_a_region_has_the_hairs_of_its_preset_and_the_slabs_of_the_coat(tmp_path: Path) -> None:
-    text = f'[mane]\n{BALL}\npreset = "teddy"\nlength = 0.2\ndensity = 0.5\ntip = [0.5, 0.2, 0.1]\nset = {{ coat.bend = 2 }}'
+    text = f'[mane]\n{BALL}\npreset = "teddy"\nlength = 0.2\ndensity = 0.5\ntip = [0.5, 0.2, 0.1]\n'
+    text += "set = { coat.bend = 2 }"
     (mane,) = read(tmp_path, text)
     coat, teddy = preset("fox"), preset("teddy")
     assert (mane.options.layers, mane.options.size, mane.options.colour_plane) == (24, 128, coat.colour_plane)
@@ -68,7 +69,7 @@ def test_files_are_seen_from_the_toml_file(tmp_path: Path) -> None:
         (f"[mane]\n{BALL}\nborder = nan", "mane: border: got nan, expected"),
         (f"[mane]\n{BALL}\ndensity = 100", "mane: density: got 100, expected 0.1 to 8"),
         (f'[mane]\n{BALL}\npreset = "cat"', "mane: preset: got 'cat', expected one of"),
-        (f"[mane]\n{BALL}\ntip = [2, 0, 0]", "mane: ramp.tip: got 2, expected 0 to 1"),
+        (f"[mane]\n{BALL}\ntip = [2, 0, 0]", "mane: tip: got 2, expected 0 to 1"),
         (f"[mane]\n{BALL}\nset = {{ layers = 8 }}", "mane: set.layers: is the same on the whole body"),
         (f"[mane]\n{BALL}\nset = {{ coat.lien = 8 }}", "mane: got 'coat.lien', expected a knob such as coat.lean"),
     ],

@@ -13,7 +13,10 @@ const TILE = 64;
 
 /** Means over a tile around each column. */
 const smooth = (values: number[]) =>
-	Array.from({ length: values.length - TILE }, (_, i) => values.slice(i, i + TILE).reduce((sum, v) => sum + v, 0) / TILE);
+	Array.from(
+		{ length: values.length - TILE },
+		(_, i) => values.slice(i, i + TILE).reduce((sum, v) => sum + v, 0) / TILE,
+	);
 
 /** Share of the second fur by the file's own bounds, over the same tiles. */
 const expected = (columns: number) =>
@@ -34,10 +37,18 @@ test('furs dissolve at their border: all of the light, by the shares that the fi
 	const off = Object.fromEntries(
 		Object.entries(found).map(([name, { red, green }]) => {
 			const both = red.map((part, i) => part + (green[i] as number));
-			return [name, { share: worst(smooth(green), shares), light: worst(smooth(both), shares.map(() => 1)) }];
+			return [
+				name,
+				{
+					share: worst(smooth(green), shares),
+					light: worst(
+						smooth(both),
+						shares.map(() => 1),
+					),
+				},
+			];
 		}),
 	);
-	console.log(JSON.stringify({ alike, calls, rivals, worn, off, error }));
 	expect(error).toBe(0);
 	expect(calls[1], 'draws of two furs').toBe(calls[0]);
 	for (const decibels of alike) expect(decibels, 'the same fur in two regions and in one').toBeGreaterThan(50);

@@ -47,7 +47,10 @@ class Square {
 		this.#scene.add(group, lamp, lamp.target, new AmbientLight(0xffffff, 1));
 		this.look(0);
 		const n = this.#normal();
-		lamp.position.copy(n).multiplyScalar(5).add(new Vector3(2, 1, 1));
+		lamp.position
+			.copy(n)
+			.multiplyScalar(5)
+			.add(new Vector3(2, 1, 1));
 	}
 
 	#normal(): Vector3 {
@@ -63,7 +66,10 @@ class Square {
 		shells.geometry.computeBoundingBox();
 		const middle = shells.localToWorld((shells.geometry.boundingBox as Box3).getCenter(new Vector3()));
 		this.#camera.up.copy(up);
-		this.#camera.position.copy(middle).addScaledVector(n, 5).addScaledVector(up, -5 * slant);
+		this.#camera.position
+			.copy(middle)
+			.addScaledVector(n, 5)
+			.addScaledVector(up, -5 * slant);
 		this.#camera.lookAt(middle);
 		return this;
 	}

@@ -24,7 +24,13 @@ export class PeltLight {
 	#places: readonly ArrayLike<number>[] | undefined;
 
 	/** @param texels of each fur @param planes of the coefficients @param layers slabs of the pelt @param fin whether the frame is a fin's */
-	constructor(texels: readonly TexelCoding[], planes: readonly Texture[], layers: number, fin: boolean, leader?: PeltLight) {
+	constructor(
+		texels: readonly TexelCoding[],
+		planes: readonly Texture[],
+		layers: number,
+		fin: boolean,
+		leader?: PeltLight,
+	) {
 		const [coat] = texels as [TexelCoding];
 		const { means, basis } = coat;
 		const furs = texels.flatMap((own) => own.means ?? []);

@@ -3,7 +3,16 @@
 import type { CompressedArrayTexture } from 'three';
 import type { FurAsset, Pelt } from '../format.ts';
 import type { FurTextures } from '../light/texels.ts';
-import { decodeAll, decodePlanes, depthOf, type Layout, type Plane, type PlaneFile, type Role, stacked } from './mipLevels.ts';
+import {
+	decodeAll,
+	decodePlanes,
+	depthOf,
+	type Layout,
+	type Plane,
+	type PlaneFile,
+	type Role,
+	stacked,
+} from './mipLevels.ts';
 import { textureArray } from './planes.ts';
 import { pairFor, statesOf, type WeatherStates } from './states.ts';
 

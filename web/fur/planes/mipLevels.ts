@@ -58,7 +58,12 @@ export async function decodePlanes(files: readonly PlaneFile[], layout: Layout):
 	const furs: Plane[][] = [];
 	for (const [i, height] of heights.entries()) {
 		const view = { ...layout.view, rise: layout.view.rise * height };
-		furs.push(await decodeFur(files.filter(({ fur = 0 }) => fur === i), { ...layout, view }));
+		furs.push(
+			await decodeFur(
+				files.filter(({ fur = 0 }) => fur === i),
+				{ ...layout, view },
+			),
+		);
 	}
 	const [coat = []] = furs;
 	if (furs.length === 1) return coat;

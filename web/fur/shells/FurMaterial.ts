@@ -131,7 +131,7 @@ export class FurMaterial extends PeltMaterial {
 					...weightUniforms(),
 					alphaCut: { value: ALPHA_CUT },
 					crispness: { value: new Vector2(1, 0) },
-					crispLevels: { value: crispLevels(textures, furs.length * asset.layers) },
+					crispLevels: { value: [] },
 					skinColor: { value: new Color(1, 1, 1) },
 					root: { value: new Color(...ramp.root) },
 					tip: { value: new Color(...ramp.tip) },
@@ -156,6 +156,13 @@ export class FurMaterial extends PeltMaterial {
 			MIRRORED,
 		);
 		this.setValues(parameters);
+	}
+
+	/** Replaces the planes, and the levels of crisp hairs with them. */
+	override setTextures(textures: FurTextures): void {
+		super.setTextures(textures);
+		const { crispLevels: levels } = this.uniforms;
+		if (levels) levels.value = crispLevels(textures);
 	}
 }
 

@@ -59,7 +59,10 @@ export function regionSlopes(surface: BufferGeometry): BufferAttribute {
 		const area = u1 * v2 - u2 * v1;
 		if (area === 0) continue;
 		for (let bound = 0; bound < 2; bound++) {
-			const [d1, d2] = [b, c].map((at) => region.getComponent(at, bound) - region.getComponent(a, bound)) as [number, number];
+			const [d1, d2] = [b, c].map((at) => region.getComponent(at, bound) - region.getComponent(a, bound)) as [
+				number,
+				number,
+			];
 			const sign = Math.sign(area);
 			for (const at of corners) {
 				const to = 4 * at + 2 * bound;

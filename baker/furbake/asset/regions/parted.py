@@ -55,9 +55,7 @@ def parted(charts: Charts, bounds: Bytes) -> Parted:
         cut.append(np.column_stack([*at[i : i + 2, used], np.full(len(used), i, np.uint8)]))
         start += len(used)
     every = np.concatenate(rows)
-    copies = {
-        field: getattr(charts, field)[every] for field in ("source", "tangents", "uv", "weights", "group")
-    }
+    copies = {field: getattr(charts, field)[every] for field in ("source", "tangents", "uv", "weights", "group")}
     together = Charts(faces=np.concatenate(faces), **copies)
     return Parted(together, every, np.concatenate(cut))
 

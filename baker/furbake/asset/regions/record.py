@@ -50,10 +50,10 @@ class Regions:
 
 def regions_record(regions: Regions, furs: Sequence[Record]) -> Record:
     """The extension's object of several furs. furs : the extension's object of each region, as if alone"""
-    own = [
-        {"name": fur.name, "tile": numbers(np.array([fur.tile]))[0]} | {key: record[key] for key in OWN if key in record}
-        for fur, record in zip(regions.furs, furs, strict=True)
-    ]
+    own = []
+    for fur, record in zip(regions.furs, furs, strict=True):
+        kept = {key: record[key] for key in OWN if key in record}
+        own.append({"name": fur.name, "tile": numbers(np.array([fur.tile]))[0]} | kept)
     return {"tile": numbers(np.array([regions.tile]))[0], "cells": CELLS, "furs": own}
 
 
@@ -97,9 +97,11 @@ def _resized(fin: FinPelt, rows: int, columns: int) -> FinPelt:
     """A fin's texels repeated or left out."""
     if fin.alpha.shape == (rows, columns):
         return fin
-    v, u = (((np.arange(to) + 0.5) * of / to).astype(np.int64) for to, of in zip((rows, columns), fin.alpha.shape, strict=True))
-    texels = {name: getattr(fin, name) for name in ("codes", "alpha", "tint", "colour")}
-    return replace(fin, **{name: None if values is None else values[v][:, u] for name, values in texels.items()})
+    of_rows, of_columns = fin.alpha.shape
+    v = ((np.arange(rows) + 0.5) * of_rows / rows).astype(np.int64)[:, None]
+    u = ((np.arange(columns) + 0.5) * of_columns / columns).astype(np.int64)
+    colour = None if fin.colour is None else fin.colour[v, u]
+    return replace(fin, codes=fin.codes[v, u], alpha=fin.alpha[v, u], tint=fin.tint[v, u], colour=colour)
 
 
 def _same(one: Path, two: Path) -> bool:

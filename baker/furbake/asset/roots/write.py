@@ -17,13 +17,17 @@ from furbake.surface.place.fins import Fins
 from furbake.surface.roots.picture import Roots
 
 
-def roots_record(roots: Roots, looks: Looks) -> dict[str, Any]:
-    """The extension's object of the picture, which becomes a texture of the document."""
+def roots_record(roots: Roots | None, looks: Looks) -> dict[str, Any] | None:
+    """The extension's object of the picture, which becomes a texture of the document; None where there is none."""
+    if roots is None:
+        return None
     return {"texture": looks.texture(roots.picture, (CLAMP, CLAMP), "roots"), "scale": numbers(roots.scale)}
 
 
-def fin_roots(charts: Charts, fins: Fins, roots: Roots) -> Attributes:
-    """TEXCOORD_1 of the fins: where in the picture both ends of their edges are, in one patch."""
+def fin_roots(charts: Charts, fins: Fins, roots: Roots | None) -> Attributes:
+    """TEXCOORD_1 of the fins: where in the picture both ends of their edges are, in one patch; none without one."""
+    if roots is None:
+        return {}
     places = roots.uv * roots.scale
     count = int(max(charts.source.max(), fins.source.max())) + 1
     ends, _ = shell_edges(charts.faces, charts.source[:, None])

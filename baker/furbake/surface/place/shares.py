@@ -16,7 +16,7 @@ Bytes = NDArray[np.uint8]
 STEPS = 255
 """Steps in which shares are stored."""
 
-EDGE = 3.2
+EDGE = 2.43
 """Width from a tenth to nine tenths of a step that heat has softened, over the square root of the time."""
 
 TAIL = 0.06
@@ -51,14 +51,14 @@ def soften(surface: Surface, shares: Floats, border: float) -> Floats:
     """(V,) 0..1 shares whose steps are `border` wide, model units; by heat that flows along the surface."""
     triangles = surface.vertices[surface.faces]
     count, faces = len(surface.vertices), surface.faces
-    area = 0.5 * np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1)
-    mass = np.bincount(faces.reshape(-1), np.repeat(area / 3, 3), count)
+    area, mass = face_areas(surface), vertex_areas(surface)
     rows, columns, values = [], [], []
     for corner in range(3):
         one, two = (corner + 1) % 3, (corner + 2) % 3
         to_one, to_two = triangles[:, one] - triangles[:, corner], triangles[:, two] - triangles[:, corner]
         cotangent = np.einsum("ij,ij->i", to_one, to_two) / np.maximum(2.0 * area, 1e-300)
-        rows.append(faces[:, one]), columns.append(faces[:, two])
+        rows.append(faces[:, one])
+        columns.append(faces[:, two])
         values.append(0.5 * np.clip(cotangent, 0.05, 20.0))  # above 0: shares stay within 0..1
     half = csr_array((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=(count, count))
     links = half + half.T
@@ -67,6 +67,20 @@ def soften(surface: Surface, shares: Floats, border: float) -> Floats:
     system = (diags_array(mass) + (border / EDGE) ** 2 * laplacian).tocsc()
     spread = splu(system).solve(mass * shares)
     return np.asarray(np.clip((spread - TAIL) / (1.0 - 2.0 * TAIL), 0.0, 1.0))
+
+
+def face_areas(surface: Surface) -> Floats:
+    """(F,) area of each face."""
+    corners = surface.vertices[surface.faces]
+    return np.asarray(
+        0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    )
+
+
+def vertex_areas(surface: Surface) -> Floats:
+    """(V,) a third of the faces around each vertex."""
+    shares = np.repeat(face_areas(surface) / 3, 3)
+    return np.asarray(np.bincount(surface.faces.reshape(-1), shares, len(surface.vertices)), dtype=np.float64)
 
 
 def bounds(masks: Sequence[Floats]) -> Bytes:

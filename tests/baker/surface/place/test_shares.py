@@ -12,20 +12,21 @@ def test_shares_sum_to_one_and_masks_that_overlap_share() -> None:
     cut = bounds(masks).astype(int)
     assert (cut[0] == 0).all()
     assert (cut[-1] == 255).all()
-    assert np.diff(cut, axis=0).T == pytest.approx(
-        np.array([[255, 0, 0], [0, 255, 0], [0, 127.5, 127.5], [127.5, 63.75, 63.75]]), abs=1
+    assert (
+        pytest.approx(np.array([[255, 0, 0], [0, 255, 0], [0, 127.5, 127.5], [127.5, 63.75, 63.75]]), abs=1)
+        == np.diff(cut, axis=0).T
     )
 
 
 def test_a_step_becomes_as_wide_as_asked() -> None:
-    plane = builtin("plane:8x200")
+    plane = builtin("plane:60x60")
     across = plane.vertices[:, 0]
     soft = soften(plane, (across > 0).astype(float), 0.2)
     assert soft.min() == 0.0
     assert soft.max() == 1.0
     low, high = (float(np.interp(level, *(np.sort(soft), np.sort(across)))) for level in (0.1, 0.9))
-    assert high - low == pytest.approx(0.2, rel=0.25)
-    assert abs(soft[np.abs(across) < 0.004].mean() - 0.5) < 0.06
+    assert high - low == pytest.approx(0.2, rel=0.15)
+    assert abs(soft[np.abs(across) < 0.009].mean() - 0.5) < 0.06
     order = np.argsort(across)
     assert (np.diff(soft[order]) > -1e-6).all()
 

@@ -93,12 +93,44 @@ it('begins each fin a golden section after the one before, and refuses a mask of
 	expect(() => finQuads(shells, mask.slice(1), places)).toThrow(/got a mask of \d+ bytes, expected \d+ for \d+ edges/);
 });
 
+it('takes the places of roots from one face of the shells', () => {
+	const scale = [0.03, 0.05] as const;
+	const made = finQuads(shells, mask, { ...places, roots: scale });
+	expect(finQuads(shells, mask, places).hasAttribute('uv1')).toBe(false);
+	const corners = shells.index?.array as ArrayLike<number>;
+	const [across, down] = scale.map((each) => each * places.tiles) as [number, number];
+	const key = (at: string, u: number, v: number) => `${at} ${u.toFixed(5)} ${v.toFixed(5)}`;
+	const faces = new Set<string>();
+	for (let i = 0; i < corners.length; i++) {
+		const both = [corners[i] as number, corners[3 * Math.floor(i / 3) + ((i + 1) % 3)] as number].map((vertex) => {
+			const [u = 0, v = 0] = row(shells, 'uv', vertex);
+			return key(place(shells, vertex), u * across, v * down);
+		});
+		faces.add(both.sort().join());
+	}
+	for (let i = 0; i < made.getAttribute('position').count / 4; i += 16) {
+		const both = [4 * i, 4 * i + 1].map((vertex) => {
+			const [u = 0, v = 0] = row(made, 'uv1', vertex);
+			expect(row(made, 'uv1', vertex + 2)).toEqual([u, v]);
+			return key(place(made, vertex), u, v);
+		});
+		expect(faces.has(both.sort().join())).toBe(true);
+	}
+});
+
 it('lets a fin follow the joints of its ends', () => {
 	const moving = shells.clone();
 	const { count } = moving.getAttribute('position');
 	const joints = Float32Array.from({ length: 4 * count }, (_, i) => (Math.floor(i / 4) % 5) + (i % 4));
 	moving.setAttribute('skinIndex', new Uint8BufferAttribute(Uint8Array.from(joints), 4));
-	moving.setAttribute('skinWeight', new Uint8BufferAttribute(Uint8Array.from(joints, (_, i) => [200, 55, 0, 0][i % 4] as number), 4, true));
+	moving.setAttribute(
+		'skinWeight',
+		new Uint8BufferAttribute(
+			Uint8Array.from(joints, (_, i) => [200, 55, 0, 0][i % 4] as number),
+			4,
+			true,
+		),
+	);
 	const made = finQuads(moving, mask, places);
 	for (let i = 0; i < made.getAttribute('position').count; i++) {
 		const copies = Array.from({ length: count }, (_, vertex) => vertex).filter(

@@ -15,7 +15,13 @@ uniform float tiles; // texture coordinates → tiles
 uniform float shellCount; // n of one body, or the largest of many; may be fractional
 uniform int firstShell; // first shell that is drawn
 
-uniform vec4 crispLevels[(FURS * LAYERS + 1) / 2]; // coverage of two slabs each that crispness leaves alone: X = of texels, Y = of those twice as large
+#define FUR_SLABS (FURS * LAYERS) // of all furs in one state
+#ifdef WET
+#define CRISP_SLABS (FUR_SLABS * WET)
+#else
+#define CRISP_SLABS FUR_SLABS
+#endif
+uniform vec4 crispLevels[(CRISP_SLABS + 1) / 2]; // coverage of two slabs each, state after state, that crispness leaves alone: X = of texels, Y = of those twice as large
 #ifndef BODIES
 uniform vec2 crispness; // Y = share of the latter in the picture
 #endif
@@ -30,6 +36,8 @@ uniform float furCells; // cells along a tile of the coat in which all hairs are
 out vec2 vBounds; // bounds at the hairs' root
 out vec2 vRoot; // that root, cells
 #endif
+
+#define TIE 0.7 // phase at which half as many shells as slabs are as bright as a few more or less
 
 #define SLABS (furTrim * float(LAYERS)) // slabs left after a cut
 
@@ -48,8 +56,24 @@ struct ShellPoint {
 int slabAt(float s, float i, float count) {
 	// With fewer shells than slabs, ties between two slabs are broken shell by shell: all shells changing at once would be
 	// visible when their number changes.
-	float nudge = count < SLABS ? 0.4 * (fract(0.618034 * i) - 0.5) : NUDGE;
+	float nudge = count < SLABS ? 0.4 * (fract(0.618034 * i + TIE) - 0.5) : NUDGE;
 	return clamp(int(s * float(LAYERS) + nudge), 0, TOP);
+}
+
+vec2 crispLevel(int slab) {
+	vec4 two = crispLevels[slab >> 1];
+	return (slab & 1) == 0 ? two.xy : two.zw;
+}
+
+// Coverage of a slab, fur after fur, that crispness leaves alone, of texels and of those twice as large.
+vec2 keptLevels(int slab) {
+#ifdef WET
+	int below = stateBelow(vPlace);
+	vec2 drier = crispLevel(slab + below * FUR_SLABS);
+	return mix(drier, crispLevel(slab + (below + 1) * FUR_SLABS), clamp(vPlace - float(below), 0.0, 1.0));
+#else
+	return crispLevel(slab);
+#endif
 }
 
 // Number of shells of a slab, the outermost counted by its share. It equalises the slabs' weights, or fur would change its
@@ -109,9 +133,7 @@ ShellPoint shellPoint() {
 	vRoot = (uv * tiles - drifted) * furCells;
 #endif
 	point.slab = slab;
-	slab += furRegion * LAYERS;
-	vec4 two = crispLevels[slab >> 1];
-	vec2 kept = (slab & 1) == 0 ? two.xy : two.zw;
+	vec2 kept = keptLevels(slab + furRegion * LAYERS);
 	vKept = mix(kept.x, kept.y, crispness.y);
 	vFacing = dot(point.turn * n, viewerVS(point.pointVS));
 	gl_Position = point.there ? projectionMatrix * vec4(point.pointVS, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
