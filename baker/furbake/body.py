@@ -101,11 +101,7 @@ def grounded(skin: Surface) -> Surface:
 # Long: stages of one body, each of which needs those before.
 def prepare(model: str, options: BakeOptions) -> Body:
     """Read `model` and lay its fur. Raises MeshError or OptionError, each with one sentence."""
-    pose = None if options.pose is None else clip_at(options.pose)
-    if options.rig is None:
-        skin = load_surface(model, options.max_faces, pose)
-    else:
-        skin = with_skeleton(model, load_surface(model, options.max_faces), Path(options.rig), pose)
+    skin = _skin(model, options)
     ground = grounded(skin)
     if options.groom is not None:
         return wearing(model, options, skin, ground)
@@ -163,6 +159,14 @@ def prepare(model: str, options: BakeOptions) -> Body:
             *(() if furs is None else furs.notices),
         ),
     )
+
+
+def _skin(model: str, options: BakeOptions) -> Surface:
+    """The model in its pose, with the skeleton that the options bring. Raises MeshError or OptionError."""
+    pose = None if options.pose is None else clip_at(options.pose)
+    if options.rig is None:
+        return load_surface(model, options.max_faces, pose)
+    return with_skeleton(model, load_surface(model, options.max_faces), Path(options.rig), pose)
 
 
 def wearing(model: str, options: BakeOptions, skin: Surface, ground: Surface) -> Body:

@@ -12,8 +12,8 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from furbake.artist.stored import write_strands
 from furbake.asset.gltf import FurModel, write_gltf
-from furbake.asset.hairs import write_strands
 from furbake.asset.regions.parted import chosen_fins
 from furbake.asset.regions.record import RegionFur, Regions, shaped
 from furbake.asset.rig.motion import Motion
@@ -92,11 +92,7 @@ def bake(
     Raises OptionError, MeshError or StoreError, each with one sentence.
     """
     options = options or BakeOptions()
-    options.check()
-    if spread is not None and options.groom is not None:
-        raise OptionError(f"scheduler: got one beside the groom {options.groom}, expected a bake on this machine")
-    if samples is not None and options.swatch is not None:
-        raise OptionError(f"samples: got {samples} beside a swatch, expected fur that is grown")
+    _check(options, samples, spread)
     clock = _Clock(progress)
     with atomic_folder(out, force) as folder, atomic_file(samples) if samples else nullcontext() as archive:
         with clock.stage("mesh"):
@@ -130,6 +126,15 @@ def bake(
             if archive is not None:
                 write_samples(archive, pelts.sampled[0], pelts.tile.strands)
     return BakeResult(out, record, clock.seconds, (*notices, *pelts.notices))
+
+
+def _check(options: BakeOptions, samples: Path | None, spread: Spread | None) -> None:
+    """Raise OptionError for options that are out of range, or cannot be had together."""
+    options.check()
+    if spread is not None and options.groom is not None:
+        raise OptionError(f"scheduler: got one beside the groom {options.groom}, expected a bake on this machine")
+    if samples is not None and options.swatch is not None:
+        raise OptionError(f"samples: got {samples} beside a swatch, expected fur that is grown")
 
 
 def _furry(model: str, options: BakeOptions, body: Body, fitted: Fitted, fins: Fins | None) -> FurModel:

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.asset.hairs import tile_strands
+from furbake.artist.stored import tile_strands
 from furbake.asset.read import Asset, AssetError, read_asset
 from furbake.asset.regions.alone import alone, furs
 from furbake.asset.stored import read_pelt, skin_colour
