@@ -1,7 +1,7 @@
 /**
  * `npm run pictures`: regenerates the project's pictures: `public/og.jpg` for shared links, `still.jpg`, the bunny under
  * three lights, and `demo.jpg` and `learn.jpg`, the pages themselves. `npm run pictures -- --fox models/my-fox` makes
- * `fox.jpg` of README's fox, baked there; `npm run pictures -- --truth` traces the lesson's ring (minutes; `mitsuba`);
+ * `fox.jpg` of README's fox, baked there, `-- --bear models/my-bear` `usd.jpg` of a groomed one; `npm run pictures -- --truth` traces the lesson's ring (minutes; `mitsuba`);
  * `npm run pictures -- --blender` furs, bakes and renders the monkey of the docs in Blender (minutes; installs `bpy`).
  */
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
@@ -21,6 +21,8 @@ const FOX = [
 	'clip=Survey&time=1.2&camera=28,12,0.64&light=-0.4,0.7,0.5',
 	'clip=Walk&time=0.3&camera=42,4,0.78&env=sunset',
 ];
+/** The side from which a groomed bear is seen. */
+const BEAR = 'camera=-35,10,0.8';
 /** The monkey of the docs at rest, as Cycles has seen it, and in its clip. */
 const MONKEY = ['camera=25,12,0.8&light=-0.5,0.75,0.35', 'clip=nod&time=0.5&camera=-20,8,0.8&light=0.6,0.6,0.5'];
 /** Light from the left, from above, from behind. */
@@ -155,7 +157,7 @@ async function truth() {
 async function blender(browser, site) {
 	await ensurePython();
 	const inside = await ensureBlender();
-	const folder = mkdtempSync(join(root, 'public', 'models', '.blender-'));
+	const folder = mkdtempSync(join(root, 'public', 'models', 'blender-'));
 	try {
 		const code = await run(inside, [join(root, 'web', 'tools', 'site', 'monkey.py'), furbake, folder]);
 		if (code !== 0) throw new Failure('the monkey was not baked: the reason stands above');
@@ -169,8 +171,17 @@ async function blender(browser, site) {
 }
 
 await command(async () => {
-	const options = { fox: { type: 'string' }, truth: { type: 'boolean' }, blender: { type: 'boolean' } };
-	const { fox, truth: traced, blender: furred } = readOptions(options);
+	const {
+		fox,
+		bear,
+		truth: traced,
+		blender: furred,
+	} = readOptions({
+		fox: { type: 'string' },
+		bear: { type: 'string' },
+		truth: { type: 'boolean' },
+		blender: { type: 'boolean' },
+	});
 	await ensureNode();
 	if (traced) {
 		await truth();
@@ -182,6 +193,11 @@ await command(async () => {
 	try {
 		if (furred) {
 			await blender(browser, server.url);
+			return;
+		}
+		if (bear) {
+			const views = LIGHTS.map((light) => `model=${bear}&${BEAR}&light=${light}`);
+			await strip(browser, server.url, views, 'usd.jpg');
 			return;
 		}
 		if (fox) {

@@ -12,9 +12,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from furbake.asset.read import AssetError
+from furbake.asset.read import AssetError, read_asset
 from furbake.groom.ground import read_skin
-from furbake.asset.read import read_asset
 from furbake.show.plain import write_plain
 
 ROOT = Path(__file__).parents[3]
