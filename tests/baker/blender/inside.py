@@ -65,7 +65,7 @@ def monkey() -> bpy.types.Object:
 
 
 def state() -> list[Any]:
-    """What an export must leave as it was."""
+    """Objects, data, poses and selection, which an export leaves as they were."""
     active = bpy.context.view_layer.objects.active
     data = [len(each) for each in (bpy.data.meshes, bpy.data.hair_curves, bpy.data.node_groups, bpy.data.collections)]
     poses = [each.pose_position for each in bpy.data.armatures]
@@ -149,7 +149,7 @@ def spline() -> bpy.types.Object:
 
 
 def taken(folder: Path, before: set[bpy.types.Object]) -> dict[str, Any]:
-    """What the import of a baked folder brought."""
+    """Objects that the import of a baked folder brought."""
     made = [each for each in bpy.data.objects if each not in before]
     hairs = next(each for each in made if each.type == "CURVES")
     skin = hairs.data.surface

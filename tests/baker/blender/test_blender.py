@@ -41,7 +41,7 @@ def packed(folder: Path) -> Path:
 
 @pytest.fixture(scope="module")
 def found(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
-    """What `inside.py` found in Blender; `folder` has the baked folders."""
+    """Findings of `inside.py` in Blender; `folder` has the baked folders."""
     folder = tmp_path_factory.mktemp("blender")
     package = packed(folder)
     furbake = Path(sys.executable).with_name("furbake.exe" if os.name == "nt" else "furbake")
