@@ -10,12 +10,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.asset.planes import PlaneError, read_png
+from furbake.dressing import Part, dressing
 from furbake.groomed import Groomed, groomed
 from furbake.options import BakeOptions
-from furbake.options.bake_options import OF_VERTICES, clip_at
+from furbake.options.bake_options import clip_at
+from furbake.painted import painted
 from furbake.pelt.hairs.strands import Strands
-from furbake.size import questions, sized
+from furbake.size import Size, questions, sized
 from furbake.surface.charts import Charts, laid
 from furbake.surface.files import read_text
 from furbake.surface.lay.field import Stroke, comb_field
@@ -25,12 +26,13 @@ from furbake.surface.lay.own import own_charts
 from furbake.surface.mesh import MAX_FACES, MeshError, Surface, load_mesh, simplify
 from furbake.surface.place.features import Feature, clearing, read_features
 from furbake.surface.place.occlusion import openness
-from furbake.surface.place.paint import brought, uncover, vertex_map, vertex_numbers
+from furbake.surface.place.paint import brought, uncover
 from furbake.surface.place.thickness import length_by_thickness
 from furbake.surface.place.variation import noise, underside
 from furbake.surface.place.vertex_fur import VertexFur
-from furbake.surface.rig.kept import shown
+from furbake.surface.rig.kept import listed, shown
 from furbake.surface.shapes import builtin, is_builtin
+from furbake.surface.skeleton.rigged import with_skeleton
 
 Floats = NDArray[np.float64]
 
@@ -53,6 +55,8 @@ class Body:
     direction : (V, 3) unit tangents of the ground along which the fur is laid
     tile, length : width of a tile and longest fur, model units
     features : eyes, a nose and the like
+    regions : the coat and the parts with a fur of their own; () where all of it is one
+    bounds : (R + 2, V) of the ground, as of `surface.place.shares.bounds`; None without regions
     groom : of an artist, which it wears
     notices : how long the fur is where that was not given, and units that look wrong, one sentence each
     """
@@ -65,6 +69,8 @@ class Body:
     tile: float
     length: float
     features: tuple[Feature, ...] = ()
+    regions: tuple[Part, ...] = ()
+    bounds: NDArray[np.uint8] | None = None
     notices: tuple[str, ...] = ()
     groom: Groomed | None = None
 
@@ -94,23 +100,24 @@ def grounded(skin: Surface) -> Surface:
 
 def prepare(model: str, options: BakeOptions) -> Body:
     """Read `model` and lay its fur. Raises MeshError or OptionError, each with one sentence."""
-    skin = load_surface(model, options.max_faces, None if options.pose is None else clip_at(options.pose))
+    skin = _skin(model, options)
     ground = grounded(skin)
     if options.groom is not None:
         return wearing(model, options, skin, ground)
     size = sized(ground, skin.extent, options)
     maps = painted_maps(ground, options)
-    lengths = size.shares
-    if options.length_by_thickness:
-        lengths = lengths * length_by_thickness(ground)
-    if options.length_noise:
-        lengths = lengths * (1 - options.length_noise * noise(ground, options.seed))
-    for name in ("length", "mask"):
-        lengths = lengths * maps.get(name, 1.0)
+    lengths, longest = _lengths(ground, size, options, maps), size.length
+    furs = dressing(ground, skin, options, size)
+    if furs is not None:
+        sizes = zip(furs.sizes, furs.parts, strict=True)
+        own = [each.length * _lengths(ground, each, part.options, maps) for each, part in sizes]
+        longest = max(each.length for each in furs.sizes)
+        lengths = furs.blended(own) / longest
     if "mask" in maps and (maps["mask"] < 0.5 / 255).any():
         ground, kept = uncover(ground, maps["mask"], model)
         lengths = lengths[kept]
-    features = () if options.features is None else read_features(Path(options.features))
+        furs = None if furs is None else replace(furs, bounds=furs.bounds[:, kept])
+    features = () if options.features is None else _features(Path(options.features), skin)
     if features:
         lengths = lengths * clearing(ground, features)
     strokes = read_strokes(Path(options.comb)) if options.comb is not None else ()
@@ -124,7 +131,10 @@ def prepare(model: str, options: BakeOptions) -> Body:
     else:
         charts = own_charts(ground, size.tile, model)
         direction = laid(charts, ground.normals)
-    tip = np.maximum(options.tip_noise * noise(ground, options.seed + 1), options.belly * underside(ground))
+    tip, comb = _tip(ground, options), options.sweep * field.strength[:, None] * direction
+    if furs is not None:
+        tip = furs.blended([_tip(ground, part.options) for part in furs.parts])
+        comb = furs.blended([part.options.sweep * field.strength[:, None] * direction for part in furs.parts])
     return Body(
         skin=skin,
         ground=ground,
@@ -132,16 +142,30 @@ def prepare(model: str, options: BakeOptions) -> Body:
         fur=VertexFur(
             lengths=np.asarray(lengths),
             occlusion=openness(ground),
-            tip=np.asarray(tip),
-            comb=options.sweep * field.strength[:, None] * direction,
+            tip=tip,
+            comb=comb,
             colour=ground.colours,
         ),
         direction=direction,
         tile=size.tile,
-        length=size.length,
+        length=longest,
         features=features,
-        notices=(*questions(size.tile, size.length, skin.extent, options), *size.notices),
+        regions=() if furs is None else furs.parts,
+        bounds=None if furs is None else furs.bounds,
+        notices=(
+            *questions(size.tile, size.length, skin.extent, options),
+            *size.notices,
+            *(() if furs is None else furs.notices),
+        ),
     )
+
+
+def _skin(model: str, options: BakeOptions) -> Surface:
+    """The model in its pose, with the skeleton that the options bring. Raises MeshError or OptionError."""
+    pose = None if options.pose is None else clip_at(options.pose)
+    if options.rig is None:
+        return load_surface(model, options.max_faces, pose)
+    return with_skeleton(model, load_surface(model, options.max_faces), Path(options.rig), pose)
 
 
 def wearing(model: str, options: BakeOptions, skin: Surface, ground: Surface) -> Body:
@@ -155,7 +179,7 @@ def wearing(model: str, options: BakeOptions, skin: Surface, ground: Surface) ->
         ground, kept = uncover(ground, mask, model)
         lengths, direction, comb, density = lengths[kept], direction[kept], comb[kept], density[kept]
         colour = None if colour is None else colour[kept]
-    features = () if options.features is None else read_features(Path(options.features))
+    features = () if options.features is None else _features(Path(options.features), skin)
     if features:
         lengths = lengths * clearing(ground, features)
     charts = lap(ground, direction, groom.tile, options.seed)
@@ -163,7 +187,7 @@ def wearing(model: str, options: BakeOptions, skin: Surface, ground: Surface) ->
     fur = VertexFur(
         lengths=lengths,
         occlusion=openness(ground),
-        tip=np.maximum(options.tip_noise * noise(ground, options.seed + 1), options.belly * underside(ground)),
+        tip=_tip(ground, options),
         comb=comb,
         colour=ground.colours,
         own=colour,
@@ -192,6 +216,36 @@ def painted_maps(ground: Surface, options: BakeOptions) -> dict[str, Floats]:
     return maps
 
 
+def _lengths(ground: Surface, size: Size, options: BakeOptions, maps: dict[str, Floats]) -> Floats:
+    """(V,) 0..1, share of the longest hair of one fur at each vertex."""
+    lengths = size.shares
+    if options.length_by_thickness:
+        lengths = lengths * length_by_thickness(ground)
+    if options.length_noise:
+        lengths = lengths * (1 - options.length_noise * noise(ground, options.seed))
+    for name in ("length", "mask"):
+        lengths = lengths * maps.get(name, 1.0)
+    return lengths
+
+
+def _tip(ground: Surface, options: BakeOptions) -> Floats:
+    """(V,) 0..1, from the first tip colour to the second."""
+    return np.asarray(
+        np.maximum(options.tip_noise * noise(ground, options.seed + 1), options.belly * underside(ground))
+    )
+
+
+def _features(path: Path, skin: Surface) -> tuple[Feature, ...]:
+    """The features in a file; the joints that they hang on are the skin's. Raises MeshError."""
+    features = read_features(path)
+    joints = [] if skin.rig is None else [skin.rig.nodes[joint].name for joint in skin.rig.joints]
+    for i, feature in enumerate(features):
+        if feature.joint is not None and feature.joint not in joints:
+            some = f"one of {listed(joints)}" if joints else "none, as nothing moves the model"
+            raise MeshError(f"{path}: features[{i}].joint is {shown(feature.joint)}, expected {some}")
+    return features
+
+
 def patch_figures(model: str, faces: int | None = None, tile_share: float = BakeOptions.tile_share) -> dict[str, float]:
     """Figures of lapped patches on a model, simplified to `faces` if given: `lapped_figures` and seconds."""
     surface = load_surface(model)
@@ -202,19 +256,6 @@ def patch_figures(model: str, faces: int | None = None, tile_share: float = Bake
     charts = lap(surface, direction, tile)
     took = time.perf_counter() - start
     return {"faces": len(surface.faces), **lapped_figures(surface, charts, direction, tile), "seconds": took}
-
-
-def painted(surface: Surface, where: str) -> Floats:
-    """(V,) 0..1 of a picture over the surface, or of its own vertices: `vertex:red`, `vertex:` + attribute.
-
-    Raises MeshError where there is none.
-    """
-    if where.startswith(OF_VERTICES):
-        return vertex_numbers(surface, where.removeprefix(OF_VERTICES), where)
-    try:
-        return vertex_map(surface, read_png(Path(where)), where)
-    except PlaneError as error:
-        raise MeshError(str(error)) from error
 
 
 def read_strokes(path: Path) -> tuple[Stroke, ...]:

@@ -11,6 +11,7 @@ from typing import Any
 
 from furbake.options import BakeOptions
 from furbake.options.bake_options import FILES, OF_VERTICES
+from furbake.options.regions import region_files
 from furbake.rti.files import members
 from furbake.surface.files import read_regular
 from furbake.surface.limits import Budget
@@ -67,6 +68,8 @@ def bake_key(model: str, options: BakeOptions) -> str:
     files = [name for name in named if name is not None and not name.startswith(OF_VERTICES)]
     if options.swatch is not None:
         files += [str(path) for path in members(Path(options.swatch))]
+    if options.regions is not None:
+        files += region_files(options.regions)
     parts = {
         "furbake": version("furbake"),
         "options": options.as_record(),

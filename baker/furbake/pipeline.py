@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from furbake.artist.stored import write_strands
 from furbake.asset.gltf import FurModel, write_gltf
-from furbake.asset.hairs import write_strands
+from furbake.asset.regions.parted import chosen_fins
+from furbake.asset.regions.record import RegionFur, Regions, shaped
 from furbake.asset.rig.motion import Motion
 from furbake.asset.store import atomic_file, atomic_folder
 from furbake.body import Body, prepare
@@ -24,6 +26,8 @@ from furbake.pelt.hairs.volume import Volume
 from furbake.pelt.pelt import Pelt
 from furbake.surface.place.fins import Fins, build_fins
 from furbake.surface.rig.follow import follow
+from furbake.surface.roots.look import textured
+from furbake.surface.roots.picture import Roots, picture_of_roots
 from furbake.surface.shapes import is_builtin
 from furbake.tile.kept import KeptPelts
 from furbake.tile.lighting import Sampled, write_samples
@@ -88,11 +92,7 @@ def bake(
     Raises OptionError, MeshError or StoreError, each with one sentence.
     """
     options = options or BakeOptions()
-    options.check()
-    if spread is not None and options.groom is not None:
-        raise OptionError(f"scheduler: got one beside the groom {options.groom}, expected a bake on this machine")
-    if samples is not None and options.swatch is not None:
-        raise OptionError(f"samples: got {samples} beside a swatch, expected fur that is grown")
+    _check(options, samples, spread)
     clock = _Clock(progress)
     with atomic_folder(out, force) as folder, atomic_file(samples) if samples else nullcontext() as archive:
         with clock.stage("mesh"):
@@ -101,23 +101,40 @@ def bake(
         given, options = options, body.dressed(options)
         for notice in notices:
             notify(notice)
-        pelts = _Pelts(clock, options.of_tile(), body.length / body.tile, cache, spread, body.strands)
+        coat = body.regions[0] if body.regions else None
+        height = body.length / body.tile if coat is None else coat.height
+        pelts = _Pelts(clock, options.of_tile(), height, cache, spread, body.strands)
+        others = [_Pelts(clock, part.options.of_tile(), part.height, cache, spread) for part in body.regions[1:]]
         fitted = pelts.fitted(anew=samples is not None)
+        worn = [each.fitted(anew=False) for each in others]
         for notice in pelts.notices:
             notify(notice)
         with clock.stage("fins"):
-            fins = _fins(body, options, fitted[0][0])
+            fins, quads = _fins(body, options, [made[0][0] for made in (fitted, *worn)])
             if fins is not None:
                 fitted = pelts.with_fins(fitted)
+                worn = [each.with_fins(made) for each, made in zip(others, worn, strict=True)]
         with clock.stage("write"):
-            record = _record(model, given, options, body, fitted)
-            record["asset"] = write_gltf(folder, _furry(model, options, body, fitted, fins), options.meshopt)
+            record = _record(model, given, options, body, fitted) | _worn(body, worn)
+            furry = replace(
+                _furry(model, options, body, fitted, fins), regions=_regions(body, fitted[0][0], worn, quads)
+            )
+            record["asset"] = write_gltf(folder, furry, options.meshopt)
             if body.strands is not None:
                 record["asset"]["bytes"] |= write_strands(folder, body.strands)
             (folder / "bake.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
             if archive is not None:
                 write_samples(archive, pelts.sampled[0], pelts.tile.strands)
     return BakeResult(out, record, clock.seconds, (*notices, *pelts.notices))
+
+
+def _check(options: BakeOptions, samples: Path | None, spread: Spread | None) -> None:
+    """Raise OptionError for options that are out of range, or cannot be had together."""
+    options.check()
+    if spread is not None and options.groom is not None:
+        raise OptionError(f"scheduler: got one beside the groom {options.groom}, expected a bake on this machine")
+    if samples is not None and options.swatch is not None:
+        raise OptionError(f"samples: got {samples} beside a swatch, expected fur that is grown")
 
 
 def _furry(model: str, options: BakeOptions, body: Body, fitted: Fitted, fins: Fins | None) -> FurModel:
@@ -134,7 +151,17 @@ def _furry(model: str, options: BakeOptions, body: Body, fitted: Fitted, fins: F
         bare=None if is_builtin(model) else fitted[0][0].ramp.root,
         motion=_motion(body),
         tinted=options.swatch is None,
+        roots=_roots(body, options, fitted[0][0]),
+        thinned=body.groom is not None,
     )
+
+
+def _roots(body: Body, options: BakeOptions, dry: Pelt) -> Roots | None:
+    """The picture of the roots; None where hairs have the colours of the vertices."""
+    coloured = body.fur.colour is not None and textured(body.skin) and dry.curves is not None
+    if options.colour == "vertex" or options.swatch is not None or not coloured:
+        return None
+    return picture_of_roots(body.skin, body.ground, body.charts, dry.drift[-1], options.size)
 
 
 class _Pelts:
@@ -198,13 +225,43 @@ class _Pelts:
         return found
 
 
-def _fins(body: Body, options: BakeOptions, dry: Pelt) -> Fins | None:
-    """Fins of a body; None where they are not wanted or not known, and on a body that is all creases."""
+def _fins(body: Body, options: BakeOptions, dry: Sequence[Pelt]) -> tuple[Fins | None, tuple[int, ...]]:
+    """Fins of a body, and how many of each of several furs; None where they are not wanted or not known, and on a
+    body that is all creases.
+
+    dry : the pelt of each fur
+    """
     if not options.fins or options.swatch is not None:
+        return None, ()
+    tiles = [part.tile / body.tile for part in body.regions] or [1.0]
+    leans = [float(pelt.drift[-1, 1]) * tile for pelt, tile in zip(dry, tiles, strict=True)]
+    each = [build_fins(body.ground, body.direction, body.tile, lean, options.seed, body.length) for lean in leans]
+    if not len(each[0].faces):
+        return None, ()
+    return (each[0], ()) if body.bounds is None else chosen_fins(each, body.bounds, options.seed)
+
+
+def _worn(body: Body, worn: Sequence[Fitted]) -> dict[str, Any]:
+    """The part of the record on regions: share of the furry surface, options and figures of each; {} without any."""
+    if not body.regions:
+        return {}
+    furs = [
+        {"name": part.name, "covers": part.covers, "length": part.length, "options": part.options.as_record()}
+        | {"fit": fitted[0][1]}
+        for part, fitted in zip(body.regions[1:], worn, strict=True)
+    ]
+    return {"regions": furs}
+
+
+def _regions(body: Body, coat: Pelt, worn: Sequence[Fitted], quads: tuple[int, ...]) -> Regions | None:
+    """Furs beside the coat, as they are stored."""
+    if body.bounds is None:
         return None
-    lean = float(dry.drift[-1, 1])
-    fins = build_fins(body.ground, body.direction, body.tile, lean, options.seed, body.length)
-    return fins if len(fins.faces) else None
+    furs = [
+        RegionFur(part.name, part.tile / body.tile, shaped([pelt for pelt, _ in fitted], coat))
+        for part, fitted in zip(body.regions[1:], worn, strict=True)
+    ]
+    return Regions(body.bounds, body.tile, tuple(furs), quads)
 
 
 def _motion(body: Body) -> Motion | None:

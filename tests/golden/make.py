@@ -25,6 +25,9 @@ has, for each body, the integrals over the sphere of harmonics × φ × curve: `
 `character` is of version 2.1: a coarse torus of two joints and two morph targets, with fins. `poses.json` has a clip
 with seconds in it for each pose; `posed.f32` what plain sums make of the file then, scene space: [pose][number], for
 skin, shells and fins one after the other the places of all vertices, their normals, and, but for the skin, tangents.
+
+`regions` is of version 2.3: a square of 4 × 4 tiles with hairs one texel thick, the same fur on both sides of a border
+that is half of its width. `regions-whole` is the same square in one fur.
 """
 
 from __future__ import annotations
@@ -54,6 +57,7 @@ from expected import (
 )
 
 from furbake.asset.gltf import FurModel, write_gltf
+from furbake.asset.regions.record import RegionFur, Regions
 from furbake.asset.rig.motion import Motion
 from furbake.pelt.curves import Curves
 from furbake.pelt.hairs.ramp import Ramp
@@ -62,6 +66,7 @@ from furbake.pelt.pelt import FinPelt, Pelt
 from furbake.pelt.texels.basis import Basis
 from furbake.surface.charts import laid
 from furbake.surface.place.fins import build_fins
+from furbake.surface.place.shares import bounds
 from furbake.surface.place.vertex_fur import VertexFur
 from furbake.surface.rig.follow import follow
 from furbake.surface.shapes import builtin
@@ -70,6 +75,9 @@ HERE = Path(__file__).parent
 sys.path.append(str(HERE.parent / "baker"))
 from helpers.arms import ring  # noqa: E402
 from helpers.moving import Moving  # noqa: E402
+
+BORDER = (0.25, 0.75)
+"""Share of the width of `regions` at which its second fur begins, and from which it is alone."""
 
 POSES = ((0, 0.0), (0, 0.2), (0, 0.5), (0, 0.8))
 
@@ -190,6 +198,26 @@ def golden_character() -> None:
     (folder / "poses.json").write_text(json.dumps(told) + "\n", "utf-8")
 
 
+def golden_regions() -> None:
+    """Write a square of two furs, and the same in one."""
+    surface = builtin("plane:16x16")
+    charts = surface.natural.charts(0.25)
+    pelt = golden_curves(golden_pelt("ptm", 6))
+    grown = np.random.default_rng(9).random((SIZE, SIZE)) < 0.7
+    steps = np.rint(pelt.drift * SIZE).astype(int)
+    alpha = np.stack([np.roll(grown, (v, u), (0, 1)) for u, v in steps]) * np.uint8(230)
+    pelt = replace(pelt, alpha=alpha)
+    across = (surface.vertices[:, 0] - surface.vertices[:, 0].min()) / np.ptp(surface.vertices[:, 0])
+    share = bounds([np.clip((across - BORDER[0]) / (BORDER[1] - BORDER[0]), 0, 1)])
+    fur = VertexFur.even(len(surface.vertices))
+    regions = Regions(share, 0.25, (RegionFur("right", 1.0, (pelt,)),))
+    for name, several in (("regions", regions), ("regions-whole", None)):
+        folder = HERE / name
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+        write_gltf(folder, FurModel(surface, charts, fur, (pelt,), 0.125, regions=several))
+
+
 def main() -> None:
     """Write all variants anew."""
     lights = golden_lights()
@@ -240,6 +268,7 @@ def main() -> None:
     radiance = [expected_weather(pelts, wetness, dirt, few) for wetness, dirt in WEATHERS]
     np.stack(radiance).astype("<f4").tofile(folder / "weather.f32")
     golden_character()
+    golden_regions()
 
 
 if __name__ == "__main__":

@@ -21,8 +21,8 @@ export interface Axes {
 
 /** Size of the drawing, its own units. */
 const WIDTH = 400;
-const HEIGHT = 250;
-const BOX = { left: 46, right: 300, top: 34, bottom: 204 };
+const HEIGHT = 256;
+const BOX = { left: 46, right: 300, top: 42, bottom: 210 };
 /** Smallest distance between two labels. */
 const LINE = 15;
 const TICK = 34;

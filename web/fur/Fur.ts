@@ -77,7 +77,7 @@ export class Fur {
 		this.finTextures = finTextures;
 		this.ground = ground;
 		this.skin = skin.object;
-		this.material = new FurMaterial(asset, textures, { skinColor: colour.clone() });
+		this.material = new FurMaterial(asset, textures, { skinColor: colour.clone() }, ground.roots);
 		setMorphs(this.material, surface, pose);
 		this.fins =
 			fin && quads && finTextures

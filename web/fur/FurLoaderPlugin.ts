@@ -11,21 +11,23 @@ import {
 } from 'three';
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 import { checkGeometry } from './body/checkGeometry.ts';
+import { loadRoots } from './body/roots/Roots.ts';
 import { Skin } from './body/Skin.ts';
 import { Fur } from './Fur.ts';
 import { finQuads } from './fins/finQuads.ts';
 import { checkGltf } from './format/gltf.ts';
 import { checkRig } from './format/rig.ts';
-import { type Fin, FUR_EXTENSION, FUR_VERSION, type FurAsset, type Pelt, parseFur } from './format.ts';
+import { type Fin, FUR_EXTENSION, FUR_VERSION, type FurAsset, fursOf, type Pelt, parseFur } from './format.ts';
 import type { FurTextures } from './light/texels.ts';
 import { checkLimits, type FurLimits } from './planes/furLimits.ts';
 import { GltfFiles } from './planes/GltfFiles.ts';
 import { isPacked, meshDecoder } from './planes/meshopt.ts';
-import { decodePlanes, type Layout, type PlaneFile, type Role } from './planes/mipLevels.ts';
+import { decodePlanes, depthOf, type Layout, type PlaneFile, type Role } from './planes/mipLevels.ts';
 import { type Cut, PeltStates } from './planes/PeltStates.ts';
 import { readOneLevel, textureArray } from './planes/planes.ts';
 import { statesOf } from './planes/states.ts';
 import { ALPHA_CUT } from './shells/lod.ts';
+import { markFurs } from './shells/regions.ts';
 
 /**
  * Anisotropy of the shells' planes. In close-ups of the bunny 2 gains 1.4 dB against a supersampled picture, 4 and more
@@ -115,15 +117,17 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 	async #grow(asset: FurAsset, scene: Object3D): Promise<Fur> {
 		const pelt = asset.pelts[0] as Pelt;
 		const withFins = (asset.fins ?? asset.edges) !== undefined && pelt.fin;
-		const [{ skin, surface, colour }, shells, quads, fins] = await Promise.all([
+		const [{ skin, surface, colour }, roots, shells, quads, fins] = await Promise.all([
 			this.#body(asset, scene),
-			this.#shellCut(asset, pelt),
+			loadRoots(this.#parser, asset),
+			this.#shellCut(asset),
 			withFins ? this.#quads(asset) : undefined,
 			withFins ? this.#finCut(asset, withFins) : undefined,
 		]);
 		const ground = {
 			skin,
 			colour,
+			roots,
 			surface: surface.geometry,
 			placement: surface,
 			quads: quads?.geometry,
@@ -138,7 +142,10 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 
 	/** Skin, shells' mesh and base colour; the skin stays unshaded until there is fur. */
 	async #body(asset: FurAsset, scene: Object3D): Promise<{ skin: Skin; surface: Mesh; colour: Color }> {
-		const [surface, object] = await Promise.all([this.#mesh(asset.shells, 'shells'), this.#skin(asset.skin)]);
+		const [surface, object] = await Promise.all([
+			this.#mesh(asset.shells, 'shells', asset.regions),
+			this.#skin(asset.skin),
+		]);
 		const pieces = isMesh(object) ? [object] : (object.children as Mesh[]);
 		for (const piece of pieces) checkGeometry(`${FUR_EXTENSION}/skin`, piece.geometry, jointsOf(piece));
 		// Vertex colours of the shells already contain the base colour of every material or picture.
@@ -152,8 +159,8 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 
 	/** The fins' mesh: that of their node, or made from edges of the shells. */
 	async #quads(asset: FurAsset): Promise<Mesh> {
-		const { fins, edges, shells, length, height, drift, tiles = 1 } = asset;
-		if (!edges || fins !== undefined) return this.#mesh(fins as number, 'fins');
+		const { fins, edges, shells, length, height, drift, tiles = 1, regions } = asset;
+		if (!edges || fins !== undefined) return this.#mesh(fins as number, 'fins', regions);
 		const [surface, mask] = await Promise.all([
 			this.#mesh(shells, 'shells'),
 			this.#parser.json.accessors?.[edges.mask] && this.#parser.getDependency('accessor', edges.mask),
@@ -161,7 +168,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		if (!(mask?.array instanceof Uint8Array))
 			throw new Error(`${FUR_EXTENSION}/edges: accessor ${edges.mask} has no bytes`);
 		const tile = length / height / surface.scale.x;
-		const places = { start: edges.start, tile, lean: drift.at(-1)?.[1] ?? 0, tiles };
+		const places = { start: edges.start, tile, lean: drift.at(-1)?.[1] ?? 0, tiles, roots: asset.roots?.scale };
 		try {
 			const quads = new Mesh(finQuads(surface.geometry, mask.array, places));
 			quads.position.copy(surface.position);
@@ -174,12 +181,14 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 	}
 
 	/** The node's mesh, checked for the attributes that shells or fins need. */
-	async #mesh(node: number, role: 'shells' | 'fins'): Promise<Mesh> {
+	async #mesh(node: number, role: 'shells' | 'fins', regions?: FurAsset['regions']): Promise<Mesh> {
 		const object = await this.#node(node);
 		if (!isMesh(object)) throw new Error(`${FUR_EXTENSION}/${role}: node ${node} is no mesh with one primitive`);
-		for (const name of ['normal', 'tangent', 'uv']) {
+		const roots = role === 'fins' && this.#extension.roots;
+		for (const name of ['normal', 'tangent', 'uv', ...(roots ? ['uv1'] : [])]) {
 			if (!object.geometry.hasAttribute(name)) throw new Error(`${FUR_EXTENSION}/${role}: the mesh has no ${name}s`);
 		}
+		if (regions) markFurs(object.geometry, regions.furs.length, `${FUR_EXTENSION}/${role}`);
 		object.geometry.morphAttributes = { ...object.geometry.morphAttributes, ...(await this.#tangents(node)) };
 		checkGeometry(`${FUR_EXTENSION}/${role}`, object.geometry, jointsOf(object));
 		return object;
@@ -210,11 +219,11 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		return object;
 	}
 
-	async #shellCut(asset: FurAsset, pelt: Pelt): Promise<Cut> {
+	async #shellCut(asset: FurAsset): Promise<Cut> {
 		const { size, layers, coefficients, height } = asset;
 		const extent = { width: size, height: size, layers };
-		const layout = { extent, coefficients, view: { cut: ALPHA_CUT, rise: height } };
-		const cut = await this.#cut(asset, pelt, layout, (state) => state);
+		const layout = { extent, coefficients, view: { cut: ALPHA_CUT, rise: height }, ...heightsOf(asset) };
+		const cut = await this.#cut(asset, layout, (state) => state);
 		for (const texture of Object.values(cut.textures)) texture.anisotropy = this.#options.anisotropy ?? ANISOTROPY;
 		return cut;
 	}
@@ -223,30 +232,35 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 	async #finCut(asset: FurAsset, fin: Fin): Promise<Cut> {
 		const { width, height } = fin;
 		const extent = { width, height, layers: 1 };
-		const layout = { extent, coefficients: fin.scale.length, view: { cut: 0, rise: 0 } };
-		const cut = await this.#cut(asset, fin, layout, (state) => state.fin as Fin);
+		const layout = { extent, coefficients: fin.scale.length, view: { cut: 0, rise: 0 }, ...heightsOf(asset) };
+		const cut = await this.#cut(asset, layout, (state) => state.fin as Fin);
 		for (const texture of Object.values(cut.textures)) texture.wrapT = ClampToEdgeWrapping;
 		return cut;
 	}
 
 	/** @param partOf the cut's part of a state */
-	async #cut(asset: FurAsset, worn: Stored, layout: Layout, partOf: (state: Pelt) => Stored): Promise<Cut> {
-		const planes = this.#planes(worn).map(({ role, index }) =>
-			this.#files.image(index).then((file) => ({ role, ...file })),
+	async #cut(asset: FurAsset, layout: Layout, partOf: (state: Pelt) => Stored): Promise<Cut> {
+		const furs = fursOf(asset);
+		const planes = furs.flatMap(({ pelts }, fur) =>
+			this.#planes(partOf(pelts[0] as Pelt)).map(({ role, index }) =>
+				this.#files.image(index).then((file) => ({ role, fur, ...file })),
+			),
 		);
 		const textures: Record<string, Texture> = {};
 		for (const { role, name, levels } of await decodePlanes(await Promise.all(planes), layout))
-			textures[role] = textureArray(name, levels, layout.extent, role === 'colour');
+			textures[role] = textureArray(name, levels, { ...layout.extent, layers: depthOf(layout) }, role === 'colour');
 		readOneLevel(textures);
 		const { wet, dirty } = statesOf(asset);
 		const files = new Map<Pelt, () => Promise<PlaneFile>[]>();
 		for (const state of [...wet.slice(1), ...(dirty ? [dirty] : [])]) {
-			const { planes, colour } = partOf(state);
-			const stored = this.#planes({ planes, ...(!state.dirt && colour !== undefined && { colour }) });
 			const wanted = await Promise.all(
-				stored.map(async ({ role, index }) => {
-					const file = await this.#files.later(index);
-					return () => file().then((found) => ({ role, ...found }));
+				furs.flatMap(({ pelts }, fur) => {
+					const { planes, colour } = partOf(pelts[asset.pelts.indexOf(state)] as Pelt);
+					const stored = this.#planes({ planes, ...(!state.dirt && colour !== undefined && { colour }) });
+					return stored.map(async ({ role, index }) => {
+						const file = await this.#files.later(index);
+						return () => file().then((found) => ({ role, fur, ...found }));
+					});
 				}),
 			);
 			files.set(state, () => wanted.map((file) => file()));
@@ -262,6 +276,12 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 			index === undefined ? [] : [{ role: role as Role, index }],
 		);
 	}
+}
+
+/** Heights of several furs over the coat's. */
+function heightsOf(asset: FurAsset): Pick<Layout, 'heights'> {
+	const { regions, height } = asset;
+	return regions ? { heights: [1, ...regions.furs.map((fur) => fur.height / height)] } : {};
 }
 
 function isMesh(object: Object3D | undefined): object is Mesh {

@@ -11,7 +11,7 @@ export * from './format/types.ts';
 export const FUR_EXTENSION = 'FUR_ptm_shells';
 
 /** Newest version that this reader supports; of a higher major version the skin alone is shown. */
-export const FUR_VERSION = '2.2';
+export const FUR_VERSION = '2.3';
 
 const validator = new Validator(schema as object, '2020-12', false);
 
@@ -26,6 +26,29 @@ export function parseFur(extension: unknown): FurAsset | undefined {
 	if (typeof version === 'string' && Number.parseInt(version, 10) > Number.parseInt(FUR_VERSION, 10)) return undefined;
 	checkSchema(validator, extension, FUR_EXTENSION);
 	const asset = extension as FurAsset;
+	for (const [i, fur] of fursOf(asset).entries()) checkFur(fur, i === 0 ? '' : `${asset.regions?.furs[i - 1]?.name}.`);
+	checkRegions(asset);
+	return asset;
+}
+
+/** The furs of an asset, each as if it were alone: the coat, then those of its regions. */
+export function fursOf({ regions, ...coat }: FurAsset): [FurAsset, ...FurAsset[]] {
+	const furs = regions?.furs ?? [];
+	return [
+		coat,
+		...furs.map(
+			({ name: _, tile: __, ...own }) =>
+				({ ...coat, eye: undefined, surge: undefined, bent: undefined, ...own }) as FurAsset,
+		),
+	];
+}
+
+/** Width of a tile of the coat, model units. */
+export const tileOf = ({ regions, length, height }: Pick<FurAsset, 'regions' | 'length' | 'height'>): number =>
+	regions?.tile ?? length / height;
+
+/** Checks the numbers of one fur. @param prefix of names in messages */
+function checkFur(asset: FurAsset, prefix: string): void {
 	for (const [name, rows, wanted] of [
 		['drift', asset.drift.length, asset.layers] satisfies Count,
 		...curveCounts(asset),
@@ -35,7 +58,7 @@ export function parseFur(extension: unknown): FurAsset | undefined {
 			...(pelt.fin ? finCounts(`${pelt.name}.fin`, pelt.fin, asset.curves !== undefined) : []),
 		]),
 	]) {
-		if (rows !== wanted) throw new Error(`${FUR_EXTENSION}/${name}: got ${rows} entries, expected ${wanted}`);
+		if (rows !== wanted) throw new Error(`${FUR_EXTENSION}/${prefix}${name}: got ${rows} entries, expected ${wanted}`);
 	}
 	if (asset.basis.kind === 'eigen') {
 		const terms = (asset.basis.degree + 1) ** 2 + 2;
@@ -43,7 +66,25 @@ export function parseFur(extension: unknown): FurAsset | undefined {
 		if (odd) throw new Error(`${FUR_EXTENSION}/basis.matrix: got a row of ${odd.length} weights, expected ${terms}`);
 	}
 	checkStates(asset);
-	return asset;
+}
+
+/** Checks that the furs of all regions can be drawn together. */
+function checkRegions({ regions, basis, pelts, eye }: FurAsset): void {
+	if (!regions) return;
+	const refuse = (where: string, got: unknown, expected: unknown) => {
+		throw new Error(`${FUR_EXTENSION}/regions.${where}: got ${got}, expected ${expected} as of the coat`);
+	};
+	if (basis.kind !== 'ptm') refuse('basis', basis.kind, 'ptm');
+	const traits = (list: readonly Pelt[]) =>
+		list.map(({ name, wetness = 0, dirt = 0, colour, multiple, fin }) =>
+			[name, wetness, dirt, colour === undefined, !multiple, fin?.width, fin?.height, !fin?.colour].join(' '),
+		);
+	for (const fur of regions.furs) {
+		if ((fur.eye === undefined) !== (eye === undefined))
+			refuse(`${fur.name}.eye`, fur.eye && 'one', eye ? 'one' : 'none');
+		const [own, wanted] = [traits(fur.pelts), traits(pelts)];
+		if (`${own}` !== `${wanted}`) refuse(`${fur.name}.pelts`, own.join(', '), wanted.join(', '));
+	}
 }
 
 /** Checks that states of one fur agree, so that they can be mixed. */

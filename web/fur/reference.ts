@@ -14,6 +14,7 @@ export {
 	type Multiple,
 	type Pelt,
 	type RGB,
+	type RegionFur,
 	type Slot,
 } from './format.ts';
 export { curvedMoments, type MeanCurves } from './light/curves.ts';

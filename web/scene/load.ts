@@ -4,6 +4,8 @@ import { type AnimationClip, Box3, type LoadingManager, Mesh, type Object3D, Ski
 import { type GLTF, GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { type Fur, type FurLimits, FurLoaderPlugin } from '../fur/index.ts';
 import { disposeAll } from '../page/dispose.ts';
+import type { ClipPlayer } from './clips/ClipPlayer.ts';
+import type { Room } from './clips/Reach.ts';
 import type { Model } from './model.ts';
 
 /** Source of a model's files. */
@@ -82,7 +84,14 @@ export async function loadPelt(source: Source, limits: FurLimits): Promise<Fur> 
 	return fur;
 }
 
-const importPlayer = () => import('./clips/ClipPlayer.ts');
+const importPlayer = () => Promise.all([import('./clips/ClipPlayer.ts'), import('./clips/Gaze.ts')]);
+
+async function player(
+	...[object, meshes, clips, rest]: [Object3D, Mesh[], AnimationClip[], Room]
+): Promise<ClipPlayer> {
+	const [{ ClipPlayer }, { Gaze }] = await importPlayer();
+	return new ClipPlayer(object, meshes, clips, rest, Gaze.of(object));
+}
 
 /** Makes a model without its fur, which is not in the scene yet. */
 async function modelOf(object: Object3D, animations: readonly AnimationClip[]): Promise<Model> {
@@ -95,9 +104,10 @@ async function modelOf(object: Object3D, animations: readonly AnimationClip[]): 
 	// Bones carry a mesh out of the sphere that three culls it by.
 	for (const mesh of meshes) if (mesh instanceof SkinnedMesh) mesh.frustumCulled = false;
 	const moving = animations.filter(({ tracks }) => tracks.length > 0);
-	const clips = moving.length > 0 ? new (await importPlayer()).ClipPlayer(object, meshes, moving) : undefined;
-	const box = clips?.box ?? new Box3().setFromObject(object);
-	const radius = clips ? 0 : radiusAround(meshes, box.getCenter(new Vector3()));
+	const rest = new Box3().setFromObject(object);
+	const radius = radiusAround(meshes, rest.getCenter(new Vector3()));
+	const clips = moving.length > 0 ? await player(object, meshes, moving, { box: rest, radius }) : undefined;
+	const box = clips?.box ?? rest;
 	const model: Model = {
 		...{ object, box, fur: undefined },
 		...(clips && { clips }),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import re
 import zlib
 from dataclasses import dataclass, field
 from typing import Any, Literal
@@ -167,6 +169,17 @@ def _encoded(values: NDArray[Any], mode: Mode) -> bytes:
 def _little(values: NDArray[Any]) -> NDArray[Any]:
     """The same, packed, in the order of bytes that glTF has."""
     return np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("<"))
+
+
+def nested(values: NDArray[Any]) -> list[Any]:
+    """An array of rows of rows as JSON numbers."""
+    return [[numbers(row) for row in rows] for rows in values]
+
+
+def dump(document: Any) -> str:
+    """JSON with one line per object member and flat lists in one line."""
+    text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
+    return re.sub(r"\[\s*([^\[\]{}]*?)\s*\]", lambda match: f"[{' '.join(match[1].split())}]", text) + "\n"
 
 
 def numbers(values: NDArray[Any]) -> list[float]:

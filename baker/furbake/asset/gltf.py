@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from importlib.metadata import version
@@ -13,13 +11,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.asset.buffer import MESHOPT, Buffer, numbers
+from furbake.asset.buffer import MESHOPT, Buffer, dump, nested, numbers
 from furbake.asset.edges import edges_record
 from furbake.asset.planes import write_planes
-from furbake.asset.rig.bind import Return
+from furbake.asset.regions.parted import fin_bounds, parted
+from furbake.asset.regions.record import Regions, regions_record, write_regions
+from furbake.asset.rig.bind import bound
 from furbake.asset.rig.motion import Motion
 from furbake.asset.rig.nodes import morphs, rigged
 from furbake.asset.rig.stand import Stand
+from furbake.asset.roots.write import fin_roots, roots_record
 from furbake.asset.skin import Looks, bare_colour, feature_nodes, fur_colour, skin_primitives
 from furbake.asset.vertices import (
     Attributes,
@@ -28,7 +29,6 @@ from furbake.asset.vertices import (
     grid,
     shell_vertices,
     shifted_by_tiles,
-    thinned,
     tiles_across,
 )
 from furbake.pelt.fin import fin_environment
@@ -40,13 +40,16 @@ from furbake.surface.mesh import RGB, Surface
 from furbake.surface.place.features import Feature, placed
 from furbake.surface.place.fins import Fins
 from furbake.surface.place.vertex_fur import VertexFur
+from furbake.surface.roots.picture import Roots
 
 Record = dict[str, Any]
 Floats = NDArray[np.float64]
 
 EXTENSION = "FUR_ptm_shells"
 VERSION, VERSION_STATES, VERSION_CURVES, VERSION_MOTION, VERSION_EDGES = "1.0", "1.1", "2.0", "2.1", "2.2"
-"""Format versions: one pelt, several states of it, mean curves, bodies that move, fins as edges."""
+VERSION_LATEST = "2.3"
+"""Format versions: one pelt, several states of it, mean curves, bodies that move, fins as edges; pictures of roots, several
+furs on one body, fins as edges of bodies that move."""
 
 QUANTIZATION = "KHR_mesh_quantization"
 
@@ -71,6 +74,9 @@ class FurModel:
     bare : linear colour of a skin that brings no colour at all; None: white
     motion : what moves skin and ground; None: nothing. Where its rig has a pose all of the above is in it
     tinted : whether the fur takes the colour of the skin below it; else it has its own alone
+    roots : the skin's colours where hairs have their roots; None: those of the vertices
+    regions : furs of parts of the ground beside `pelts`; None: `pelts` is that of all of it
+    thinned : whether hairs are fewer in places, where the weights of its charts sum to less than 1
     """
 
     skin: Surface
@@ -84,21 +90,24 @@ class FurModel:
     bare: RGB | None = None
     motion: Motion | None = None
     tinted: bool = True
+    roots: Roots | None = None
+    regions: Regions | None = None
+    thinned: bool = False
 
 
 def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     """Write model.gltf, model.bin and all images into `folder`; counts and file sizes for the record.
 
-    compress : meshes by `EXT_meshopt_compression`, and the fins of a still body as edges of the shells
+    compress : meshes by `EXT_meshopt_compression`, and the fins of a body without morph targets as edges of the shells
     """
     features = placed(model.skin, model.features)
-    laid, model = model.skin, _bound(model)
+    laid, model = model.skin, bound(model)
     surface, charts, fins, fur, pelts, motion = (
         model.skin, model.charts, model.fins, model.fur, model.pelts, model.motion
     )  # fmt: skip
     pelt = pelts[0]
-    planes = [name for each in pelts for name in write_planes(folder, each, _prefix(each, pelt))]
-    looks = Looks(folder, list(planes))
+    looks = Looks(folder, [name for each in pelts for name in write_planes(folder, each, _prefix(each, pelt))])
+    planes, others = list(looks.images), write_regions(folder, model.regions, looks.images)
     buffer = Buffer(compress)
     ground = model.ground or surface
     place = grid(surface.vertices, ground.vertices)
@@ -107,9 +116,15 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     own = bare_colour(surface, fur, model.bare)
     skin = skin_primitives(body, own, fur.colour if model.ground is None else None, buffer, looks)
     fur = fur_colour(surface, own, fur, model.tinted)
-    uv = shifted_by_tiles(charts)
+
+    whole = charts
+    uv = shifted_by_tiles(charts) if model.roots is None else model.roots.uv
     tiles = tiles_across(uv, *([] if fins is None else [fins.uv]))
     stood = shell_vertices(ground, charts, fur, below.positions, uv, tiles) | below.joints(charts.source)
+    if model.regions is not None:
+        parts = parted(charts, model.regions.bounds)
+        charts, stood = parts.charts, parts.copies(stood)
+        model = replace(model, charts=charts)
     if compress:
         stood["TEXCOORD_0"] = coarse_uv(stood["TEXCOORD_0"], tiles, pelt.size)
     shells = buffer.primitive(stood, charts.faces)
@@ -120,6 +135,8 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     edges = _fin_edges(model, charts, stood, buffer) if compress else None
     if fins is not None and edges is None:
         stood = fin_vertices(ground, fins, fur, below.positions, tiles) | below.joints(fins.source)
+        stood |= fin_roots(whole, fins, model.roots)
+        stood |= {} if model.regions is None else fin_bounds(model.regions.quads)
         quads = buffer.primitive(stood, fins.faces)
         meshes.append({"name": "fins", "primitives": [quads | below.fin_targets(buffer, fins)]})
     names, meshes = [mesh["name"] for mesh in meshes], [mesh | morphs(motion) for mesh in meshes]
@@ -127,8 +144,14 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
     nodes = [{"name": name, "mesh": i, **undone} for i, name in enumerate(names)]
     nodes += feature_nodes(features, buffer, looks, meshes)
     roots, moving = rigged(nodes, features, motion, laid, place, buffer)
+    picture = roots_record(model.roots, looks)
     needed = [QUANTIZATION, *([MESHOPT] if buffer.unpacked else [])]
-    fur_record = extension(pelts, model.length, tiles, planes, names, motion is not None, edges)
+    moves = motion is not None
+    fur_record = extension(pelts, model.length, tiles, planes, names, moves, edges, picture)
+    fur_record |= {"thinned": True} if model.thinned else {}
+    if model.regions is not None:
+        furs = [extension(each.pelts, model.length, tiles, named, names, moves) for each, named in others]
+        fur_record |= {"version": VERSION_LATEST, "regions": regions_record(model.regions, furs)}
     document = {
         "asset": {"version": "2.0", "generator": f"furbake {version('furbake')}"},
         "extensionsUsed": [EXTENSION, *needed],
@@ -140,36 +163,20 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
         **moving,
         **looks.records,
         **buffer.records("model.bin"),
-        "extensions": {EXTENSION: fur_record | thinned(charts)},
+        "extensions": {EXTENSION: fur_record},
     }
     (folder / "model.bin").write_bytes(bytes(buffer.data))
     (folder / "model.gltf").write_text(dump(document), "utf-8", newline="\n")
-    sizes = {name: (folder / name).stat().st_size for name in ("model.gltf", "model.bin", *looks.images)}
-    return _counts(model) | {"bytes": sizes}
+    files = ("model.gltf", "model.bin", *looks.images)
+    return _counts(model) | {"bytes": {name: (folder / name).stat().st_size for name in files}}
 
 
 def _fin_edges(model: FurModel, charts: Charts, stood: Attributes, buffer: Buffer) -> Record | None:
     """Fins as edges of the shells, of which readers make quads; None for those that are stored."""
-    if model.fins is None or model.motion is not None or model.pelts[0].curves is None:
+    morphs = model.motion is not None and model.motion.rig.targets
+    if model.fins is None or model.pelts[0].curves is None or morphs or model.regions is not None:
         return None
     return edges_record(charts, stood["POSITION"], model.fins, buffer)
-
-
-def _bound(model: FurModel) -> FurModel:
-    """The model in the bind pose, in which it is stored."""
-    motion = model.motion
-    if motion is None or motion.rig.pose is None:
-        return model
-    skin = Return(motion.rig, motion.skin, model.skin)
-    ground = skin if model.ground is None else Return(motion.rig, motion.ground, model.ground)
-    return replace(
-        model,
-        skin=skin.bind,
-        ground=None if model.ground is None else ground.bind,
-        charts=ground.charts(model.charts),
-        fur=ground.fur(model.fur),
-        fins=None if model.fins is None else ground.fins(model.fins),
-    )
 
 
 def _counts(model: FurModel) -> Record:
@@ -194,13 +201,14 @@ def extension(
     nodes: list[str],
     moves: bool = False,
     edges: Record | None = None,
+    roots: Record | None = None,
 ) -> Record:
     """The JSON object of the extension, for nodes (skin, shells and perhaps fins) and images in the order of writing.
 
     pelts : the dry fur and further states of it, all with its basis, λ and Ω
     length : longest fur, model units; tiles : how many of them a texture coordinate of 1 stands for
     moves : whether the body has joints, clips or morph targets
-    edges : of the fins, where they are no node
+    edges : of the fins, where they are no node; roots : the picture of the roots, where there is one
     """
     pelt = pelts[0]
     basis: Record = {"kind": pelt.basis.kind}
@@ -213,12 +221,16 @@ def extension(
     lit: Record = {"environment": [numbers(row) for row in environment(pelt.basis)]}
     if pelt.curves is not None:
         version = VERSION_EDGES if edges else VERSION_MOTION if moves else VERSION_CURVES
-        lit = {"curves": {"even": _tables(pelt.curves.even), "along": _tables(pelt.curves.along)}}
+        version = VERSION_LATEST if roots or (edges and moves) else version
+        lit = {"curves": {"even": nested(pelt.curves.even), "along": nested(pelt.curves.along)}}
     return {
         "version": version,
         **{name: i for i, name in enumerate(nodes)},
         **({} if edges is None else {"edges": edges}),
-        **{name: getattr(pelt, name) for name in ("layers", "size", "coefficients")},
+        **({} if roots is None else {"roots": roots}),
+        "layers": pelt.layers,
+        "size": pelt.size,
+        "coefficients": pelt.coefficients,
         "length": numbers(np.array([length]))[0],
         "height": numbers(np.array([pelt.height]))[0],
         "tiles": tiles,
@@ -283,17 +295,6 @@ def _multiple(multiple: Multiple) -> Record:
     }
 
 
-def _tables(tables: Floats) -> list[Any]:
-    """(Q, 3, 17) as lists."""
-    return [[numbers(row) for row in table] for table in tables]
-
-
 def _prefix(pelt: Pelt, dry: Pelt) -> str:
     """Prefix of the names of a pelt's images."""
     return "" if pelt is dry else f"{pelt.state.name}-"
-
-
-def dump(document: Any) -> str:
-    """JSON with one line per object member and flat lists in one line."""
-    text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
-    return re.sub(r"\[\s*([^\[\]{}]*?)\s*\]", lambda match: f"[{' '.join(match[1].split())}]", text) + "\n"

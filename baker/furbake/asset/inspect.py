@@ -7,6 +7,10 @@ from typing import Any
 import numpy as np
 
 from furbake.asset.read import Asset, AssetError
+from furbake.asset.regions.alone import furs
+from furbake.asset.regions.check import share_sums
+from furbake.asset.regions.parted import REGION
+from furbake.asset.roots.read import picture
 
 
 def summary(asset: Asset) -> dict[str, Any]:
@@ -43,10 +47,11 @@ def _summary(asset: Asset) -> dict[str, Any]:
             "curves": len(fur["curves"]["even"]) if "curves" in fur else 0,
             "length": fur["length"],
             "height": fur["height"],
-            "tile": fur["length"] / fur["height"],
+            "tile": fur["regions"]["tile"] if "regions" in fur else fur["length"] / fur["height"],
             "pelts": [state["name"] for state in states],
             "colour plane": colours > 0,
             "direction plane": directions > 0,
+            **({"roots picture": _roots(asset)} if "roots" in fur else {}),
             "texture bytes": 4 * texels,
         },
         "skin": _mesh(asset, "skin"),
@@ -54,6 +59,7 @@ def _summary(asset: Asset) -> dict[str, Any]:
         **({"fins": _mesh(asset, "fins")} if "fins" in fur else {}),
         **({"fins": _edges(asset)} if "edges" in fur else {}),
         **_motion(asset),
+        **_regions(asset),
         "fit": record.get("fit", {}),
         **({"states": fits} if fits else {}),
         "files": files,
@@ -70,10 +76,30 @@ def _mesh(asset: Asset, name: str) -> dict[str, Any]:
     }
 
 
+def _roots(asset: Asset) -> dict[str, Any]:
+    """Texels and bytes of the picture of the roots."""
+    height, width = picture(asset).shape[:2]
+    source = asset.document["textures"][asset.fur["roots"]["texture"]]["source"]
+    size = (asset.folder / asset.document["images"][source]["uri"]).stat().st_size
+    return {"width": width, "height": height, "bytes": size}
+
+
 def _edges(asset: Asset) -> dict[str, Any]:
     """Quads that a reader makes of the edges."""
     count = int(np.unpackbits(asset.accessor(asset.fur["edges"]["mask"])).sum())
     return {"vertices": 4 * count, "faces": 2 * count, "attributes": ["edges"]}
+
+
+def _regions(asset: Asset) -> dict[str, Any]:
+    """Faces of every fur, and those that are drawn twice; nothing of a body with one fur."""
+    fur = asset.fur
+    if "regions" not in fur:
+        return {}
+    primitive = asset.primitive(fur["shells"])
+    region = asset.accessor(primitive["attributes"][REGION])
+    of_face = region[asset.accessor(primitive["indices"])[::3], 2]
+    faces = np.bincount(of_face, minlength=len(furs(asset))).tolist()
+    return {"regions": dict(zip(furs(asset), faces, strict=True)), "drawn twice": len(of_face) - len(share_sums(asset))}
 
 
 def _motion(asset: Asset) -> dict[str, Any]:

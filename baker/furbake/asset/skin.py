@@ -65,7 +65,7 @@ class Looks:
             "roughnessFactor": numbers(np.array([material.roughness]))[0],
         }
         if textured and material.picture is not None:
-            surface["baseColorTexture"] = {"index": self._texture(material.picture, material.wrap)}
+            surface["baseColorTexture"] = {"index": self.texture(material.picture, material.wrap)}
         record: Record = {"name": _text(material.name) or "skin", "pbrMetallicRoughness": surface}
         if material.double_sided:
             record["doubleSided"] = True
@@ -75,9 +75,10 @@ class Looks:
             record["alphaCutoff"] = numbers(np.array([material.cutoff]))[0]
         return _index(self.materials, record)
 
-    def _texture(self, picture: Picture, wrap: tuple[int, int]) -> int:
+    def texture(self, picture: Picture, wrap: tuple[int, int], stem: str | None = None) -> int:
+        """Index of a texture; stem : of its file's name, by default `skin` and a number."""
         if picture not in self._pictures:
-            name = f"skin{len(self._pictures)}.{ENDINGS[picture.kind]}"
+            name = f"{stem or f'skin{len(self._pictures)}'}.{ENDINGS[picture.kind]}"
             (self.folder / name).write_bytes(picture.data)
             self._pictures[picture] = len(self.images)
             self.images.append(name)
@@ -131,22 +132,22 @@ def fur_colour(surface: Surface, own: RGB, fur: VertexFur, tinted: bool = True) 
 
 
 def feature_nodes(features: Iterable[Feature], buffer: Buffer, looks: Looks, meshes: list[Record]) -> list[Record]:
-    """A node for each feature, placed and turned; all share the vertices of one ball of radius 1.
+    """A node for each feature, placed and turned; all share the vertices of one ball of radius 1, or of half of it.
 
     meshes : of the document so far; those of the features are added, one per material
     """
     nodes: list[Record] = []
-    shape: Record = {}
+    shapes: dict[bool, Record] = {}
     for feature in features:
-        if not shape:
-            vertices, faces = ball()
+        if feature.half not in shapes:
+            vertices, faces = ball(feature.half)
             # Normals of a ball are its positions.
-            shape = buffer.primitive({"POSITION": np.rint(32767.0 * vertices).astype(np.int16),
-                                      "NORMAL": signed(vertices)}, faces)  # fmt: skip
+            shapes[feature.half] = buffer.primitive({"POSITION": np.rint(32767.0 * vertices).astype(np.int16),
+                                                     "NORMAL": signed(vertices)}, faces)  # fmt: skip
         wears = Material(feature.name, factor=(*feature.colour, 1.0), roughness=feature.roughness)
         mesh = {
             "name": _text(feature.name),
-            "primitives": [shape | {"material": looks.material(wears, textured=False)}],
+            "primitives": [shapes[feature.half] | {"material": looks.material(wears, textured=False)}],
         }
         meshes.append(mesh)
         nodes.append(

@@ -18,21 +18,27 @@ from furbake.asset.edges import shell_edges
 from furbake.asset.gltf import EXTENSION, QUANTIZATION
 from furbake.asset.planes import PlaneError
 from furbake.asset.read import Asset, AssetError, inside, read_asset
+from furbake.asset.regions.check import regions
+from furbake.asset.regions.parted import REGION
 from furbake.asset.rig.check import clips, drawn, joints, targets, tree
+from furbake.asset.roots.check import roots
 from furbake.asset.validate_pelts import curves, multiple, pelts, states
 
 REQUIRED = ("POSITION", "NORMAL", "TANGENT", "TEXCOORD_0")
 ATTRIBUTES = {
-    "shells": (REQUIRED, {*REQUIRED, "COLOR_0", "_FUR", "_COMB"}),
-    "fins": ((*REQUIRED, "_EDGE"), {*REQUIRED, "COLOR_0", "_FUR", "_EDGE"}),
+    "shells": (REQUIRED, {*REQUIRED, "COLOR_0", "_FUR", "_COMB", REGION}),
+    "fins": ((*REQUIRED, "_EDGE"), {*REQUIRED, "TEXCOORD_1", "COLOR_0", "_FUR", "_EDGE", REGION}),
 }
 """Attributes of the fur's vertices, required and optional."""
 
 JOINTS = ("JOINTS_0", "WEIGHTS_0")
 """Further attributes where the node has a skin."""
 
-MAX_VERTEX_BYTES = 32
-"""Bytes of a shell or fin vertex, its joints and weights aside."""
+BESIDE = {*JOINTS, REGION}
+"""Attributes that do not count as the vertex' own."""
+
+MAX_VERTEX_BYTES = 36
+"""Bytes of a shell or fin vertex, its joints, weights and regions aside."""
 
 MAX_JOINT_BYTES = 12
 """Bytes of the joints and weights of a vertex: 8, and 12 where there are more joints than a byte numbers."""
@@ -63,6 +69,7 @@ def validate(folder: Path) -> list[str]:
         _skin,
         _shells,
         _fins,
+        roots,
         joints,
         targets,
         clips,
@@ -70,6 +77,7 @@ def validate(folder: Path) -> list[str]:
         curves,
         multiple,
         states,
+        regions,
         _record,
     )
     for check in checks:
@@ -197,7 +205,7 @@ def _furry(asset: Asset, name: str) -> Iterator[str]:
     strange = sorted(set(attributes) - known)
     if strange:
         yield f"{name}: {', '.join(strange)}, expected only {', '.join(sorted(known))}"
-    for names, most in ((set(attributes) - set(JOINTS), MAX_VERTEX_BYTES), (set(JOINTS), MAX_JOINT_BYTES)):
+    for names, most in ((set(attributes) - BESIDE, MAX_VERTEX_BYTES), (set(JOINTS), MAX_JOINT_BYTES)):
         weight = _weight(asset, [index for key, index in attributes.items() if key in names])
         if weight > most:
             yield f"{name}: {weight} bytes per vertex, expected at most {most}"

@@ -21,13 +21,12 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import connected_components
 
 from furbake.surface.charts import Charts
 from furbake.surface.mesh import Surface
 from furbake.surface.place.fins import Fins
 from furbake.surface.place.vertex_fur import VertexFur, tangential
+from furbake.surface.roots.layout import patches_of
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -41,10 +40,6 @@ TEXEL_SHARES = 8
 
 FULL_FUR = (255, 255, 255, 0)
 """Default of _FUR: the whole weight and length, open, of the first tip colour."""
-
-
-THIN = 0.5 / 255
-"""Difference from 1 that the bytes of weights can tell."""
 
 
 def shell_vertices(
@@ -107,10 +102,7 @@ def grid(*parts: Floats) -> tuple[Floats, float]:
 
 def shifted_by_tiles(charts: Charts) -> Floats:
     """(M, 2) texture coordinates with each patch moved by whole tiles to where they are positive and small."""
-    count = len(charts.source)
-    start, end = charts.faces.reshape(-1), np.roll(charts.faces, -1, axis=1).reshape(-1)
-    links = csr_array((np.ones(len(start)), (start, end)), shape=(count, count))
-    patches, patch = connected_components(links, directed=False)
+    patches, patch = patches_of(charts)
     low = np.full((patches, 2), np.inf)
     np.minimum.at(low, patch, charts.uv)
     return np.asarray(np.maximum(charts.uv - np.floor(low + 1e-9)[patch], 0.0))
@@ -149,12 +141,6 @@ def quantise_weights(weights: Floats, group: Ints) -> Bytes:
     rank = np.empty(len(index), dtype=np.int64)
     rank[order] = np.arange(len(index)) - start[index[order]]
     return np.asarray(floor + (rank < missing[index]), dtype=np.uint8)
-
-
-def thinned(charts: Charts) -> dict[str, bool]:
-    """`thinned` of the extension, where weights sum to less than 1."""
-    _, index = np.unique(charts.group, return_inverse=True)
-    return {"thinned": True} if (np.bincount(index, charts.weights) < 1 - THIN).any() else {}
 
 
 def signed(vectors: Floats) -> NDArray[np.int8]:

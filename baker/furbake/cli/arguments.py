@@ -70,13 +70,19 @@ BAKE = [
     option("--comb", metavar="FILE.json", type=PLACE, help="strokes along which it is combed, besides"),
     option("--uv", metavar="lapped|own", help="lapped patches (default), or the model's own coordinates"),
     option(
+        "--colour", metavar="texture|vertex",
+        help="each hair in the colour of the model's picture at its root (default), or one colour per vertex",
+    ),
+    option(
         "--max-faces", metavar="F", type=WHOLE,
         help=f"simplify larger models, {MAX_FACES.range} (default: 60000)",
     ),
     option("--pose", metavar="CLIP@SECONDS", help="lay the fur in a pose of the model, not in the one it is bound in"),
     option("--length-map", metavar="FILE.png|vertex:red", type=PLACE, help="black is no length"),
     option("--mask", metavar="FILE.png|vertex:red", type=PLACE, help="black is bare skin"),
+    option("--regions", metavar="FILE.toml", type=PLACE, help="parts of the body with a fur of their own"),
     option("--features", metavar="FILE.json", type=PLACE, help="eyes, a nose and the like"),
+    option("--rig", metavar="FILE.json", type=PLACE, help="joints and clips for a model that stands still"),
     unset_switch(
         "--length-by-thickness",
         "the length itself from the model's size, and down to a third of it where the body is thin "

@@ -13,7 +13,7 @@ from furbake.surface.shapes import is_builtin
 GIVEN = (
     "layers", "size", "lights", "basis", "coefficients", "bits", "curves", "length", "tile", "height", "seed", "flat",
     "guide", "length_by_thickness", "fins", "uv", "max_faces", "length_map", "mask", "comb", "features", "directions",
-    "meshopt", "states", "dirt", "pose", "swatch", "groom", "follow",
+    "meshopt", "states", "dirt", "pose", "swatch", "colour", "regions", "rig", "groom", "follow",
 )  # fmt: skip
 """Options of the command that are options of the bake; one that is not given is the preset's."""
 

@@ -15,6 +15,7 @@ from furbake.asset.store import atomic_folder
 from furbake.batch.job import Job
 from furbake.identity import bake_key
 from furbake.options.bake_options import FILES, OF_VERTICES
+from furbake.options.regions import region_files
 from furbake.rti.files import members
 from furbake.rti.relit import RtiError
 from furbake.surface.files import read_regular
@@ -50,6 +51,11 @@ def packed(job: Job) -> Parcel:
         if value is not None and not value.startswith(OF_VERTICES):
             places[name] = f"{name}/{Path(value).name}"
             add(places[name], Path(value))
+    if job.options.regions is not None:
+        home = Path(job.options.regions).parent
+        for named in map(Path, region_files(job.options.regions)):
+            if named.is_relative_to(home):
+                add(f"regions/{named.relative_to(home).as_posix()}", named)
     if job.options.swatch is not None:
         swatch = Path(job.options.swatch)
         with suppress(RtiError):

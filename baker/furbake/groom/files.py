@@ -11,6 +11,7 @@ import numpy as np
 from furbake.artist.curves import GroomError
 from furbake.asset.store import atomic_file
 from furbake.groom.strands import Groom
+from furbake.usd.stage import INSTALL, installed
 
 ENDINGS = (".npz", ".usdc", ".usda", ".usd")
 
@@ -65,7 +66,6 @@ def _write_usd(path: Path, groom: Groom) -> None:
 
 
 def _module(name: str) -> Any:
-    try:
-        return importlib.import_module(f"pxr.{name}")
-    except ImportError as error:
-        raise GroomError(f"usd-core: {error}, expected the optional extra: pip install 'furbake[groom]'") from error
+    if (missing := installed()) is not None:
+        raise GroomError(f"usd-core: {missing}, expected the optional extra: {INSTALL}")
+    return importlib.import_module(f"pxr.{name}")

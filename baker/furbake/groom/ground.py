@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from furbake.asset.read import Asset, AssetError
+from furbake.asset.roots.read import StoredRoots, read_roots
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -30,6 +31,7 @@ class Ground:
     colour : (M, 3) linear colour of the skin
     beside : (F, 3) face across the edge opposite each corner, −1 at the end of a patch
     shift : (F, 3, 2) what a place's uv in the neighbour differs by, tiles: 0 but where a patch closes on itself
+    roots : colours of the skin at the roots of hairs, in place of `colour`, where the folder has a picture of them
     surface : (F,) number of the face of the body that a face is a copy of
     tile : width of a tile, model units
     """
@@ -49,6 +51,7 @@ class Ground:
     shift: Floats
     surface: Ints
     tile: float
+    roots: StoredRoots | None = None
 
 
 def read_ground(asset: Asset, base: tuple[float, float, float]) -> Ground:
@@ -147,6 +150,7 @@ def _ground(asset: Asset, base: tuple[float, float, float]) -> Ground:
         shift=shift,
         surface=_same(np.sort(_same(asset.accessor(index["POSITION"])[:, :3])[faces], axis=1)),
         tile=length / float(fur["height"]),
+        roots=read_roots(asset),
     )
 
 

@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.asset.hairs import tile_strands
+from furbake.artist.stored import tile_strands
 from furbake.asset.read import Asset, AssetError, read_asset
+from furbake.asset.regions.alone import alone, furs
 from furbake.asset.stored import read_pelt, skin_colour
 from furbake.groom.ground import Floats, Ground, Ints, read_ground
-from furbake.groom.roots import barycentric, place_roots
+from furbake.groom.roots import Roots, barycentric, place_roots
+from furbake.groom.several import own_ground, own_roots
 from furbake.groom.walk import walk
 from furbake.options import BakeOptions, OptionError
 from furbake.pelt.hairs.ramp import Ramp
-from furbake.pelt.hairs.strands import Strands
+from furbake.pelt.hairs.strands import Strands, grow
 
 Single = NDArray[np.float32]
 Progress = Callable[[str, float], None]
@@ -54,6 +57,8 @@ def groom(folder: Path, progress: Progress = lambda stage, fraction: None) -> Gr
     Raises AssetError where the folder is no whole asset, or bake.json has no usable options.
     """
     asset = read_asset(folder)
+    if "regions" in asset.fur:
+        return _several(asset, progress)
     options = recorded(asset)
     progress("roots", 0.0)
     height = float(asset.fur["height"])
@@ -64,12 +69,38 @@ def groom(folder: Path, progress: Progress = lambda stage, fraction: None) -> Gr
     return on_body(ground, strands, kinds, height, options.seed, ramp, options.colour_plane, progress)
 
 
-def recorded(asset: Asset) -> BakeOptions:
-    """The options in bake.json. Raises AssetError where they are missing or unreadable."""
-    if not isinstance(asset.record.get("options"), dict):
+def _several(asset: Asset, progress: Progress) -> Groom:
+    """The strands of all furs of a body; `hair` counts on from fur to fur."""
+    grooms, first, count = [], 0, len(furs(asset))
+    for fur in range(count):
+        options, one = recorded(asset, fur), alone(asset, fur)
+        height = float(one.fur["height"])
+        strands = grow(options.coat, height, options.seed)
+        ground = own_ground(asset, skin_colour(asset), fur)
+        kinds = (np.arange(len(strands.points)) >= options.coat.guard.count).astype(np.int64)
+        chosen = partial(own_roots, asset, ground, fur=fur)
+        told = partial(_told, progress, fur / count, 1.0 / count)
+        ramp, hues = read_pelt(one).ramp, options.colour_plane
+        own = on_body(ground, strands, kinds, height, options.seed, ramp, hues, told, chosen)
+        grooms.append(replace(own, hair=own.hair + first))
+        first += len(strands.points)
+    return Groom(**{name: np.concatenate([getattr(own, name) for own in grooms]) for name in vars(grooms[0])})
+
+
+def _told(progress: Progress, start: float, share: float, stage: str, fraction: float) -> None:
+    """Progress of one of several furs."""
+    if stage == STAGES[-1]:
+        progress(stage, start + share * fraction)
+
+
+def recorded(asset: Asset, fur: int = 0) -> BakeOptions:
+    """The options in bake.json of one of the furs, 0: the coat. Raises AssetError where they cannot be read."""
+    regions = asset.record.get("regions", [])
+    record = regions[fur - 1] if 0 < fur <= len(regions) else asset.record
+    if not isinstance(record.get("options"), dict) or fur > len(regions):
         raise AssetError(f"{asset.folder}: no options in bake.json, expected a folder that furbake bake wrote")
     try:
-        return BakeOptions.from_record(asset.record["options"])
+        return BakeOptions.from_record(record["options"])
     except (OptionError, TypeError, ValueError, LookupError) as error:
         raise AssetError(f"{asset.folder}: options in bake.json not understood ({error}), bake it again") from error
 
@@ -83,13 +114,15 @@ def on_body(
     ramp: Ramp,
     hues: bool = False,
     progress: Progress = lambda stage, fraction: None,
+    choose: Callable[[Roots], Roots] = lambda roots: roots,
 ) -> Groom:
     """A tile's strands on a body.
 
     kinds : (S,) kinds of hair, which are thinned apart; height : of the longest, tile widths
     hues : whether hairs differ in hue by themselves, besides what the body says
+    choose : which of the roots have a hair
     """
-    roots = place_roots(ground, strands.points[:, 0, :2], kinds, seed)
+    roots = choose(place_roots(ground, strands.points[:, 0, :2], kinds, seed))
     long = np.einsum("ij,ij->i", barycentric(ground, roots.face, roots.uv), ground.reach[ground.faces[roots.face]])
     stands = long > BARE * ground.reach.max(initial=0.0)
     hair, face, uv = roots.hair[stands], roots.face[stands], roots.uv[stands]
@@ -98,6 +131,7 @@ def on_body(
     count, length = len(hair), strands.points.shape[1]
     points = np.empty((count, length, 3), np.float32)
     colour = np.empty((count, length, 3), np.float32)
+    skin = None if ground.roots is None else ground.roots.colours(uv)
     here = face
     aside = np.zeros((count, 2))
     for p in range(length):
@@ -107,7 +141,7 @@ def on_body(
         shares = barycentric(ground, here, uv)
         s = strands.points[hair, p, 2] / height
         points[:, p] = displaced(ground, here, shares, s)
-        colour[:, p] = _coloured(ground, here, shares, s, ramp, strands.hue[hair, p] if hues else None)
+        colour[:, p] = _coloured(ground, here, shares, s, ramp, strands.hue[hair, p] if hues else None, skin)
         progress("strands", (p + 1) / length)
     tint = strands.tint[hair].astype(np.float32)
     return Groom(
@@ -136,8 +170,13 @@ def displaced(ground: Ground, face: Ints, shares: Floats, s: Floats) -> Floats:
     return np.asarray(np.einsum("nc,nck->nk", shares, ground.vertices[corners]) + np.einsum("nc,nck->nk", held, above))
 
 
-def _coloured(ground: Ground, face: Ints, shares: Floats, s: Floats, ramp: Ramp, hue: Floats | None) -> Floats:
-    """(n, 3) linear colour of hairs but for their tint: the skin's × the ramp's, as the format has it."""
+def _coloured(
+    ground: Ground, face: Ints, shares: Floats, s: Floats, ramp: Ramp, hue: Floats | None, skin: Floats | None
+) -> Floats:
+    """(n, 3) linear colour of hairs but for their tint: the skin's × the ramp's, as the format has it.
+
+    skin : (n, 3) linear, at their roots; None: that of the vertices
+    """
     corners = ground.faces[face]
     held = np.clip(shares, 0.0, 1.0)
     held /= held.sum(axis=1, keepdims=True)
@@ -147,4 +186,6 @@ def _coloured(ground: Ground, face: Ints, shares: Floats, s: Floats, ramp: Ramp,
     root, tip, tip2 = (np.array(part) for part in (ramp.root, ramp.tip, ramp.tip2))
     end = tip + second[:, None] * (tip2 - tip)
     rise = np.clip(s, 0.0, 1.0)[:, None] ** ramp.power
-    return np.asarray(np.einsum("nc,nck->nk", held, ground.colour[corners]) * (root + (end - root) * rise))
+    if skin is None:
+        skin = np.einsum("nc,nck->nk", held, ground.colour[corners])
+    return np.asarray(skin * (root + (end - root) * rise))

@@ -16,8 +16,11 @@ BasisKind = Literal["ptm", "eigen"]
 CurvesKind = Literal["slab", "none"]
 Guide = Literal["nose-tail", "down"]
 Uv = Literal["lapped", "own"]
+ColourKind = Literal["texture", "vertex"]
 
-FILES = ("length_map", "mask", "comb", "features", "swatch", "groom")
+COLOURS = ("texture", "vertex")
+
+FILES = ("length_map", "mask", "comb", "features", "rig", "swatch", "regions", "groom")
 """Options that name files."""
 
 OF_VERTICES = "vertex:"
@@ -28,13 +31,15 @@ THIN: dict[str, Any] = {"layers": 1, "height_share": 0.05}
 """Options of fur that is photographed, where the command is not given others: photographs show the top alone."""
 
 
-LATER = ("directions", "states", "dirt", "auto_length", "pose", "swatch", "groom", "follow")
+LATER = (
+    "directions", "states", "dirt", "auto_length", "pose", "swatch", "colour", "regions", "rig", "groom", "follow",
+)  # fmt: skip
 """Options that early records do not have."""
 
 OF_BODY = (
     "preset", "length", "tile", "height", "guide", "sweep", "uv", "length_by_thickness", "auto_length", "length_noise",
-    "tip_noise", "belly", "max_faces", "pose", "length_map", "mask", "comb", "features", "fins", "tile_share",
-    "height_share", "meshopt", "groom", "follow",
+    "tip_noise", "belly", "max_faces", "pose", "length_map", "mask", "comb", "features", "rig", "fins",
+    "tile_share", "height_share", "meshopt", "colour", "regions", "groom", "follow",
 )  # fmt: skip
 """Options of the body that wears a tile, or by which the tile's height is found; all others are the tile's own."""
 
@@ -76,6 +81,8 @@ class BakeOptions:
     """How far shells bend along the fur's direction, share of its length, besides the lean in the tile."""
     uv: Uv = "lapped"
     """Lapped patches along the fur, or the model's own texture coordinates."""
+    colour: ColourKind = "texture"
+    """Of hairs on a model with a picture: that of the picture at their roots, or one colour per vertex."""
     length_by_thickness: bool = False
     """Shorter fur where the body is thin (ears, feet)."""
     auto_length: bool = False
@@ -98,8 +105,12 @@ class BakeOptions:
     """JSON file of strokes along which the fur is laid."""
     features: str | None = None
     """JSON file of eyes, a nose and the like."""
+    rig: str | None = None
+    """JSON file of joints and clips for a model that stands still."""
     swatch: str | None = None
     """`.lp`, `.ptm` or `info.json` of real fur or cloth under many lamps, from which the tile is made, not grown."""
+    regions: str | None = None
+    """TOML file of parts of the body with a fur of their own."""
     groom: str | None = None
     """`.usd`, `.hair`, `.tfx` or `.npz` with the strands of an artist, of which fur and tile are made."""
     follow: int | None = None
@@ -135,6 +146,8 @@ class BakeOptions:
             )
         knobs.within("bits", self.bits, BITS.low, BITS.high)
         knobs.within("max-faces", self.max_faces, MAX_FACES.low, MAX_FACES.high)
+        if self.colour not in COLOURS:
+            raise OptionError(f"colour: got {knobs.show(self.colour)}, expected {' or '.join(COLOURS)}")
         if self.pose is not None:
             clip_at(self.pose)
         for name, length in (("length", self.length), ("tile", self.tile)):
@@ -154,9 +167,18 @@ class BakeOptions:
             raise OptionError("dirt: got 3 coefficients, which leave no room for the share of mud, expected 4 to 6")
         if self.swatch is not None and (len(self.states) > 1 or self.dirt):
             raise OptionError(f"swatch: got {self.swatch} beside wet or dirty states, expected dry fur alone")
+        self._check_regions()
         self._check_groom()
         hairs = self.coat.guard.count + self.coat.under.count
         knobs.within("coat.guard.count + coat.under.count", hairs, 1, KNOBS["coat.guard.count"].high)
+
+    def _check_regions(self) -> None:
+        """Raise `OptionError` for what cannot stand beside regions."""
+        if self.regions is None:
+            return
+        for name, got in (("swatch", self.swatch), ("groom", self.groom), ("basis", self.basis), ("curves", self.curves)):
+            if got not in (None, "ptm", "slab"):
+                raise OptionError(f"regions: got {name} {got} beside them, expected grown fur, ptm and slab")
 
     def _check_groom(self) -> None:
         """Raise `OptionError` for what a groom says by itself, and for what only a groom can have."""

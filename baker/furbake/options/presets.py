@@ -32,12 +32,12 @@ def preset(name: str | Path) -> BakeOptions:
     Raises OptionError for an unknown preset, and for a knob that is unknown, of another type or out of range.
     """
     values, label = _load(str(name), ())
-    return _with(BakeOptions(preset=label), values)
+    return with_knobs(BakeOptions(preset=label), values)
 
 
 def override(options: BakeOptions, texts: Mapping[str, str]) -> BakeOptions:
     """Options with some knobs changed: dotted name → value as text. Raises OptionError."""
-    return _with(options, {name: knobs.parse(name, text) for name, text in texts.items()})
+    return with_knobs(options, {name: knobs.parse(name, text) for name, text in texts.items()})
 
 
 def as_toml(options: BakeOptions) -> str:
@@ -51,7 +51,7 @@ def preset_summary(name: str) -> str:
     return text.splitlines()[0].removeprefix("#").strip()
 
 
-def _with(options: BakeOptions, values: Mapping[str, Any]) -> BakeOptions:
+def with_knobs(options: BakeOptions, values: Mapping[str, Any]) -> BakeOptions:
     """Options with some knobs, by dotted name, at checked values."""
     table = knobs.nest({**dict(knobs.flatten(asdict(options))), **values})
     if "height" in values:

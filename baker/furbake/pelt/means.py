@@ -27,16 +27,26 @@ SIZE = 32
 """Texels a side of the tile that is measured for all bodies."""
 
 LIGHTS = 32
-"""Directions for each of them, two between every two knots of a table."""
+"""Directions for each of them."""
 
-COUNT = 3
-"""Curves: with a fourth fits gain .03 dB at most."""
+COUNT = 4
+"""Curves, as many as a texel holds: the fourth gains .03 dB above the horizon, and a fifth of the light below it."""
+
+DARK_LIGHTS, DARKEST = 14, 2.0
+"""Directions below the horizon among `LIGHTS`; the abscissa from which on they lie: lower ones light nearly nothing."""
 
 SMOOTH, FEW = 0.02, 0.1
 """Weight of a table's second differences beside the lights; weight of coarse lights where finer ones are known."""
 
-MIN_COVER = 0.02
-"""Mean coverage with which a slab counts at least where curves for all of them are chosen."""
+FAINT, RELATIVE = 0.02, 0.75
+"""Share of the largest light that is added to each where it scales errors; how far they are relative, 1 is wholly.
+
+Without it light below the horizon, a hundredth of that above it, is up to thrice too bright (β = 16); wholly relative
+errors take a seventh of it away where it changes with the azimuth.
+"""
+
+MIN_SEEN = 0.01
+"""Share of what is seen with which a slab counts at least where curves for all of them are chosen."""
 
 BELOW, ROUNDS = 30.0, 4
 """Weight of light below 0 where a slab's weights are chosen, and rounds of the search for it."""
@@ -74,10 +84,22 @@ def mean_light(samples: NDArray[np.floating], alpha: Array) -> Array:
     return np.asarray(total / np.maximum(alpha.sum((1, 2)), 1e-9), np.float64)
 
 
-def directions(beta: float, count: int = LIGHTS) -> Array:
-    """Lights evenly spread over the abscissa of the tables, from the lowest that tips see to the zenith, (count, 3)."""
-    z = elevation((np.arange(count) + 0.5) / count * (KNOTS - 1), beta)
-    angle = np.pi * (3 - np.sqrt(5)) * np.arange(count)
+def directions(beta: float) -> Array:
+    """Lights over the abscissa of the tables from `DARKEST` to the zenith, (LIGHTS, 3); denser below the horizon."""
+    below = DARKEST + _middles(DARK_LIGHTS) * (HORIZON - DARKEST)
+    above = HORIZON + _middles(LIGHTS - DARK_LIGHTS) * (KNOTS - 1 - HORIZON)
+    return _spiral(np.concatenate([below, above]), beta)
+
+
+def _middles(count: int) -> Array:
+    """Middles of `count` equal parts of 0..1."""
+    return (np.arange(count) + 0.5) / count
+
+
+def _spiral(x: Array, beta: float) -> Array:
+    """Lights at these places of the tables' abscissa, their azimuths by the golden angle, (n, 3)."""
+    z = elevation(x, beta)
+    angle = np.pi * (3 - np.sqrt(5)) * np.arange(len(x))
     across = np.sqrt(1 - z * z)
     return np.stack([across * np.cos(angle), across * np.sin(angle), z], -1)
 
@@ -155,18 +177,27 @@ def _design(lights: Array, beta: float, lean: Array) -> Array:
 def _solved(rows: Array, values: Array, counts: Array, dark: int) -> Array:
     """Smooth tables by least squares: rows (n, 34), values (n, K), counts (n,) → (K, 2, 17), 0 up to knot `dark`.
 
-    A table may have an edge at the horizon.
+    Errors are those over `_scale`. A table may have an edge at the horizon.
     """
-    bends = np.diff(np.eye(KNOTS), 2, axis=0)
-    bends = np.delete(bends, HORIZON - 1, axis=0)
-    smooth = np.kron(np.eye(2), bends) * SMOOTH * np.sqrt(counts.sum())
+    bent = np.delete(np.diff(np.eye(KNOTS), 2, axis=0), HORIZON - 1, axis=0)
     free = np.tile(np.arange(KNOTS) > dark, 2)
-    weight = np.sqrt(counts)[:, None]
-    matrix = np.concatenate([rows * weight, smooth])[:, free]
-    right = np.concatenate([values * weight, np.zeros((len(smooth), values.shape[1]))])
+    knots = rows[:, :KNOTS]
+    at_knots = knots.T @ values / np.maximum(knots.sum(0), 1e-9)[:, None]
+    weight = np.sqrt(counts)[:, None] / _scale(values)
+    smooth = SMOOTH * np.sqrt(counts.sum()) / _scale(at_knots)
     found = np.zeros((values.shape[1], 2 * KNOTS))
-    found[:, free] = np.linalg.lstsq(matrix, right, rcond=None)[0].T
+    for slab, (of_lights, of_knots) in enumerate(zip(weight.T, smooth.T, strict=True)):
+        bends = np.kron(np.eye(2), bent * np.delete(of_knots[1:-1], HORIZON - 1)[:, None])
+        matrix = np.concatenate([rows * of_lights[:, None], bends])[:, free]
+        right = np.concatenate([values[:, slab] * of_lights, np.zeros(len(bends))])
+        found[slab, free] = np.linalg.lstsq(matrix, right, rcond=None)[0]
     return found.reshape(-1, 2, KNOTS)
+
+
+def _scale(values: Array) -> Array:
+    """Scale of the errors of values (n, K), each over the largest of its column."""
+    largest = np.maximum(values.max(0), 1e-12)
+    return np.asarray((np.maximum(values, 0) / largest + FAINT) ** RELATIVE)
 
 
 def shared(
@@ -174,20 +205,28 @@ def shared(
 ) -> tuple[Curves, list[Array]]:
     """The few curves that lose least of the tables (K, 2, 3, 17) of all states, and each state's weights, (K, Q).
 
-    cover : (K,) of each state: mean coverages, by which slabs count
+    cover : (K,) of each state: mean coverages; slabs count by what is seen of them from above, errors as in `_scale`,
+        but wholly relative
     """
     joined = np.concatenate(each)
     rows = np.concatenate([_spread_out(r, lean) for r in range(len(RADII))])
     values = rows @ joined.reshape(len(joined), -1).T
-    weights = np.sqrt(np.maximum(np.concatenate(cover), MIN_COVER))
-    _, strength, found = np.linalg.svd(values * weights, full_matrices=False)
+    weights = np.sqrt(np.maximum(np.concatenate([_seen(some) for some in cover]), MIN_SEEN))
+    mean = values @ (weights**2 / (weights**2).sum())
+    scale = (np.maximum(mean, 0) + FAINT * mean.max())[:, None]
+    _, strength, found = np.linalg.svd(values * weights / scale, full_matrices=False)
     count = min(count, max(int((strength > 1e-9 * max(strength[0], 1e-9)).sum()), 1))
     mixed = np.einsum("qk,ktrx->qtrx", found[:count] * weights, joined)
     mixed *= np.where(mixed[:, 0].sum((1, 2)) < 0, -1, 1)[:, None, None, None]
     mixed = rounded(mixed / np.maximum(np.abs(mixed).max((1, 2, 3), keepdims=True), 1e-12))
     curves = Curves(np.ascontiguousarray(mixed[:, 0]), np.ascontiguousarray(mixed[:, 1]), lean)
-    solved = _weights(rows @ mixed.reshape(count, -1).T, values)
+    solved = _weights(rows @ mixed.reshape(count, -1).T / scale, values / scale)
     return curves, [rounded(part) for part in np.split(solved, np.cumsum([len(part) for part in each])[:-1])]
+
+
+def _seen(cover: Array) -> Array:
+    """Share of each slab in what is seen from above, (K,), where hairs of different slabs lie anyhow."""
+    return np.asarray(cover * np.append(np.cumprod(1 - cover[:0:-1])[::-1], 1.0))
 
 
 def _weights(curves: Array, values: Array) -> Array:
@@ -203,7 +242,8 @@ def _weights(curves: Array, values: Array) -> Array:
 
 def _spread_out(body: int, lean: Array) -> Array:
     """Values of tables (2, 3, 17) on one of the bodies over its lights, (n, 102)."""
-    design = _design(directions(RADII[body], 4 * LIGHTS), RADII[body], lean).reshape(-1, 2, 1, KNOTS)
+    lights = _spiral(_middles(4 * LIGHTS) * (KNOTS - 1), RADII[body])
+    design = _design(lights, RADII[body], lean).reshape(-1, 2, 1, KNOTS)
     return np.asarray(design * np.eye(len(RADII))[body][:, None]).reshape(len(design), -1)
 
 

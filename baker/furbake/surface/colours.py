@@ -23,6 +23,9 @@ FORMATS = ("PNG", "JPEG", "WEBP", "BMP", "GIF", "TGA", "TIFF", "PPM")
 STRIPE = 256
 """Rows of a picture that are converted together."""
 
+QUALITY = 90
+"""Of JPEG."""
+
 STEPS = 6
 """Points along each side of a face at which its picture is read."""
 
@@ -30,6 +33,13 @@ STEPS = 6
 def from_srgb(values: Floats) -> Floats:
     """Linear 0..1 of sRGB 0..1 (IEC 61966-2-1)."""
     return np.where(values <= 0.04045, values / 12.92, ((np.maximum(values, 0.04045) + 0.055) / 1.055) ** 2.4)
+
+
+def srgb_bytes(linear: Floats) -> Bytes:
+    """sRGB bytes of linear 0..1; the reverse of `from_srgb`."""
+    held = np.clip(linear, 0.0, 1.0)
+    encoded = np.where(held <= 0.0031308, 12.92 * held, 1.055 * np.maximum(held, 0.0031308) ** (1.0 / 2.4) - 0.055)
+    return np.rint(255.0 * encoded).astype(np.uint8)
 
 
 LINEAR: Floats = from_srgb(np.arange(256) / 255.0)
@@ -141,6 +151,16 @@ def as_png(pixels: Bytes) -> Picture:
     stream = io.BytesIO()
     Image.fromarray(pixels).save(stream, "PNG")
     return Picture(stream.getvalue(), "image/png")
+
+
+def smaller(pixels: Bytes) -> Picture:
+    """A picture of (height, width, 3) sRGB bytes as PNG, or as JPEG with whole chroma where that is smaller."""
+    image, png, jpeg = Image.fromarray(pixels), io.BytesIO(), io.BytesIO()
+    image.save(png, "PNG", optimize=True)
+    image.save(jpeg, "JPEG", quality=QUALITY, subsampling=0, optimize=True)
+    if len(png.getvalue()) <= len(jpeg.getvalue()):
+        return Picture(png.getvalue(), "image/png")
+    return Picture(jpeg.getvalue(), "image/jpeg")
 
 
 def sample_picture(

@@ -77,8 +77,7 @@ def test_roots_are_bound_and_floating_strands_counted(ball: Surface) -> None:
     [
         (lambda p: 100 * p, "is 100 times too large, expected the body's own units"),
         (lambda p: p / 100, "is 100 times too small, expected the body's own units"),
-        (lambda p: [*p, 9.0, 0, 0], "expected a groom of this body"),
-        (lambda p: p[:, :, [0, 2, 1]] * [100, -100, 100] + [0, 0, 0], "100 times too large"),
+        (lambda p: p + np.array([9.0, 0, 0]), "expected a groom of this body"),
     ],
 )
 def test_grooms_of_other_bodies_and_units_get_one_sentence(ball: Surface, change: Any, message: str) -> None:

@@ -159,7 +159,9 @@ def test_files_of_options_are_regular_and_bounded(run: Callable[..., Any], monke
         "pipe.json": "is no regular file, expected ",
         "large.json": "more than 1000000 bytes to read, expected fewer",
     }
-    options = [("-o", "new", option) for option in ("--mask", "--length-map", "--comb", "--guide", "--features")]
+    options = [
+        ("-o", "new", option) for option in ("--mask", "--length-map", "--comb", "--guide", "--features", "--rig")
+    ]
     # Where a bake is, its key is asked for first, with the hashes of all files.
     for args in (*options, ("-o", "out", "--if-stale", "--mask")):
         for name, why in wrong.items():

@@ -25,7 +25,7 @@ def grown(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     """Heights of the tiles that were grown: none where a pelt comes from the cache."""
     heights: list[float] = []
     grow = Tile.grow
-    monkeypatch.setattr(Tile, "grow", lambda options, height: heights.append(height) or grow(options, height))
+    monkeypatch.setattr(Tile, "grow", lambda options, height, *more: heights.append(height) or grow(options, height, *more))
     return heights
 
 

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from furbake.options import BakeOptions, preset
-from furbake.pelt.curves import RADII, Curves, abscissa, elevation
+from furbake.pelt.curves import RADII, Curves, abscissa, elevation, lean_direction
 from furbake.pelt.hairs.states import DIRTY, PeltState, in_state
 from furbake.pelt.hairs.strands import grow
 from furbake.pelt.light.paths import lowest
-from furbake.pelt.light.transport import hemisphere
-from furbake.pelt.means import Measured, coarser, directions, measure, rounded, shared, tables
+from furbake.pelt.light.transport import Setting, hemisphere, sample_apart
+from furbake.pelt.means import Measured, coarser, directions, mean_light, measure, rounded, shared, tables
 from furbake.pelt.texels.basis import PTM, Basis, smooth_terms
 from furbake.pelt.texels.eigen import eigen, eigen_of_slabs
 from furbake.pelt.texels.fit import Judge, fit, relight
@@ -32,6 +32,13 @@ def known(count: int = 2) -> tuple[Curves, np.ndarray]:
     even = np.stack([[x ** (1 + q) * (1 + 0.2 * r) for r in range(3)] for q in range(count)])
     along = even * (1 - x) * np.linspace(-0.8, 0.8, count)[:, None, None]
     return Curves(even, along, LEAN), RNG.uniform(0.2, 1, (5, count))
+
+
+def around(beta: float, count: int) -> np.ndarray:
+    """Lights evenly spread from the lowest that tips see to the zenith, (count, 3)."""
+    z = elevation((np.arange(count) + 0.5) / count * 16, beta)
+    azimuth = 2.4 * np.arange(count)
+    return np.stack([*(np.sqrt(1 - z * z) * [np.cos(azimuth), np.sin(azimuth)]), z], -1)
 
 
 def measured(curves: Curves, weights: np.ndarray, beta: float, lights: np.ndarray) -> Measured:
@@ -53,9 +60,28 @@ def test_known_curves_come_back_from_their_values() -> None:
     found, (own,) = shared([each], [np.ones(5)], LEAN, 2)
     assert found.count == 2
     for beta in (1.0, 3.0, 4.0, 16.0):
-        lights = directions(beta, 500)
+        lights = around(beta, 500)
         right = curves.mean(lights, weights, beta)
         assert np.abs(found.mean(lights, own, beta) - right).max() < 0.015 * right.max()
+
+
+def test_light_below_the_horizon_is_nearly_as_dim_as_in_the_hairs() -> None:
+    """On a body between two of the tables' radii, of the light that an eye above sees; once it was 1.35 of it."""
+    options = replace(SMALL, layers=8)
+    _, fine, volume = grown(options)
+    own = under(hemisphere(32), fine, options)
+    home = Measured(4.0, hemisphere(32), mean_light(own, volume.coverage))
+    lean = lean_direction(fine.drift[-1])
+    each = tables(home, measure(fine, 8, 16, options.coat), lean)
+    cover = volume.coverage.mean((1, 2))
+    curves, (weights,) = shared([each], [cover], lean)
+    seen = cover * [np.prod(1 - cover[k + 1 :]) for k in range(8)]
+    for share in (0.1, 0.2, 0.3):
+        z, azimuth = share * lowest(8.0), np.arange(8) * np.pi / 4 + 0.3
+        lights = np.stack([*(np.sqrt(1 - z * z) * np.array([np.cos(azimuth), np.sin(azimuth)])), np.full(8, z)], -1)
+        parts = sample_apart(fine, 8, 16, lights, Setting(options.coat.albedo, options.coat.skin, beta=8.0))[:2]
+        right = sum(mean_light(part, volume.coverage) for part in parts)
+        assert 0.9 < (curves.mean(lights, weights, 8.0) @ seen).sum() / (right @ seen).sum() < 1.28
 
 
 def test_coarse_voxels_that_are_too_bright_are_scaled() -> None:
@@ -64,7 +90,7 @@ def test_coarse_voxels_that_are_too_bright_are_scaled() -> None:
     own = measured(curves, weights, 4.0, hemisphere(64))
     each = tables(own, bodies, LEAN)
     found, (again,) = shared([each], [np.ones(5)], LEAN)
-    lights = directions(1.0, 200)
+    lights = around(1.0, 200)
     right = curves.mean(lights, weights, 1.0)
     assert np.abs(found.mean(lights, again, 1.0) - right).max() < 0.02 * right.max()
 
@@ -73,7 +99,7 @@ def test_nothing_below_the_horizon_lights_a_flat_patch() -> None:
     curves, weights = known()
     own = measured(curves, weights, 4.0, hemisphere(64, lowest=0.1))
     found, (again,) = shared([tables(own, (), LEAN)], [np.ones(5)], LEAN)
-    below = directions(4.0, 64)[:23]
+    below = around(4.0, 64)[:23]
     assert (below[:, 2] < 0).all()
     assert (found.mean(below, again) == 0).all()
     np.testing.assert_allclose(found.mean(own.lights, again), own.values, atol=0.02 * own.values.max())
@@ -103,7 +129,7 @@ def test_coefficients_that_curves_multiply_are_found_again() -> None:
     samples = relight(right, PTM, lights, mean)
     assert samples.min() > 0
     np.testing.assert_allclose(fit(samples.astype(float), PTM, lights, mean), right, atol=1e-4)
-    below = directions(4.0, 64)[:20]
+    below = around(4.0, 64)[:20]
     dim = relight(right, PTM, below, curves.mean(below, weights))
     held = np.concatenate([below[:, :2] / np.hypot(*below[:, :2].T)[:, None], np.zeros((20, 1))], 1)
     plain = relight(right, PTM, held) * curves.mean(below, weights)[:, :, None, None]

@@ -191,7 +191,7 @@ test('what is dropped or chosen is shown, or a sentence says why not and the mod
 	await dropFiles(page, { 'torus.zip': good });
 	await expect.poll(async () => difference(torus, await bare(page))).toBeLessThan(0.01);
 	await dropFiles(page, { 'new.zip': zipped(newer, 0) });
-	await expect(said(page)).toContainText('its fur is of version 9.0, newer than the 2.2 that this page knows');
+	await expect(said(page)).toContainText('its fur is of version 9.0, newer than the 2.3 that this page knows');
 	expect(difference(torus, await bare(page))).toBeGreaterThan(1);
 	await hold(page, folder, ['dragEnter', 'dragOver', 'drop']);
 	await expect.poll(async () => difference(torus, await bare(page))).toBeLessThan(0.01);

@@ -91,10 +91,10 @@ test('the number of shells changes without a jump', async ({ page }) => {
 	});
 	const told = steps.map(({ dB, brighter }) => `${dB.toFixed(1)} dB, ${(100 * brighter).toFixed(2)} %`);
 	test.info().annotations.push({ type: 'steps', description: told.join('; ') });
-	// Eight shells show every other slab alone, and are 7 % darker than 7.8 and 8.2.
+	// Eight shells show every other slab alone: 2 % brighter than 7.8 and 8.2 do, 6 % than 7.9 and 8.1.
 	for (const { few, dB, brighter } of steps) {
-		expect(dB).toBeGreaterThan(few ? 27 : 36);
-		expect(Math.abs(brighter)).toBeLessThan(few ? 0.09 : 0.02);
+		expect(dB).toBeGreaterThan(few ? 29 : 36);
+		expect(Math.abs(brighter)).toBeLessThan(few ? 0.065 : 0.02);
 	}
 });
 

@@ -54,7 +54,7 @@ describe('a plot', () => {
 
 	it('puts points where their values are', () => {
 		const [[x0 = 0, y0 = 0] = [], [x1 = 0, y1 = 0] = []] = path(plot(series, axes)) ?? [];
-		const bottom = 204;
+		const bottom = 210;
 		expect(x1).toBe(300);
 		expect(x0).toBe(46);
 		expect((bottom - y0) / (bottom - y1)).toBeCloseTo(50 / 400, 2);

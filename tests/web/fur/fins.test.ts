@@ -143,6 +143,12 @@ describe('varyings', () => {
 		expect([fins, shells].map(({ material }) => rows(material))).toEqual([8, 8]);
 		Object.assign(shells.material, { environment: true, gloss: 0.5, backlight: 6 });
 		expect([fins, shells].map(({ material }) => rows(material))).toEqual([15, 15]);
+		// With a picture of the roots.
+		for (const { material } of [fins, shells]) {
+			material.defines.ROOTS = '';
+			expect(rows(material)).toBeLessThanOrEqual(15);
+			delete material.defines.ROOTS;
+		}
 		shells.material.lampsPerFragment = true;
 		for (const { material } of [fins, shells]) {
 			expect(rows(material)).toBeLessThanOrEqual(15);

@@ -102,6 +102,7 @@ it('exports what is behind the pictures apart', () => {
 		  "Multiple",
 		  "Pelt",
 		  "RGB",
+		  "RegionFur",
 		  "Slot",
 		  "Spring",
 		  "Visit",

@@ -43,6 +43,7 @@ export const en = {
 	heading: 'How fast is it?',
 	intro:
 		"The same fur, lit in six ways on the same torus, drawn in turn by the machine in front of you: 16 shells under one lamp that moves every frame, and nothing else. Unlit fur is the limit; shadow layers are the rival of the article's Table 1, in the form of deep opacity maps, redrawn whenever the light moves.",
+	measured: 'What other machines have measured, and how',
 	measure: 'Measure',
 	again: 'Measure again',
 	stop: 'Stop',

@@ -37,6 +37,8 @@ export class Dynamics {
 		this.#calm = calm;
 	}
 
+	/** True while heads follow the lamp. */
+	#looksAtLamp = false;
 	/** Called with the seconds into the clip when that has another pose. */
 	posed: (time: number) => void = () => {};
 	/** True while a brush that wets or soils is chosen. */
@@ -93,8 +95,9 @@ export class Dynamics {
 	}
 
 	/** Plays the view's clip, or holds it. */
-	pose({ clip, time, speed = 1 }: View): void {
+	pose({ clip, time, speed = 1, look = true }: View): void {
 		const clips = this.#stage.model?.clips;
+		this.#looksAtLamp = look && !this.#calm;
 		if (!clips) return;
 		clips.speed = speed;
 		clips.choose(clip ?? (clips.names[0] as string));
@@ -105,12 +108,13 @@ export class Dynamics {
 	/** Brings the body to its clip's pose. @returns true for a new pose */
 	#stepClip(seconds: number): boolean {
 		const clips = this.#stage.model?.clips;
+		clips?.gaze?.aim(this.#looksAtLamp ? this.#stage.toLamp : undefined);
 		if (!clips?.step(seconds)) return false;
 		this.#stage.followPose();
 		this.posed(clips.time);
 		// Hairs lag behind a body that moves.
 		if (this.#calm) this.#motion?.settle();
-		else if (clips.playing) this.#needMotion();
+		else if (clips.moves) this.#needMotion();
 		return true;
 	}
 
@@ -196,7 +200,7 @@ export class Dynamics {
 	 */
 	step(seconds: number): number {
 		const { sway } = this;
-		const playing = this.#stepClip(seconds) && this.#stage.model?.clips?.playing;
+		const playing = this.#stepClip(seconds) && this.#stage.model?.clips?.moves;
 		const swung = sway.step(seconds);
 		if (swung) {
 			this.#stage.moveBody(sway.offset, sway.yaw);

@@ -120,13 +120,15 @@ export class Controls {
 		const { menu, shown, looks, entry } = this.#exhibit;
 		const view = this.#store.get();
 		const { fur, body } = looks;
+		const { clips } = this.#picture.stage.model ?? {};
 		const lit = !isRival(view.method ?? 'ptm') || (view.split && !isRival(view.split.method));
 		return {
 			...{ model: shown !== '', fur: fur !== undefined, fins: fur?.fins !== undefined && Boolean(lit) },
 			...{ eigen: hasEigen(view, entry, menu), root: fur !== undefined && !hasOwnColours(fur) },
 			...statesFor(view, entry, menu, body),
 			...{ calm: this.#picture.calm, alone: !fur || (view.crowd ?? 1) <= 1 },
-			...{ clips: this.#picture.stage.model?.clips !== undefined, plays: !this.#picture.still },
+			...{ clips: clips !== undefined, plays: !this.#picture.still },
+			looks: clips?.gaze !== undefined && !this.#picture.calm,
 		};
 	}
 

@@ -10,7 +10,7 @@ import { OrbitCamera } from './camera.ts';
 import { Frames } from './frames.ts';
 import { textureBytes } from './memory.ts';
 import type { Overlay } from './overlay.ts';
-import { watchSize } from './size.ts';
+import { watchSight, watchSize } from './size.ts';
 import { Stage } from './stage.ts';
 import { GpuTimer } from './timer.ts';
 
@@ -20,6 +20,11 @@ const SETTLING_TIME = 1200;
 const ROOM_EASING = 0.11;
 const ROOM_REACHED = 0.3;
 const ROOM_SIDES = ['left', 'top', 'width', 'height'] as const;
+/**
+ * Share of a frame's time that counts while neither light nor camera moves: 30 frames a second are enough for a body that
+ * breathes, and a picture that is looked at is better sharp.
+ */
+const ALIVE = 0.5;
 /** Longest time step of animations, seconds: nothing leaps after a hidden tab. */
 const MAX_STEP = 0.25;
 
@@ -64,6 +69,8 @@ export class Picture {
 	/** True while the canvas has another size than the picture. */
 	#stale = false;
 	#visible = false;
+	/** False while the page is scrolled away, in which nothing moves by itself. */
+	#inSight = true;
 	#moved = Number.NEGATIVE_INFINITY;
 	#moving = false;
 	/** Milliseconds that this frame has waited for. */
@@ -91,6 +98,10 @@ export class Picture {
 		this.#governor = new FurGovernor(this.timer.works ? { target: 14 } : { target: 20, capped: true });
 		watchSize(canvas, () => {
 			this.#stale = true;
+			this.request();
+		});
+		watchSight(canvas, (inSight) => {
+			this.#inSight = inSight;
 			this.request();
 		});
 	}
@@ -224,13 +235,14 @@ export class Picture {
 			this.updateLight();
 			this.#frame();
 		}
+		const alive = wait === 0 && !(this.#moving || turning || entering);
 		if (wait === 0) this.#moving = true;
 		const glowing = lamp.glide(camera, calm ? Number.POSITIVE_INFINITY : elapsed);
 		if (this.#moving || turning || entering) this.#moved = now;
 		const time = timer.read();
 		// The interval of a frame that waited is not its duration.
 		const taken = timer.works ? time : this.#wait === 0 ? interval : Number.NaN;
-		if (!still) stage.scale = this.#governor.frame(taken, now, this.#moving);
+		if (!still) stage.scale = this.#governor.frame(alive ? ALIVE * taken : taken, now, this.#moving);
 		this.#moving = false;
 		if (this.#visible && !stage.gl.isContextLost()) {
 			if (this.overlay) this.overlay.frame(this.#render, interval);
@@ -240,7 +252,7 @@ export class Picture {
 		const gliding = entering || turning || wandering;
 		const moves = gliding || (glowing && !calm) || (!still && now - this.#moved < SETTLING_TIME);
 		this.#wait = moves ? 0 : wait;
-		return this.#wait;
+		return this.#inSight ? this.#wait : Number.POSITIVE_INFINITY;
 	}
 
 	/** Reports the memory of the scene's textures to the overlay. */

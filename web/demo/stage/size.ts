@@ -1,4 +1,4 @@
-/** Changes of the picture's size: of the window, the layout, or the screen's pixels. */
+/** Changes of the picture's size, of the window, the layout, or the screen's pixels, and whether it is in sight. */
 
 /** @param changed called after a change of the canvas's size or of the pixel ratio */
 export function watchSize(canvas: HTMLCanvasElement, changed: () => void): void {
@@ -14,4 +14,9 @@ export function watchSize(canvas: HTMLCanvasElement, changed: () => void): void 
 			{ once: true },
 		);
 	watchPixels();
+}
+
+/** @param changed called with whether any of the canvas can be seen, where that changes */
+export function watchSight(canvas: HTMLCanvasElement, changed: (inSight: boolean) => void): void {
+	new IntersectionObserver((entries) => changed(entries.at(-1)?.isIntersecting ?? true)).observe(canvas);
 }

@@ -151,7 +151,7 @@ export class Stage {
 		this.radius = this.#crowd?.radius ?? model.radius;
 		model.box.getCenter(this.centre);
 		const length = this.#fur?.shells.furLength ?? 0.05 * model.radius;
-		this.#turnLight();
+		this.setLight(this.toLamp);
 		fitFurShadow(this.key, new Sphere(this.centre, (this.#crowd?.reach ?? this.radius) + length), length);
 	}
 
@@ -195,7 +195,7 @@ export class Stage {
 		this.#yaw = yaw;
 		stand(model, this.#offset, yaw);
 		this.#followBody();
-		this.#turnLight();
+		this.setLight(this.toLamp);
 	}
 
 	/** Moves the soft shadow to where the body is above the ground. */
@@ -208,9 +208,9 @@ export class Stage {
 		this.#shadow.follow(this.#lift, this.#yaw, heightOf(model), model.box);
 	}
 
-	/** Keeps the lamp's direction while its target moves. */
-	#turnLight(): void {
-		this.setLight(this.#toLamp.subVectors(this.key.position, this.key.target.position).normalize());
+	/** Direction to the lamp, world axes, unit; it stays while the lamp's target moves. */
+	get toLamp(): Vector3 {
+		return this.#toLamp.subVectors(this.key.position, this.key.target.position).normalize();
 	}
 
 	/** @param environment replaces sky, lamp colour and backdrop; undefined: the page's own */
@@ -228,7 +228,7 @@ export class Stage {
 			lamp.position.copy(direction);
 			this.#environmentLights.add(lamp);
 		}
-		this.#turnLight();
+		this.setLight(this.toLamp);
 	}
 
 	/** @param direction unit vector from the model to the lamp, world axes */

@@ -43,6 +43,8 @@ export interface Abilities {
 	clips: boolean;
 	/** clips may play */
 	plays: boolean;
+	/** its head may follow the lamp */
+	looks: boolean;
 }
 
 interface Base<Shows> {

@@ -1,18 +1,7 @@
 /** The table of parameters: a row each, which drives the address, the panel and the table in the docs. */
 
-import {
-	type Abilities,
-	type Control,
-	choice,
-	menu,
-	type NumberName,
-	type Slider,
-	slider,
-	sliderOf,
-	swatch,
-	toggle,
-	toggleOf,
-} from './controls.ts';
+import { type Abilities, choice, menu, slider, swatch, toggle, toggleOf } from './controls.ts';
+import { type Parameter, ranged } from './parameter.ts';
 import * as values from './values.ts';
 import {
 	ENVIRONMENTS,
@@ -27,17 +16,7 @@ import {
 	type View,
 } from './view.ts';
 
-/** Part of the page that follows a change: model, environment, fur, or the style of what is on show. */
-export type Part = 'model' | 'environment' | 'fur' | 'style';
-
-export interface Parameter<Type> {
-	value: values.Value<Type>;
-	/** For the docs: a value, and what it means. */
-	doc: readonly [example: string, meaning: string];
-	/** without it: the style */
-	part?: Part;
-	controls?: readonly Control[];
-}
+export type { Parameter, Part } from './parameter.ts';
 
 type Table = { readonly [Name in keyof View]-?: Parameter<NonNullable<View[Name]>> };
 
@@ -57,17 +36,6 @@ const isAllowed = (method: string, { eigen, alone }: Abilities) =>
 const windOf = (strength: number, direction: number): Partial<View> => ({
 	wind: strength === 0 && direction === RIGHT ? undefined : [strength, direction],
 });
-
-interface Ranged extends Pick<Parameter<number>, 'doc' | 'part'>, Pick<Slider, 'folder' | 'label' | 'range' | 'step'> {
-	initial: number;
-	enabled?: Slider['enabled'];
-}
-
-/** A number with a slider over its whole range; whole numbers where the step is 1. */
-function ranged(name: NumberName, { doc, part, initial, ...control }: Ranged): Parameter<number> {
-	const value = control.step === 1 ? values.whole(control.range[1]) : values.number(...control.range);
-	return { value, doc, part, controls: [sliderOf(name, initial, control)] };
-}
 
 /** In the order in which an address has them; those of a folder of the panel in its order. */
 export const parameters: Table = {
@@ -287,6 +255,11 @@ export const parameters: Table = {
 		...{ folder: 'clips', label: 'speed', range: [0.1, 3], step: 0.05, initial: 1, enabled: ({ plays }) => plays },
 		doc: ['0.5', 'Speed of the clip, a factor of its own'],
 	}),
+	look: {
+		value: values.flag,
+		doc: ['0', 'A model with a joint named head looks at the lamp, or not'],
+		controls: [toggleOf('look', true, { folder: 'clips', label: 'look', enabled: ({ looks }) => looks })],
+	},
 	details: { value: values.flag, doc: ['1', 'All figures of the picture beside its speed and shells, with graphs'] },
 	still: { value: values.flag, doc: ['1', 'Nothing moves by itself, and wind bends the fur without gusts'] },
 	ui: { value: values.flag, doc: ['0', 'The picture alone'] },

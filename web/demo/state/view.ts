@@ -53,6 +53,8 @@ export interface View {
 	readonly time?: number | undefined;
 	/** factor of the clip's speed */
 	readonly speed?: number | undefined;
+	/** whether the head follows the lamp */
+	readonly look?: boolean | undefined;
 	readonly details?: boolean | undefined;
 	readonly still: boolean;
 	readonly ui: boolean;

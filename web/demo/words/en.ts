@@ -67,6 +67,7 @@ export const en = {
 	turntable: 'Turntable',
 	clip: 'Clip',
 	play: 'Play',
+	look: 'Look at the lamp',
 	time: 'Time, s',
 	speed: 'Speed',
 	clean: 'Dry and clean',

@@ -64,6 +64,7 @@ export const zh: Words = {
 	turntable: '转台',
 	clip: '动作',
 	play: '播放',
+	look: '望向灯光',
 	time: '时间（秒）',
 	speed: '速度',
 	clean: '擦干洗净',
@@ -99,6 +100,7 @@ export const zh: Words = {
 	},
 	titles: {
 		bunny: '兔子',
+		tiger: '小老虎',
 		torus: '圆环',
 		sphere: '球体',
 		paper: '论文原始毛发',

@@ -10,11 +10,13 @@ import {
 } from 'three';
 import output from '../shaders/draw/output.glsl?raw';
 import colour from '../shaders/hair/colour.glsl?raw';
+import dissolve from '../shaders/hair/dissolve.glsl?raw';
 import frame from '../shaders/hair/frame.glsl?raw';
 import hairIn from '../shaders/hair/hair.frag.glsl?raw';
 import hairOut from '../shaders/hair/hair.vert.glsl?raw';
 import opacity from '../shaders/hair/opacity.glsl?raw';
 import shell from '../shaders/hair/shell.glsl?raw';
+import drift from '../shaders/hair/tile/drift.glsl?raw';
 import view from '../shaders/light/view.glsl?raw';
 import { hairChunks, texelChunks } from '../shells/chunks.ts';
 import type { FurMaterial } from '../shells/FurMaterial.ts';
@@ -42,13 +44,17 @@ export class BaselineMaterial extends ShaderMaterial {
 			glslVersion: shells.glslVersion,
 			uniforms: { ...shells.uniforms, ...UniformsUtils.clone(UniformsLib.lights), ...uniforms },
 			defines: { ...parts, ...defines },
-			vertexShader: ['#include <common>', view, ...hairChunks, frame, shell, colour, hairOut, vertexShader].join('\n'),
+			vertexShader: ['#include <common>', view, ...hairChunks, frame, drift, shell, colour, hairOut, vertexShader].join(
+				'\n',
+			),
 			fragmentShader: [
 				'#include <common>',
 				...texelChunks,
 				coverage,
+				dissolve,
 				opacity,
 				colour,
+				...('ROOTS' in shells.defines ? [drift] : []),
 				hairIn,
 				output,
 				fragmentShader,

@@ -1,9 +1,12 @@
 import type { BufferGeometry, Color, Object3D } from 'three';
+import type { Roots } from './roots/Roots.ts';
 import type { Skin } from './Skin.ts';
 
 /** Surfaces of a body that fur is drawn on. */
 export interface Ground {
 	skin: Skin;
+	/** Picture of the skin's colours below the hairs; undefined: vertices have them. */
+	roots?: Roots | undefined;
 	/** Base colour of the model, which multiplies the fur's. */
 	colour: Color;
 	/** Geometry below the shells, the shells' node, and the quads of the fins. */

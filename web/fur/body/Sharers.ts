@@ -1,5 +1,6 @@
 import type { BufferGeometry, Mesh } from 'three';
 import { Morphs } from './Morphs.ts';
+import type { Roots } from './roots/Roots.ts';
 import type { Skin } from './Skin.ts';
 import { unshareGeometry } from './shareGeometry.ts';
 
@@ -7,7 +8,7 @@ import { unshareGeometry } from './shareGeometry.ts';
 interface SharedFur {
 	readonly shells: Mesh;
 	readonly fins: Mesh | undefined;
-	readonly ground: { readonly skin: Skin };
+	readonly ground: { readonly skin: Skin; readonly roots?: Roots | undefined };
 	readonly pelt: { dispose(): void };
 }
 
@@ -43,7 +44,10 @@ export class Sharers {
 		const keepers = this.#owned === 'nothing' ? undefined : others.flatMap(geometriesOf);
 		for (const geometry of geometriesOf(fur)) unshareGeometry(geometry, keepers);
 		if (this.#owned !== 'body') return;
-		if (last) fur.pelt.dispose();
+		if (last) {
+			fur.pelt.dispose();
+			fur.ground.roots?.texture.dispose();
+		}
 		skin.pose?.skeleton?.dispose();
 		skin.dispose(others.flatMap(({ ground }) => ground.skin.geometries));
 	}

@@ -16,10 +16,18 @@ export interface FinPlaces {
 	lean: number;
 	/** Tiles that a texture coordinate of 1 stands for. */
 	tiles: number;
+	/** Coordinates of the picture of the roots per tile; undefined: there is none. */
+	roots?: readonly [number, number] | undefined;
 }
 
 /** Numbers per vertex of what `FurFins` needs. */
-const SIZES = { position: 3, normal: 3, tangent: 4, uv: 2, _fur: 4, _edge: 4, color: 3 };
+const SIZES = {
+	...{ position: 3, normal: 3, tangent: 4, uv: 2, _fur: 4, _edge: 4 },
+	...{ color: 3, skinIndex: 4, skinWeight: 4, uv1: 2 },
+};
+
+/** Those that only some surfaces have, copied from their vertices. */
+const COPIED: readonly string[] = ['color', 'skinIndex', 'skinWeight'];
 
 /**
  * Four vertices per edge: root, root, tip, tip, first end before second. Fins run the way in which the fur is laid.
@@ -29,7 +37,7 @@ const SIZES = { position: 3, normal: 3, tangent: 4, uv: 2, _fur: 4, _edge: 4, co
  * @throws Error for a mask of another number of edges
  */
 export function finQuads(surface: BufferGeometry, mask: Uint8Array, places: FinPlaces): BufferGeometry {
-	const { start, tile, lean, tiles } = places;
+	const { start, tile, lean, tiles, roots: scale } = places;
 	const faces = new EdgeFaces(surface);
 	if (mask.length !== Math.ceil(faces.count / 8))
 		throw new Error(
@@ -39,7 +47,7 @@ export function finQuads(surface: BufferGeometry, mask: Uint8Array, places: FinP
 	const count = edges.length;
 	const quads = new BufferGeometry();
 	for (const [name, size] of Object.entries(SIZES)) {
-		if (name !== 'color' || surface.hasAttribute(name))
+		if (COPIED.includes(name) ? surface.hasAttribute(name) : name !== 'uv1' || scale)
 			quads.setAttribute(name, new Float32BufferAttribute(count * 4 * size, size));
 	}
 	const roots = [new Root(surface, quads), new Root(surface, quads)] as const;
@@ -60,6 +68,7 @@ export function finQuads(surface: BufferGeometry, mask: Uint8Array, places: FinP
 			const u = begin + end * length;
 			root.write(4 * i + end, along, one, two, u / tiles, 0);
 			root.write(4 * i + end + 2, along, one, two, (u + sheared) / tiles, 1 / tiles);
+			if (scale) for (const at of [4 * i + end, 4 * i + end + 2]) root.mark(at, scale[0] * tiles, scale[1] * tiles);
 		}
 	}
 	quads.setIndex(
@@ -95,21 +104,30 @@ class Root {
 		t.multiplyScalar(_comb?.getX(vertex) ?? 0).addScaledVector(this.across, _comb?.getY(vertex) ?? 0);
 	}
 
+	/** Writes the place of a vertex in the picture of the roots. */
+	mark(at: number, across: number, down: number): void {
+		const { uv } = this.surface.attributes;
+		if (uv) this.quads.attributes.uv1?.setXY(at, across * uv.getX(this.#vertex), down * uv.getY(this.#vertex));
+	}
+
 	/**
 	 * Writes a vertex of a fin.
 	 *
 	 * @param along unit, the edge; `one`, `two`: normals of its faces
 	 */
 	write(at: number, along: Vector3, one: Vector3, two: Vector3, u: number, v: number): void {
-		const { position, normal, tangent, uv, _fur, _edge, color } = this.quads.attributes;
-		const { _fur: fur, color: colour } = this.surface.attributes;
+		const { position, normal, tangent, uv, _fur, _edge } = this.quads.attributes;
+		const { _fur: fur } = this.surface.attributes;
 		const [vertex, n] = [this.#vertex, this.#normal];
 		position?.setXYZ(at, ...this.place.toArray());
 		normal?.setXYZ(at, ...n.toArray());
 		tangent?.setXYZW(at, along.x, along.y, along.z, 1);
 		uv?.setXY(at, u, v);
 		_fur?.setXYZW(at, 1, fur?.getY(vertex) ?? 1, fur?.getZ(vertex) ?? 1, fur?.getW(vertex) ?? 0);
-		if (colour) color?.setXYZ(at, colour.getX(vertex), colour.getY(vertex), colour.getZ(vertex));
+		for (const name of COPIED) {
+			const [own, source] = [this.quads.attributes[name], this.surface.attributes[name]];
+			for (let c = 0; own && source && c < own.itemSize; c++) own.setComponent(at, c, source.getComponent(vertex, c));
+		}
 		// The comb, along the edge made perpendicular to the normal, and across.
 		const [upright, aside] = this.#spare;
 		aside.crossVectors(along, n).normalize();

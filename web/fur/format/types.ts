@@ -115,12 +115,19 @@ export interface FurAsset {
 	shells: number;
 	/** Index of the fins' node: quads on the edges. */
 	fins?: number;
-	/** Fins in place of that node; format 2.2. */
+	/** Fins in place of that node; format 2.2, of a body with joints 2.3. */
 	edges?: {
 		/** Index of an accessor: a bit for each edge of the shells. */
 		mask: number;
 		/** Where the first fin begins, a share of a tile. */
 		start: number;
+	};
+	/** Colours of the skin at the roots of the hairs; format 2.3. */
+	roots?: {
+		/** Index of a texture of the glTF, sRGB. */
+		texture: number;
+		/** Coordinates of the picture per tile. */
+		scale: [number, number];
 	};
 	/** Factor from TEXCOORD_0 to tiles; 1 where absent. */
 	tiles?: number;
@@ -163,6 +170,24 @@ export interface FurAsset {
 	pelts: Pelt[];
 	/** Linear colour of the dirt, where a state is dirty. */
 	mud?: RGB;
+	/** Further furs on the same body; all else here is of the first one, the coat. Format 2.3. */
+	regions?: {
+		/** Width of a tile of the coat, model units. */
+		tile: number;
+		/** Cells along that width in which all hairs are of one fur. */
+		cells: number;
+		/** Furs beside the coat. */
+		furs: RegionFur[];
+	};
+}
+
+/** Fur of a region of a body; the rest is as of the coat. */
+export interface RegionFur
+	extends Pick<FurAsset, 'height' | 'curves' | 'drift' | 'bent' | 'eye' | 'surge' | 'ramp' | 'pelts'> {
+	/** Name of the region. */
+	name: string;
+	/** Width of its tile over that of the coat's. */
+	tile: number;
 }
 
 /** Place of a number of a texel. */

@@ -1,5 +1,6 @@
 import { type Camera, Frustum, Matrix4, Object3D, type OrthographicCamera, Sphere, Vector4 } from 'three';
 import type { Fur } from '../Fur.ts';
+import { tileOf } from '../format.ts';
 import { coarserShare, crispnessFor, cutFor, pixelsPerUnit, shellsFor } from '../shells/lod.ts';
 import { BodyHull, BodyLevel, BodyMaterial } from './BodyLevel.ts';
 import { boundAll, cullBodies, cutLevels, type Eye, findEye, levelOf, measurePowers, sortFarFirst } from './bodies.ts';
@@ -110,7 +111,7 @@ export class FurInstances extends Object3D {
 		this.#poses = skeleton && new HerdPoses(skeleton);
 		this.#firstJoints = new Uint32Array(capacity);
 		this.#furMatrix = placement(shells, root);
-		this.#texel = fur.asset.length / (fur.asset.height * fur.asset.size);
+		this.#texel = tileOf(fur.asset) / fur.asset.size;
 		this.fewestShells = fur.asset.layers / 2;
 		this.#fit();
 

@@ -9,7 +9,8 @@ export class PeltLight {
 	readonly uniforms: Record<string, IUniform>;
 	/** Mean curves with the dry pelt's weights; format 2.x only. */
 	readonly means: SlabMeanCurves | undefined;
-	readonly #texels: TexelCoding;
+	/** Of each fur. */
+	readonly #texels: readonly TexelCoding[];
 	readonly #planes: readonly Texture[];
 	readonly #layers: number;
 	readonly #fin: boolean;
@@ -20,48 +21,65 @@ export class PeltLight {
 	/** Slabs of the states in the textures. */
 	#states: readonly SlabState[];
 	/** Stand-ins for the slabs of cut fur. */
-	#places: ArrayLike<number> | undefined;
+	#places: readonly ArrayLike<number>[] | undefined;
 
-	/** @param planes of the coefficients @param layers slabs of the pelt @param fin whether the frame is a fin's */
-	constructor(texels: TexelCoding, planes: readonly Texture[], layers: number, fin: boolean, leader?: PeltLight) {
-		const { means, basis } = texels;
+	/** @param texels of each fur @param planes of the coefficients @param layers slabs of the pelt @param fin whether the frame is a fin's */
+	constructor(
+		texels: readonly TexelCoding[],
+		planes: readonly Texture[],
+		layers: number,
+		fin: boolean,
+		leader?: PeltLight,
+	) {
+		const [coat] = texels as [TexelCoding];
+		const { means, basis } = coat;
+		const furs = texels.flatMap((own) => own.means ?? []);
 		this.means = means;
 		this.#texels = texels;
 		this.#planes = planes;
 		this.#layers = layers;
 		this.#fin = fin;
 		this.#leader = leader;
-		this.#states = means ? [means] : [];
-		this.#slabLight = means && new SlabLight(basis, means, this.#states, fin);
+		this.#states = furs;
+		this.#slabLight = means && new SlabLight(basis, furs, furs, fin);
 		this.uniforms = {
 			...(means
 				? {
-						curveTable: leader?.uniforms.curveTable ?? { value: curveTable(means.curves) },
+						curveTable: leader?.uniforms.curveTable ?? { value: curveTable(furs.map(({ curves }) => curves)) },
 						slabLight: { value: this.#slabLight?.texture },
 					}
-				: momentUniforms(texels, fin)),
+				: momentUniforms(coat, fin)),
 			trimLight: { value: null },
 		};
 	}
 
 	/** Places in whole fur with the light that the slabs of cut fur get; see `standIns`. */
-	places(share: number): Float64Array {
+	places(share: number): Float64Array[] {
 		return this.#trim().places(share);
 	}
 
 	/** Light slabs as at these places; undefined: at their own. */
-	cut(places: Float64Array | undefined): void {
+	cut(places: readonly Float64Array[] | undefined): void {
 		if (places) this.#trim().set(places);
 		this.#places = places;
 		this.#weigh();
 	}
 
 	/** Show the states in the textures, the driest first; states without weights use the dry pelt's. */
-	show(states: readonly Partial<SlabState>[] = [this.means ?? {}]): void {
-		const { means } = this;
-		if (!means) return;
-		this.#states = states.map(({ weights = means.weights, multiple }) => ({ weights, multiple }));
+	show(states: readonly (Partial<SlabState> & { name?: string })[] = [{ ...this.means, name: this.#dry }]): void {
+		if (!this.means) return;
+		this.#states = states.flatMap((state) =>
+			this.#texels.flatMap(({ means, pelts }, fur) => {
+				const own = fur === 0 ? state : pelts?.find(({ name }) => name === state.name);
+				return means ? [{ weights: own?.weights ?? means.weights, multiple: own?.multiple }] : [];
+			}),
+		);
 		this.#weigh();
+	}
+
+	/** Name of the dry state. */
+	get #dry(): string {
+		return this.#texels[0]?.pelts?.[0]?.name ?? '';
 	}
 
 	/** Give every slab the mean light of its stand-in. */
@@ -69,7 +87,9 @@ export class PeltLight {
 		const { slabLight } = this.uniforms;
 		const places = this.#places;
 		if (!this.#slabLight || !slabLight) return;
-		this.#slabLight.states = places ? this.#states.map((state) => standInState(state, places)) : this.#states;
+		this.#slabLight.states = places
+			? this.#states.map((state, i) => standInState(state, places[i % places.length] as ArrayLike<number>))
+			: this.#states;
 		slabLight.value = this.#slabLight.texture;
 	}
 

@@ -23,15 +23,16 @@ export interface SlabState {
 	multiple?: Multiple | undefined;
 }
 
-/** Lookup table of mean curves: rows are `even` at three radii, then `along`; columns are knots; RGBA are up to four curves. */
-export function curveTable({ even, along }: Curves): DataTexture {
-	const data = new Uint16Array(4 * KNOTS * 2 * RADII.length);
-	for (const [part, tables] of [even, along].entries())
+/** Lookup table of mean curves, fur after fur: rows are `even` at three radii, then `along`; columns are knots; RGBA are up to four curves. */
+export function curveTable(furs: readonly Curves[]): DataTexture {
+	const rows = furs.length * 2;
+	const data = new Uint16Array(4 * KNOTS * rows * RADII.length);
+	for (const [part, tables] of furs.flatMap(({ even, along }) => [even, along]).entries())
 		for (const [q, table] of tables.entries())
 			for (const [b, knots] of table.entries())
 				for (const [i, value] of knots.entries())
 					data[4 * (KNOTS * (RADII.length * part + b) + i) + q] = DataUtils.toHalfFloat(value);
-	const texture = new DataTexture(data, KNOTS, 2 * RADII.length, RGBAFormat, HalfFloatType);
+	const texture = new DataTexture(data, KNOTS, rows * RADII.length, RGBAFormat, HalfFloatType);
 	texture.magFilter = texture.minFilter = LinearFilter;
 	texture.wrapS = texture.wrapT = ClampToEdgeWrapping;
 	texture.needsUpdate = true;
@@ -40,18 +41,24 @@ export function curveTable({ even, along }: Curves): DataTexture {
 
 /** Lookup table per slab: weights of the mean curves, and the sky's light that follows from them. */
 export class SlabLight {
-	/** A row per slab, state after state. */
+	/** A row per slab, state after state, in each fur after fur. */
 	texture: DataTexture;
-	readonly #means: MeanCurves;
-	/** For each of `RADII`, an entry per curve. */
-	readonly #skies: readonly CurveSky[][];
+	readonly #means: readonly MeanCurves[];
+	/** Of each fur, for each of `RADII`, an entry per curve. */
+	readonly #skies: readonly CurveSky[][][];
 	#states: readonly SlabState[];
 
-	/** @param fin whether the frame is a fin's */
-	constructor(basis: Basis, means: MeanCurves, states: readonly SlabState[], fin: boolean) {
+	/**
+	 * @param means of each fur
+	 * @param states of all furs, then the next state of all furs
+	 * @param fin whether the frame is a fin's
+	 */
+	constructor(basis: Basis, means: readonly MeanCurves[], states: readonly SlabState[], fin: boolean) {
 		this.#means = means;
-		const known = new Map<number, RingParts>();
-		this.#skies = RADII.map((radius) => curveSkies(basis, means, radius, fin, known));
+		this.#skies = means.map((own) => {
+			const known = new Map<number, RingParts>();
+			return RADII.map((radius) => curveSkies(basis, own, radius, fin, known));
+		});
 		this.#states = states;
 		this.texture = tableOf(states);
 		this.#fill();
@@ -72,12 +79,14 @@ export class SlabLight {
 		const data = this.texture.image.data as Float32Array;
 		data.fill(0);
 		let slab = 0;
-		for (const { weights, multiple } of this.#states) {
-			const shares = multiple && RADII.map((radius) => skyShares(multiple, this.#means, weights, radius));
+		for (const [i, { weights, multiple }] of this.#states.entries()) {
+			const fur = i % this.#means.length;
+			const means = this.#means[fur] as MeanCurves;
+			const shares = multiple && RADII.map((radius) => skyShares(multiple, means, weights, radius));
 			for (const [k, own] of weights.entries()) {
 				const row = data.subarray(4 * ROW * slab, 4 * ROW * ++slab);
 				row.set(own);
-				for (const [q, weight] of own.entries()) this.#add(row, weight, q);
+				for (const [q, weight] of own.entries()) this.#add(row, weight, q, this.#skies[fur] as CurveSky[][]);
 				if (!multiple) continue;
 				for (const [b, share] of shares?.entries() ?? []) row[4 * (HARMONICS + 12 + RADIUS * b) + 3] = share[k] ?? 0;
 				row.set(multiple.shares[k] ?? [], 4 * SHARES);
@@ -89,13 +98,13 @@ export class SlabLight {
 		this.texture.needsUpdate = true;
 	}
 
-	/** @param q which curve */
-	#add(row: Float32Array, weight: number, q: number): void {
+	/** @param q which curve @param radii of its fur */
+	#add(row: Float32Array, weight: number, q: number, radii: readonly CurveSky[][]): void {
 		const add = (texel: number, channel: number, value = 0) => {
 			const at = 4 * texel + channel;
 			row[at] = (row[at] as number) + weight * value;
 		};
-		for (const [b, skies] of this.#skies.entries()) {
+		for (const [b, skies] of radii.entries()) {
 			const first = HARMONICS + RADIUS * b;
 			for (const [c, own] of skies[q]?.environment.entries() ?? []) {
 				for (let j = 0; j < 4; j++) {
@@ -106,7 +115,7 @@ export class SlabLight {
 			}
 		}
 		// One radius is enough: polynomials differ little from body to body.
-		for (const [c, own] of this.#skies[1]?.[q]?.polynomials.entries() ?? []) {
+		for (const [c, own] of radii[1]?.[q]?.polynomials.entries() ?? []) {
 			const first = POLYNOMIALS + 9 * Math.floor(c / 3);
 			for (let j = 0; j < 9; j++) add(first + 3 * Math.floor(j / 3) + (c % 3), j % 3, own[j]);
 		}

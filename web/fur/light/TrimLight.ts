@@ -3,40 +3,48 @@ import { SlabMeans, type Slabs, standIns } from './trim.ts';
 
 /** Lookup table for cut fur: change of the light moments per slab. */
 export class TrimLight {
-	/** Four texels a slab: see shaders/trimmed.glsl. */
+	/** Four texels a slab, fur after fur: see shaders/trimmed.glsl. */
 	readonly texture: DataTexture;
-	readonly #slabs: Slabs;
-	#means: SlabMeans | undefined;
+	readonly #slabs: readonly Slabs[];
+	#means: readonly SlabMeans[] | undefined;
 
 	/**
 	 * @param planes of coefficients, whose first levels hold `layers` slabs one after the other; of several states only the
 	 * first is read
-	 * @param depth layers of a state's texture
+	 * @param codings of each fur
+	 * @param depth layers of a fur's state in the texture
 	 */
 	constructor(
 		planes: readonly Texture[],
-		{ scale, bias }: Pick<Slabs, 'scale' | 'bias'>,
+		codings: readonly Pick<Slabs, 'scale' | 'bias'>[],
 		layers: number,
 		depth = layers,
 	) {
-		const bytes = planes.map((plane) => {
-			const { image, mipmaps } = plane as CompressedArrayTexture;
-			const data = mipmaps[0]?.data as Uint8Array;
-			return data.subarray(0, (data.length * depth) / image.depth);
+		this.#slabs = codings.map(({ scale, bias }, fur) => {
+			const bytes = planes.map((plane) => {
+				const { image, mipmaps } = plane as CompressedArrayTexture;
+				const data = mipmaps[0]?.data as Uint8Array;
+				const size = (data.length * depth) / image.depth;
+				return data.subarray(fur * size, (fur + 1) * size);
+			});
+			return { planes: bytes, scale, bias, layers };
 		});
-		this.#slabs = { planes: bytes, scale, bias, layers };
-		this.texture = new DataTexture(new Float32Array(16 * layers), 4, layers, RGBAFormat, FloatType);
+		const rows = layers * codings.length;
+		this.texture = new DataTexture(new Float32Array(16 * rows), 4, rows, RGBAFormat, FloatType);
 	}
 
-	/** Places in whole fur with the light that the slabs of cut fur get; see `standIns`. */
-	places(share: number): Float64Array {
-		return standIns(this.#slabs, share);
+	/** Of each fur, places in whole fur with the light that the slabs of cut fur get; see `standIns`. */
+	places(share: number): Float64Array[] {
+		return this.#slabs.map((slabs) => standIns(slabs, share));
 	}
 
-	/** Light slabs as at these places. */
-	set(places: Float64Array): void {
-		this.#means ??= new SlabMeans(this.#slabs);
-		this.#means.fill(places, this.texture.image.data as Float32Array);
+	/** Light the slabs of each fur as at these places. */
+	set(places: readonly Float64Array[]): void {
+		this.#means ??= this.#slabs.map((slabs) => new SlabMeans(slabs));
+		const table = this.texture.image.data as Float32Array;
+		const each = table.length / this.#means.length;
+		for (const [i, means] of this.#means.entries())
+			means.fill(places[i] as Float64Array, table.subarray(i * each, (i + 1) * each));
 		this.texture.needsUpdate = true;
 	}
 }

@@ -11,8 +11,13 @@ import { vectors } from './bent.ts';
  */
 export const surgeShare = (width: number): number => (width ** 2 / 2) * Math.log(1 + 2 / width ** 2);
 
-/** Three vectors for each of 1, s and s², and the surge; empty where none were baked. */
-export function eyeUniforms({ eye, surge = [0, 0, 1] }: Pick<FurAsset, 'eye' | 'surge'>): Record<string, IUniform> {
-	if (!eye) return {};
-	return { eye: { value: vectors(eye) }, surge: { value: new Vector4(...surge, surgeShare(surge[2])) } };
+/** Of each fur, three vectors for each of 1, s and s², and the surge; empty where none were baked. */
+export function eyeUniforms(furs: readonly Pick<FurAsset, 'eye' | 'surge'>[]): Record<string, IUniform> {
+	if (!furs[0]?.eye) return {};
+	const surges = furs.map(({ surge = [0, 0, 1] }) => new Vector4(...surge, surgeShare(surge[2])));
+	return {
+		eye: { value: furs.flatMap(({ eye = [] }) => vectors(eye)) },
+		surge: { value: surges[0] },
+		surges: { value: surges },
+	};
 }

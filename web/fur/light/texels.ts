@@ -1,7 +1,7 @@
 /** Decoding of a texel's bytes and coefficients, as uniforms. */
 
 import { type IUniform, type Texture, Vector3, Vector4 } from 'three';
-import { type Basis, channelOf, type Multiple } from '../format.ts';
+import { type Basis, channelOf, type Multiple, type Pelt } from '../format.ts';
 import type { MeanCurves } from './curves.ts';
 import { horizonMoments, polynomialCurves, smoothSum } from './moments.ts';
 
@@ -26,6 +26,8 @@ export interface TexelCoding {
 	environment?: number[][] | undefined;
 	/** Format 2.x only. */
 	means?: SlabMeanCurves | undefined;
+	/** States of the pelt. */
+	pelts?: readonly Pelt[] | undefined;
 }
 
 /** Mean curves and their weights in the dry pelt, a row per slab. */

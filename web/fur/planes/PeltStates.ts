@@ -3,7 +3,16 @@
 import type { CompressedArrayTexture } from 'three';
 import type { FurAsset, Pelt } from '../format.ts';
 import type { FurTextures } from '../light/texels.ts';
-import { decodeAll, decodePlanes, type Layout, type Plane, type PlaneFile, type Role, stacked } from './mipLevels.ts';
+import {
+	decodeAll,
+	decodePlanes,
+	depthOf,
+	type Layout,
+	type Plane,
+	type PlaneFile,
+	type Role,
+	stacked,
+} from './mipLevels.ts';
 import { textureArray } from './planes.ts';
 import { pairFor, statesOf, type WeatherStates } from './states.ts';
 
@@ -97,7 +106,7 @@ export class PeltStates {
 		const others = states.slice(1);
 		const fetched = await Promise.all(others.map((state) => Promise.all(this.#all((cut) => cut.fetch(state)))));
 		const files = new Map(others.map((state, i) => [state, fetched[i] as PlaneFile[][]]));
-		const { layers } = this.cuts[0].layout.extent;
+		const layers = depthOf(this.cuts[0].layout);
 		const two = most < states.length || layers * states.length > this.#layers;
 		if (two) {
 			// Refuse unreadable files now, not when they are to be shown.
@@ -208,7 +217,7 @@ export class PeltStates {
 					const own = (planes.get(state) ?? this.#dry)[c]?.find((plane) => plane.role === role);
 					return own ? [own.levels] : [];
 				});
-				const extent = { ...layout.extent, layers: layout.extent.layers * levels.length };
+				const extent = { ...layout.extent, layers: depthOf(layout) * levels.length };
 				const texture = textureArray(old.name, stacked(levels), extent, role === 'colour');
 				texture.anisotropy = old.anisotropy;
 				texture.wrapT = old.wrapT;

@@ -43,17 +43,19 @@ interface Slab {
  * Coverage of each slab that keeps its value where the picture's contrast is raised, 0..1: X for texels of the finest
  * level, Y of the next one, ZW of the next slab. For `crispCoverage` of hair/opacity.glsl.
  *
- * @param textures those of the dry fur come first; where the processor has no bytes of them all levels are one half
+ * @param textures the slabs of a state after those of the one before; where the processor has no bytes of them all levels
+ * are one half
  */
-export function crispLevels({ plane0, plane1 }: FurTextures, layers: number): Vector4[] {
+export function crispLevels({ plane0, plane1 }: FurTextures): Vector4[] {
 	const { plane, channel } = alphaChannel(plane1 ? 6 : 3);
 	const { mipmaps, image } = (plane === 1 ? plane1 : plane0) as CompressedArrayTexture;
+	const layers = (image as { depth: number }).depth;
 	const levels = Array.from({ length: layers }, (_, k) =>
 		SLABS.map((slabs, level) => {
 			const found = (mipmaps?.[level] ?? mipmaps?.[0]) as Level | undefined;
 			if (!found?.data) return 0.5;
 			const { data, width, height } = found;
-			const size = data.length / (image as { depth: number }).depth;
+			const size = data.length / layers;
 			return keptLevel(between({ texels: data.subarray(k * size, (k + 1) * size), width, height, channel }), slabs);
 		}),
 	).flat();

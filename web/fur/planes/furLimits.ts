@@ -20,7 +20,8 @@ export function furLimits(gl: WebGL2RenderingContext): FurLimits {
  *
  * @throws Error where the asset's planes do not fit into this GPU's textures
  */
-export function checkLimits({ size, layers, fins, pelts }: FurAsset, limits: FurLimits): void {
+export function checkLimits({ size, layers: each, fins, pelts, regions }: FurAsset, limits: FurLimits): void {
+	const layers = each * (1 + (regions?.furs.length ?? 0));
 	const expected = `expected at most ${limits.size} × ${limits.size} on this GPU`;
 	if (size > limits.size) throw new Error(`${FUR_EXTENSION}/size: got tiles of ${size} × ${size} texels, ${expected}`);
 	if (layers > limits.layers)

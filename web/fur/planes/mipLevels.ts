@@ -13,6 +13,8 @@ export interface PlaneFile {
 	name: string;
 	/** A PNG. */
 	bytes: Uint8Array;
+	/** Number of the fur, of several on one body; 0 where absent. */
+	fur?: number;
 }
 
 /** Size and number of coefficients of a plane, and options of its mip levels. */
@@ -20,7 +22,12 @@ export interface Layout {
 	extent: Extent;
 	coefficients: number;
 	view: MipOptions;
+	/** Heights of several furs over the first one's, tile widths. */
+	heights?: readonly number[];
 }
+
+/** Layers of all furs in one state. */
+export const depthOf = ({ extent, heights }: Layout): number => extent.layers * (heights?.length ?? 1);
 
 /** A plane with all its mip levels. */
 export interface Plane {
@@ -43,17 +50,34 @@ export async function decodeAll(files: readonly PlaneFile[], { width, height, la
 /**
  * Decodes the planes of a pelt and makes their mip levels, in small steps.
  *
- * @param files coefficients first: the mip levels read the coverage there
+ * @param files of each fur coefficients first: the mip levels read the coverage there
  * @throws Error as in `decodeAll`
  */
 export async function decodePlanes(files: readonly PlaneFile[], layout: Layout): Promise<Plane[]> {
+	const { heights = [1] } = layout;
+	const furs: Plane[][] = [];
+	for (const [i, height] of heights.entries()) {
+		const view = { ...layout.view, rise: layout.view.rise * height };
+		furs.push(
+			await decodeFur(
+				files.filter(({ fur = 0 }) => fur === i),
+				{ ...layout, view },
+			),
+		);
+	}
+	const [coat = []] = furs;
+	if (furs.length === 1) return coat;
+	return coat.map((plane, p) => ({ ...plane, levels: stacked(furs.map((own) => own[p]?.levels ?? [])) }));
+}
+
+async function decodeFur(files: readonly PlaneFile[], layout: Layout): Promise<Plane[]> {
 	const { extent, coefficients, view } = layout;
 	const texels = await decodeAll(files, extent);
 	const mips = await unhurried(mipSteps(texels, extent, coefficients, view));
 	return files.map(({ role, name }, p) => ({ role, name, levels: mips.flatMap((level) => level[p] ?? []) }));
 }
 
-/** Mip levels of several states as those of one texture with all their layers. */
+/** Mip levels of several states, or furs, as those of one texture with all their layers. */
 export function stacked(states: readonly PlaneBytes[][]): PlaneBytes[] {
 	return (states[0] ?? []).map((first, level) => {
 		const together = new Uint8Array(first.length * states.length);

@@ -4,6 +4,7 @@ import type { FurTextures } from '../light/texels.ts';
 import fragmentMain from '../shaders/draw/fins.frag.glsl?raw';
 import ends from '../shaders/draw/fins.glsl?raw';
 import vertexMain from '../shaders/draw/fins.vert.glsl?raw';
+import drift from '../shaders/hair/tile/drift.glsl?raw';
 import type { FurMaterial } from './FurMaterial.ts';
 import { morphUniforms } from './morphs.ts';
 import { PeltMaterial } from './PeltMaterial.ts';
@@ -37,7 +38,8 @@ const SHARED = [
 		'density',
 	],
 	...['swing', 'stains', 'wetnesses', 'traits', 'mud', 'morphCount', 'morphs'],
-	...['skinColor', 'root', 'tip', 'tip2', 'tipShare', 'rampPower'],
+	...['skinColor', 'root', 'tip', 'tip2', 'tipShare', 'rampPower', 'roots', 'rootsUnit', 'drift'],
+	...['tileWidths', 'leans', 'surges', 'regionRamps', 'regionPowers'],
 ];
 
 /**
@@ -59,11 +61,11 @@ export class FurFinMaterial extends PeltMaterial {
 			(name) => [name, shells.uniforms[name]] as [string, IUniform],
 		);
 		super(
-			{ ...fin, means: shells.means },
+			shells.furs.map(({ means, pelts }) => ({ ...(pelts?.[0]?.fin ?? fin), means, pelts })),
 			textures,
 			{
 				name: 'FurFinMaterial',
-				vertexShader: [vertexMain, ends].join('\n'),
+				vertexShader: [...('ROOTS' in shells.defines ? [drift] : []), vertexMain, ends].join('\n'),
 				fragmentShader: [fragmentMain, ends].join('\n'),
 				uniforms: {
 					...Object.fromEntries(shared),
@@ -77,6 +79,7 @@ export class FurFinMaterial extends PeltMaterial {
 					FIN: '',
 					LAYERS: shells.defines.LAYERS,
 					...('EYE' in shells.defines && { EYE: '' }),
+					...('ROOTS' in shells.defines && { ROOTS: '' }),
 					FADE_FROM: '0.03',
 					FADE_TO: '0.15',
 					LOD_BIAS: '-0.5',

@@ -1,20 +1,24 @@
 import { Color, type ShaderMaterialParameters, Vector2, Vector3, Vector4 } from 'three';
-import type { FurAsset } from '../format.ts';
+import { type Roots, rootUniforms } from '../body/roots/Roots.ts';
+import { type FurAsset, fursOf, type Pelt } from '../format.ts';
 import { bentWeights, leanOf, wayOf } from '../light/bent.ts';
 import { eyeUniforms } from '../light/eye.ts';
-import type { FurTextures } from '../light/texels.ts';
+import type { FurTextures, TexelCoding } from '../light/texels.ts';
 import { crispLevels } from '../planes/crisp.ts';
 import fragmentMain from '../shaders/draw/shells.frag.glsl?raw';
 import ends from '../shaders/draw/shells.glsl?raw';
 import vertexMain from '../shaders/draw/shells.vert.glsl?raw';
+import dissolve from '../shaders/hair/dissolve.glsl?raw';
 import frame from '../shaders/hair/frame.glsl?raw';
 import hairIn from '../shaders/hair/hair.frag.glsl?raw';
 import hairOut from '../shaders/hair/hair.vert.glsl?raw';
 import opacity from '../shaders/hair/opacity.glsl?raw';
 import shell from '../shaders/hair/shell.glsl?raw';
+import drift from '../shaders/hair/tile/drift.glsl?raw';
 import { ALPHA_CUT } from './lod.ts';
 import { morphUniforms, weightUniforms } from './morphs.ts';
 import { PeltMaterial } from './PeltMaterial.ts';
+import { regionUniforms } from './regions.ts';
 
 /** Properties that a FurMaterial has beside those of every material. */
 export interface FurMaterialParameters extends ShaderMaterialParameters {
@@ -100,32 +104,34 @@ export class FurMaterial extends PeltMaterial {
 	/** {@inheritDoc FurMaterialParameters.sharpness} */
 	declare sharpness: number;
 
-	constructor(asset: FurAsset, textures: FurTextures, parameters: FurMaterialParameters = {}) {
+	/** @param roots picture of the skin below; undefined: colours of the vertices */
+	constructor(asset: FurAsset, textures: FurTextures, parameters: FurMaterialParameters = {}, roots?: Roots) {
 		const pelt = asset.pelts[0];
 		if (!pelt) throw new Error('FUR_ptm_shells/pelts: got none, expected at least one');
-		const { basis, environment, curves, ramp } = asset;
-		const means = curves && { curves, way: wayOf(asset), weights: pelt.weights ?? [], multiple: pelt.multiple };
+		const { ramp, regions } = asset;
+		const furs = fursOf(asset);
 		super(
-			{ ...pelt, basis, environment, means },
+			furs.map(codingOf),
 			textures,
 			{
 				name: 'FurMaterial',
-				vertexShader: [frame, shell, hairOut, vertexMain, ends].join('\n'),
-				fragmentShader: [opacity, hairIn, fragmentMain, ends].join('\n'),
+				vertexShader: [frame, drift, shell, hairOut, vertexMain, ends].join('\n'),
+				fragmentShader: [dissolve, opacity, ...(roots ? [drift] : []), hairIn, fragmentMain, ends].join('\n'),
 				uniforms: {
 					tiles: { value: asset.tiles ?? 1 },
 					furLength: { value: asset.length },
 					shellCount: { value: asset.layers },
 					firstShell: { value: 0 },
-					drift: { value: driftKnots(asset.drift) },
+					drift: { value: furs.flatMap(({ drift }) => driftKnots(drift)) },
 					lean: { value: leanOf(asset) },
-					bent: { value: bentWeights(asset) },
-					...eyeUniforms(asset),
+					bent: { value: furs.flatMap(bentWeights) },
+					...eyeUniforms(furs),
+					...(regions && regionUniforms(regions, furs)),
 					...morphUniforms(),
 					...weightUniforms(),
 					alphaCut: { value: ALPHA_CUT },
 					crispness: { value: new Vector2(1, 0) },
-					crispLevels: { value: crispLevels(textures, asset.layers) },
+					crispLevels: { value: [] },
 					skinColor: { value: new Color(1, 1, 1) },
 					root: { value: new Color(...ramp.root) },
 					tip: { value: new Color(...ramp.tip) },
@@ -136,14 +142,36 @@ export class FurMaterial extends PeltMaterial {
 					bodyLight1: { value: null },
 					bodyLight2: { value: null },
 					bodyEntries: { value: new Vector3() },
+					...(roots && rootUniforms(roots, asset)),
 				},
-				defines: { MAX_SLANT: '6.0', HAIR: '0.2', LAYERS: asset.layers, ...(asset.eye && { EYE: '' }) },
+				defines: {
+					MAX_SLANT: '6.0',
+					HAIR: '0.2',
+					LAYERS: asset.layers,
+					...(asset.eye && { EYE: '' }),
+					...(roots && { ROOTS: '' }),
+				},
 				depthWrite: true,
 			},
 			MIRRORED,
 		);
 		this.setValues(parameters);
 	}
+
+	/** Replaces the planes, and the levels of crisp hairs with them. */
+	override setTextures(textures: FurTextures): void {
+		super.setTextures(textures);
+		const { crispLevels: levels } = this.uniforms;
+		if (levels) levels.value = crispLevels(textures);
+	}
+}
+
+/** Coding of a fur's texels. */
+function codingOf(asset: FurAsset): TexelCoding {
+	const pelt = asset.pelts[0] as Pelt;
+	const { basis, environment, curves, pelts } = asset;
+	const means = curves && { curves, way: wayOf(asset), weights: pelt.weights ?? [], multiple: pelt.multiple };
+	return { ...pelt, basis, environment, means, pelts };
 }
 
 /** Mean displacement of the hairs at the root and in every slab's middle, two to a vector. */

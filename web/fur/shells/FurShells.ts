@@ -15,7 +15,7 @@ import {
 import { BodyCurvature } from '../body/BodyCurvature.ts';
 import { sharedComb } from '../body/comb.ts';
 import type { FurPose, Jointed } from '../body/FurPose.ts';
-import type { FurAsset } from '../format.ts';
+import { type FurAsset, tileOf } from '../format.ts';
 import { BodyLight } from './BodyLight.ts';
 import { beginClip, endClip, type FurColumns } from './clip.ts';
 import type { FurMaterial } from './FurMaterial.ts';
@@ -94,9 +94,9 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> implem
 		}
 		this.#radius = sphere.radius;
 		geometry.boundingSphere = sphere;
-		const { size, layers, length, height } = asset;
+		const { size, layers, length } = asset;
 		this.#layers = layers;
-		this.#texel = length / (height * size);
+		this.#texel = tileOf(asset) / size;
 		if (material.means) {
 			BodyCurvature.of(surface).mark(geometry);
 			this.#light = new BodyLight(this, pose);

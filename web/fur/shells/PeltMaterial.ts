@@ -36,25 +36,29 @@ export class PeltMaterial extends ShaderMaterial {
 	readonly #followers: PeltMaterial[] = [];
 	readonly #leader: PeltMaterial | undefined;
 	readonly #light: PeltLight;
+	/** Coding of each fur's texels, the coat first. @internal */
+	readonly furs: readonly TexelCoding[];
 
 	/**
+	 * @param furs coding of each fur's texels, the coat first
 	 * @param parameters own shaders (after the common chunks), uniforms and defines
 	 * @param mirrored names of uniforms that become properties of the material
 	 * @param leader material whose switches this one follows
 	 */
 	// Long: one flat table of uniforms and defaults.
 	constructor(
-		texels: TexelCoding,
+		furs: readonly TexelCoding[],
 		textures: FurTextures,
 		{ uniforms, defines, vertexShader, fragmentShader, ...parameters }: ShaderMaterialParameters,
 		mirrored: readonly string[],
 		leader?: PeltMaterial,
 	) {
+		const texels = furs[0] as TexelCoding;
 		const { scale, offset } = decoder(texels.scale, texels.bias);
 		const { means, basis } = texels;
 		const planes = [textures.plane0, textures.plane1].filter((plane) => plane !== undefined);
 		const light = new PeltLight(
-			texels,
+			furs,
 			planes,
 			Number(defines?.LAYERS),
 			'FIN' in (defines ?? {}),
@@ -72,6 +76,12 @@ export class PeltMaterial extends ShaderMaterial {
 				offset0: { value: offset[0] },
 				scale1: { value: new Vector2(scale[1]?.x, scale[1]?.y) },
 				offset1: { value: new Vector2(offset[1]?.x, offset[1]?.y) },
+				codings: {
+					value: furs.flatMap((own) => {
+						const { scale, offset } = decoder(own.scale, own.bias);
+						return [scale[0], offset[0], scale[1], offset[1]];
+					}),
+				},
 				...light.uniforms,
 				bodyRadius: { value: BODY_RADIUS },
 				lean: { value: new Vector2() },
@@ -92,6 +102,7 @@ export class PeltMaterial extends ShaderMaterial {
 				...(texels.scale.length > 3 && { TWO_PLANES: '' }),
 				...(textures.colour && { COLOUR_PLANE: '' }),
 				SKY: '',
+				...(furs.length > 1 && { REGIONS: furs.length }),
 				...defines,
 			},
 			vertexShader: [
@@ -122,8 +133,10 @@ export class PeltMaterial extends ShaderMaterial {
 			_edge: [0, 0, 0, 0],
 			follicle: [0],
 			curvature: [0, 0, 0],
+			_region: [0, 1, 0],
 		});
 		mirrorUniforms(this, mirrored);
+		this.furs = furs;
 		this.#leader = leader;
 		this.#light = light;
 		this.setTextures(textures);
@@ -271,6 +284,11 @@ export class PeltMaterial extends ShaderMaterial {
 		const uniform = this.uniforms[name];
 		if (uniform) uniform.value = value;
 		this.#switch(name.toUpperCase(), on);
+	}
+
+	/** Draw the coat alone, all over a body with several furs or by a pelt of several. @internal */
+	set oneFur(on: boolean) {
+		this.#switch('ONE_FUR', on);
 	}
 
 	#switch(define: string, on: boolean): void {

@@ -5,6 +5,9 @@ import density from '../shaders/hair/density.glsl?raw';
 import displacement from '../shaders/hair/displacement.glsl?raw';
 import follicle from '../shaders/hair/follicle.glsl?raw';
 import pose from '../shaders/hair/pose.glsl?raw';
+import regionIn from '../shaders/hair/region.frag.glsl?raw';
+import region from '../shaders/hair/region.glsl?raw';
+import regionOut from '../shaders/hair/region.vert.glsl?raw';
 import trim from '../shaders/hair/trim.glsl?raw';
 import weatherIn from '../shaders/hair/weather.frag.glsl?raw';
 import weather from '../shaders/hair/weather.glsl?raw';
@@ -23,10 +26,10 @@ import trimmed from '../shaders/light/trimmed.glsl?raw';
 import view from '../shaders/light/view.glsl?raw';
 
 /** Positions of hairs. */
-export const hairChunks = [pose, follicle, comb, weather, weatherOut, trim, displacement];
+export const hairChunks = [region, regionOut, pose, follicle, comb, weather, weatherOut, trim, displacement];
 
 /** Reading of texels. */
-export const texelChunks = [trim, density, weather, weatherIn];
+export const texelChunks = [region, regionIn, trim, density, weather, weatherIn];
 
 /** Arrival of lamps at a point of the fur. @param curved whether by mean curves (format 2.x) */
 export const arrivalChunks = (curved: boolean): string[] => [

@@ -1,8 +1,9 @@
 /** Player of a model's clips: one at a time, in a loop or held, with a fade from one to the next. Loaded with the first model that has some. */
 
 import { type AnimationAction, type AnimationClip, AnimationMixer, Box3, type Mesh, type Object3D } from 'three';
+import type { Gaze } from './Gaze.ts';
 import { clipNames } from './names.ts';
-import { Reach } from './Reach.ts';
+import { Reach, type Room } from './Reach.ts';
 
 /** Seconds of the fade between two clips. */
 const FADE_TIME = 0.3;
@@ -22,6 +23,8 @@ export class ClipPlayer {
 	readonly box = new Box3();
 	/** Factor of the speed of playing. */
 	speed = 1;
+	/** Turns the head on top of the clips, where the body has one. */
+	readonly gaze: Gaze | undefined;
 	readonly #object: Object3D;
 	readonly #mixer: AnimationMixer;
 	readonly #tracks: readonly Track[];
@@ -39,19 +42,23 @@ export class ClipPlayer {
 	 * @param object at its place in the file; its bones are in it
 	 * @param meshes of the body
 	 * @param clips at least one
+	 * @param rest room of the body at rest, which a clip keeps that needs hardly more
+	 * @param gaze of the body
 	 */
-	constructor(object: Object3D, meshes: readonly Mesh[], clips: readonly AnimationClip[]) {
+	constructor(object: Object3D, meshes: readonly Mesh[], clips: readonly AnimationClip[], rest?: Room, gaze?: Gaze) {
 		this.#object = object;
+		this.gaze = gaze;
 		this.names = clipNames(clips);
 		this.#mixer = new AnimationMixer(object);
 		const outline = Reach.outline(meshes);
 		this.#tracks = clips.map((clip, i) => {
 			const action = this.#mixer.clipAction(clip);
 			action.play();
-			const reach = new Reach(outline, clip.duration, (time) => {
+			const pose = (time: number) => {
 				action.time = time;
 				this.#apply();
-			});
+			};
+			const reach = new Reach(outline, clip.duration, pose, rest);
 			action.stop();
 			return { name: this.names[i] as string, action, reach };
 		});
@@ -78,6 +85,11 @@ export class ClipPlayer {
 
 	get playing(): boolean {
 		return this.#playing;
+	}
+
+	/** True while the body moves: in a clip that plays, or after a light. */
+	get moves(): boolean {
+		return this.#playing || this.gaze?.moves === true;
 	}
 
 	/** Radius around the box's centre that holds the body in the whole of the chosen clip. */
@@ -116,14 +128,14 @@ export class ClipPlayer {
 	/** Moves on by some seconds. @returns true if the body has another pose */
 	step(seconds: number): boolean {
 		const moves = this.#playing && seconds > 0;
-		if (!moves && !this.#stale) return false;
+		if (!moves && !this.#stale && !this.gaze?.moves) return false;
 		if (moves && this.#before) {
 			this.#share += seconds / FADE_TIME;
 			if (this.#share >= 1) this.#endFade();
 		}
 		this.#track.action.setEffectiveTimeScale(this.speed).setEffectiveWeight(this.#share);
 		this.#before?.action.setEffectiveTimeScale(this.speed).setEffectiveWeight(1 - this.#share);
-		this.#apply(moves ? seconds : 0);
+		this.#apply(moves ? seconds : 0, seconds);
 		this.box.copy(this.#track.reach.box);
 		this.#fade(this.#before?.reach.box, this.box);
 		this.#stale = false;
@@ -170,8 +182,11 @@ export class ClipPlayer {
 		this.#share = 1;
 	}
 
-	#apply(seconds = 0): void {
+	/** @param seconds of the clip, and since the frame before */
+	#apply(seconds = 0, elapsed = 0): void {
+		this.gaze?.lift();
 		this.#mixer.update(seconds);
+		this.gaze?.apply(elapsed);
 		this.#object.updateMatrixWorld(true);
 	}
 

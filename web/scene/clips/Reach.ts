@@ -65,6 +65,15 @@ function outermost(mesh: Mesh): Uint32Array {
 	return Uint32Array.from(new Set([...parts.values()].flatMap(({ vertex }) => [...vertex])));
 }
 
+/** Box around a body, and radius of the sphere around its centre that holds it. */
+export interface Room {
+	box: Box3;
+	radius: number;
+}
+
+/** How far a clip may leave the room of the body at rest, share of its radius: breathing moves no camera. */
+const SLACK = 0.06;
+
 export class Reach {
 	/** Box around the body in the whole clip, and radius around its centre that holds the body. */
 	readonly box = new Box3();
@@ -95,8 +104,9 @@ export class Reach {
 	 * @param outline as of `outline`
 	 * @param duration of the clip, seconds
 	 * @param pose brings the body to a moment of the clip
+	 * @param rest room of the body at rest: that of the clip, too, which hardly leaves it
 	 */
-	constructor(outline: readonly Outline[], duration: number, pose: (time: number) => void) {
+	constructor(outline: readonly Outline[], duration: number, pose: (time: number) => void, rest?: Room) {
 		this.#duration = duration;
 		this.#steps = Math.min(Math.max(Math.ceil(RATE * duration), MIN_STEPS), MAX_STEPS);
 		this.#boxes = new Float32Array(6 * (this.#steps + 1));
@@ -119,7 +129,10 @@ export class Reach {
 			for (const { vertices } of outline) measure(vertices.places, far);
 		}
 		const centre = this.box.getCenter(place);
-		this.radius = Math.max(...far.map((outer) => outer.place.distanceTo(centre)));
+		const radius = Math.max(...far.map((outer) => outer.place.distanceTo(centre)));
+		const near = rest && differ(this.box, rest.box) < SLACK * rest.radius;
+		this.radius = near ? rest.radius : radius;
+		if (near) this.box.copy(rest.box);
 		this.low = outline
 			.flatMap(({ rests }, n) => rests.map((rest, i) => ({ rest, height: lows[n]?.[i] as number })))
 			.sort((a, b) => a.height - b.height);
@@ -140,6 +153,15 @@ export class Reach {
 		target.min.fromArray(this.#boxes, 6 * step);
 		target.max.fromArray(this.#boxes, 6 * step + 3);
 	}
+}
+
+/** Largest difference between the sides of two boxes. */
+function differ(one: Box3, other: Box3): number {
+	return Math.max(
+		...[place.subVectors(one.min, other.min), from.min.subVectors(one.max, other.max)].flatMap((side) =>
+			side.toArray().map(Math.abs),
+		),
+	);
 }
 
 /** Keeps the outermost places. */

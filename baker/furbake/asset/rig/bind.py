@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,6 +17,26 @@ from furbake.surface.repair.topology import unit
 from furbake.surface.rig.follow import Follow
 from furbake.surface.rig.pose import blend, unposed
 from furbake.surface.rig.rig import Floats, Ints, Rig
+
+if TYPE_CHECKING:
+    from furbake.asset.gltf import FurModel
+
+
+def bound(model: FurModel) -> FurModel:
+    """The model in the bind pose, in which it is stored."""
+    motion = model.motion
+    if motion is None or motion.rig.pose is None:
+        return model
+    skin = Return(motion.rig, motion.skin, model.skin)
+    ground = skin if model.ground is None else Return(motion.rig, motion.ground, model.ground)
+    return replace(
+        model,
+        skin=skin.bind,
+        ground=None if model.ground is None else ground.bind,
+        charts=ground.charts(model.charts),
+        fur=ground.fur(model.fur),
+        fins=None if model.fins is None else ground.fins(model.fins),
+    )
 
 
 class Return:

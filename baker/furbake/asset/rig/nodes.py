@@ -102,7 +102,7 @@ def skin(rig: Rig, start: int, offset: Floats, scale: float, buffer: Buffer) -> 
 
 
 def hung(nodes: list[Record], features: tuple[Feature, ...], motion: Motion, surface: Surface) -> dict[int, list[int]]:
-    """Nodes of features, moved to below the joints that move the surface most where they stand.
+    """Nodes of features, moved to below the joints that they name or that move the surface most where they stand.
 
     nodes : of the document; those of the features are the last of them, and change
     surface : the skin in the pose in which it is given
@@ -114,7 +114,9 @@ def hung(nodes: list[Record], features: tuple[Feature, ...], motion: Motion, sur
     for index, feature in enumerate(features, start):
         if not rig.joints:
             break
-        joint = strongest(motion, surface, np.array(feature.centre))
+        joint = _named(rig, feature.joint)
+        if joint is None:
+            joint = strongest(motion, surface, np.array(feature.centre))
         to_joint = rig.inverse_bind[joint]
         if rig.pose is not None:
             to_joint = to_joint @ _inverse(rig.pose.matrices[joint])
@@ -124,6 +126,11 @@ def hung(nodes: list[Record], features: tuple[Feature, ...], motion: Motion, sur
         nodes[index] |= _below(to_joint, feature)
         found.setdefault(rig.joints[joint], []).append(index)
     return found
+
+
+def _named(rig: Rig, name: str | None) -> int | None:
+    """The first joint of a name; None where there is none."""
+    return next((i for i, node in enumerate(rig.joints) if name is not None and rig.nodes[node].name == name), None)
 
 
 def strongest(motion: Motion, surface: Surface, place: Floats) -> int:

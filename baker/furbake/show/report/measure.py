@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.asset.hairs import tile_strands
+from furbake.artist.stored import tile_strands
 from furbake.asset.inspect import summary
 from furbake.asset.read import Asset, AssetError, read_asset
 from furbake.asset.stored import read_pelt

@@ -42,7 +42,9 @@ def verify_colour(
     case = prepared(folder, options, progress, coloured=True)
     asset, coat, seen, wanted = case.asset, case.coat, case.seen, case.cells
     ramp = read_pelt(asset).ramp
-    colours = case.strands.colour / np.maximum(np.array(skin_colour(asset), np.float32), 1e-6)
+    colours = case.strands.colour
+    if "COLOR_0" not in asset.primitive(asset.fur["shells"])["attributes"]:  # the page shows a white skin
+        colours = colours / np.maximum(np.array(skin_colour(asset), np.float32), 1e-6)
     red, green, blue = (SHADE * part for part in ramp.root)
     ground = red, green, blue
     scene = Scene(case.strands, case.vertices, case.faces, coat.albedo, coat.skin, np.clip(colours, 0, 1), ground)

@@ -96,6 +96,12 @@ def grey_copy(asset: Asset, folder: Path, albedo: float, skin: float) -> None:
     """The dry fur of a baked folder with all hairs of one grey and the skin of another, without pictures."""
     document: dict[str, Any] = json.loads(json.dumps(asset.document))
     fur = next(iter(value for key, value in document["extensions"].items() if key == "FUR_ptm_shells"))
+    fur.pop("roots", None)
+    for mesh in document["meshes"]:
+        for primitive in mesh["primitives"]:
+            primitive["attributes"].pop("COLOR_0", None)
+    for name in ("textures", "samplers"):
+        document.pop(name, None)
     pelt = fur["pelts"][0]
     fur["pelts"] = [pelt]
     if "multiple" in pelt:
@@ -119,34 +125,34 @@ def grey_copy(asset: Asset, folder: Path, albedo: float, skin: float) -> None:
 
 
 def coloured_copy(asset: Asset, folder: Path) -> None:
-    """The dry fur of a baked folder in its own colours, on a white skin without pictures."""
+    """The dry fur of a baked folder in its own colours and those of the skin below it, on a white skin."""
     document: dict[str, Any] = json.loads(json.dumps(asset.document))
     fur = next(iter(value for key, value in document["extensions"].items() if key == "FUR_ptm_shells"))
     pelt = fur["pelts"][0]
     fur["pelts"] = [pelt]
     images = {*pelt["planes"], *pelt.get("fin", {}).get("planes", [])}
     images |= {part[role] for part in (pelt, pelt.get("fin", {})) for role in ("colour", "direction") if role in part}
+    if "roots" in fur:
+        images.add(document["textures"][fur["roots"]["texture"]]["source"])
     for image in images:
         uri = document["images"][image]["uri"]
         shutil.copyfile(inside(asset.folder, uri), folder / uri)
+    for primitive in document["meshes"][document["nodes"][fur["skin"]]["mesh"]]["primitives"]:
+        primitive["attributes"].pop("COLOR_0", None)
     _plain(document, 1.0)
     (folder / document["buffers"][0]["uri"]).write_bytes(asset.data)
     (folder / "model.gltf").write_text(json.dumps(document), "utf-8")
 
 
 def _plain(document: dict[str, Any], skin: float) -> None:
-    """Give a model one grey and no pictures; nothing moves it out of the bind pose."""
+    """Give the skin of a model one grey and no pictures; nothing moves it out of the bind pose."""
     plain = {"baseColorFactor": [skin, skin, skin, 1.0], "metallicFactor": 0.0, "roughnessFactor": 1.0}
     document["materials"] = [{"pbrMetallicRoughness": plain} for _ in document.get("materials", [])]
-    for name in ("textures", "samplers"):
-        document.pop(name, None)
     document.pop("animations", None)
     for node in document["nodes"]:
         node.pop("skin", None)
     for mesh in document["meshes"]:
         mesh.pop("weights", None)
-        for primitive in mesh["primitives"]:
-            primitive["attributes"].pop("COLOR_0", None)
 
 
 def _read(folder: Path, seen: Frame, cells: Sequence[Cell], methods: Sequence[str], channels: int) -> Shown:

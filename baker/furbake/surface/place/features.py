@@ -21,8 +21,11 @@ from furbake.surface.repair.topology import unit
 
 Triple = tuple[float, float, float]
 
-KEYS = ("name", "shape", "centre", "radii", "forward", "on", "sink", "clear", "colour", "roughness")
+KEYS = ("name", "shape", "centre", "radii", "forward", "on", "sink", "clear", "colour", "roughness", "joint")
 """Keys of a feature in the file."""
+
+SHAPES = ("ellipsoid", "half")
+"""A whole ellipsoid, or the half of it that looks forward."""
 
 UP: Triple = (0.0, 1.0, 0.0)
 
@@ -38,7 +41,7 @@ MAX_FEATURES = 100
 
 @dataclass(frozen=True)
 class Feature:
-    """An opaque ellipsoid.
+    """An opaque ellipsoid, or the front half of one.
 
     centre : model units
     radii : model units, to its right, up and forward; right and up as seen with the y axis upright
@@ -47,6 +50,8 @@ class Feature:
         radius below
     clear : radii from the centre at which fur around has its full length again, at least 1
     colour : linear
+    joint : name of the joint that it hangs on; None: the one that moves the surface most where it stands
+    half : only the half that looks forward, such as a lid
     """
 
     name: str
@@ -58,6 +63,8 @@ class Feature:
     clear: float = CLEAR
     colour: RGB = (0.02, 0.015, 0.01)
     roughness: float = 0.1
+    joint: str | None = None
+    half: bool = False
 
     @property
     def axes(self) -> Floats:
@@ -106,10 +113,20 @@ def clearing(surface: Surface, features: tuple[Feature, ...]) -> Floats:
     return share
 
 
-def ball() -> tuple[Floats, Ints]:
-    """Vertices (V, 3) and faces (F, 3) of a ball of radius 1, which every feature is a stretched copy of."""
+def ball(half: bool = False) -> tuple[Floats, Ints]:
+    """Vertices (V, 3) and faces (F, 3) of a ball of radius 1, which every feature is a stretched copy of.
+
+    half : only what has z >= 0, open behind
+    """
     shape = trimesh.creation.icosphere(subdivisions=SUBDIVISIONS)
-    return unit(np.asarray(shape.vertices, dtype=np.float64)), np.asarray(shape.faces, dtype=np.int64)
+    vertices, faces = unit(np.asarray(shape.vertices, dtype=np.float64)), np.asarray(shape.faces, dtype=np.int64)
+    if not half:
+        return vertices, faces
+    # Seen along one of the icosahedron's corners, edges lie on the equator.
+    turn, _ = Rotation.align_vectors([[0.0, 0.0, 1.0]], vertices[:1])
+    vertices = turn.apply(vertices)
+    used, index = np.unique(faces[vertices[faces, 2].mean(axis=1) > 0.0], return_inverse=True)
+    return vertices[used], index.reshape(-1, 3)
 
 
 def nearest(surface: Surface, place: Floats) -> tuple[Floats, Floats]:
@@ -162,13 +179,16 @@ def _feature(record: Any, where: str) -> Feature:
     missing = [key for key in ("centre", "radii") if key not in record]
     if missing:
         raise MeshError(f"{where} has no {missing[0]}, expected three numbers")
-    if record.get("shape", "ellipsoid") != "ellipsoid":
-        raise MeshError(f"{where}.shape is {_shown(record['shape'])}, expected 'ellipsoid'")
-    name, on = record.get("name", "feature"), record.get("on", False)
+    shape = record.get("shape", SHAPES[0])
+    if shape not in SHAPES:
+        raise MeshError(f"{where}.shape is {_shown(shape)}, expected one of {', '.join(SHAPES)}")
+    name, on, joint = record.get("name", "feature"), record.get("on", False), record.get("joint")
     if not isinstance(name, str) or not name:
         raise MeshError(f"{where}.name is {_shown(name)}, expected text")
     if not isinstance(on, bool):
         raise MeshError(f"{where}.on is {_shown(on)}, expected true or false")
+    if joint is not None and not isinstance(joint, str):
+        raise MeshError(f"{where}.joint is {_shown(joint)}, expected the name of a joint")
     radii = _triple(record["radii"], f"{where}.radii", "three numbers above 0")
     if min(radii) <= 0.0:
         raise MeshError(f"{where}.radii is {_shown(record['radii'])}, expected three numbers above 0")
@@ -190,6 +210,8 @@ def _feature(record: Any, where: str) -> Feature:
         clear=_number(record.get("clear", CLEAR), f"{where}.clear", 1.0, 100.0),
         colour=colour,
         roughness=_number(record.get("roughness", Feature.roughness), f"{where}.roughness", 0.0, 1.0),
+        joint=joint,
+        half=shape == "half",
     )
 
 

@@ -13,6 +13,7 @@ from furbake import BakeOptions
 from furbake.asset.planes import read_png
 from furbake.groom.strands import Groom
 from furbake.pipeline import bake
+from furbake.study.verify import apart
 from furbake.study.verify.body import Options, verify_body
 from furbake.study.verify.cells import FIELD_OF_VIEW, Frame
 from furbake.study.verify.page import Shown
@@ -88,7 +89,7 @@ class TestWithMitsuba:
         kept: list[Any] = []
 
         def traced(*given: Any, **more: Any) -> Any:
-            kept.extend(trace(*given, **more))
+            kept.extend(apart.trace(*given, **more))
             return kept
 
         def shown(

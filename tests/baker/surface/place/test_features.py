@@ -44,7 +44,8 @@ def test_features_are_read(file: Callable[[Any], Path]) -> None:
         ({"features": [3]}, "features[0] is 3, expected an object"),
         ({"features": [EYE, {"centre": [0, 0, 0]}]}, "features[1] has no radii, expected three numbers"),
         ({"features": [EYE | {"center": [0, 0, 0]}]}, "features[0].center is unknown, expected only name, shape, cent"),
-        ({"features": [EYE | {"shape": "box"}]}, "features[0].shape is \"box\", expected 'ellipsoid'"),
+        ({"features": [EYE | {"shape": "box"}]}, 'features[0].shape is "box", expected one of ellipsoid, half'),
+        ({"features": [EYE | {"joint": 3}]}, "features[0].joint is 3, expected the name of a joint"),
         ({"features": [EYE | {"name": ""}]}, 'features[0].name is "", expected text'),
         ({"features": [EYE | {"on": 1}]}, "features[0].on is 1, expected true or false"),
         ({"features": [EYE | {"centre": [0, 1]}]}, "features[0].centre is [0, 1], expected three numbers"),
@@ -66,6 +67,14 @@ def test_each_mistake_has_its_sentence(file: Callable[[Any], Path], content: Any
     assert str(error.value).startswith(f"{path}: ")
     assert message in str(error.value)
     assert "\n" not in str(error.value)
+
+
+def test_half_a_ball_is_open_behind() -> None:
+    vertices, faces = ball(half=True)
+    np.testing.assert_allclose(np.linalg.norm(vertices, axis=1), 1.0)
+    assert abs(vertices[:, 2].min()) < 1e-9
+    area = np.linalg.norm(np.cross(*(vertices[faces[:, i]] - vertices[faces[:, 0]] for i in (1, 2))), axis=1).sum() / 2
+    assert area == pytest.approx(2 * np.pi, rel=0.03)
 
 
 def test_files_that_are_none(tmp_path: Path) -> None:

@@ -1,5 +1,5 @@
 import { readFileSync } from 'node:fs';
-import type { BufferAttribute, BufferGeometry } from 'three';
+import { type BufferAttribute, type BufferGeometry, Uint8BufferAttribute } from 'three';
 import { expect, it } from 'vitest';
 import { EdgeFaces } from '../../../../web/fur/fins/EdgeFaces.ts';
 import { finQuads } from '../../../../web/fur/fins/finQuads.ts';
@@ -91,4 +91,54 @@ it('begins each fin a golden section after the one before, and refuses a mask of
 	const starts = Array.from({ length: 8 }, (_, i) => Math.min(uv.getX(4 * i), uv.getX(4 * i + 1)) * places.tiles);
 	for (const [i, start] of starts.entries()) expect(start).toBeCloseTo((0.25 + i * ((5 ** 0.5 - 1) / 2)) % 1, 5);
 	expect(() => finQuads(shells, mask.slice(1), places)).toThrow(/got a mask of \d+ bytes, expected \d+ for \d+ edges/);
+});
+
+it('takes the places of roots from one face of the shells', () => {
+	const scale = [0.03, 0.05] as const;
+	const made = finQuads(shells, mask, { ...places, roots: scale });
+	expect(finQuads(shells, mask, places).hasAttribute('uv1')).toBe(false);
+	const corners = shells.index?.array as ArrayLike<number>;
+	const [across, down] = scale.map((each) => each * places.tiles) as [number, number];
+	const key = (at: string, u: number, v: number) => `${at} ${u.toFixed(5)} ${v.toFixed(5)}`;
+	const faces = new Set<string>();
+	for (let i = 0; i < corners.length; i++) {
+		const both = [corners[i] as number, corners[3 * Math.floor(i / 3) + ((i + 1) % 3)] as number].map((vertex) => {
+			const [u = 0, v = 0] = row(shells, 'uv', vertex);
+			return key(place(shells, vertex), u * across, v * down);
+		});
+		faces.add(both.sort().join());
+	}
+	for (let i = 0; i < made.getAttribute('position').count / 4; i += 16) {
+		const both = [4 * i, 4 * i + 1].map((vertex) => {
+			const [u = 0, v = 0] = row(made, 'uv1', vertex);
+			expect(row(made, 'uv1', vertex + 2)).toEqual([u, v]);
+			return key(place(made, vertex), u, v);
+		});
+		expect(faces.has(both.sort().join())).toBe(true);
+	}
+});
+
+it('lets a fin follow the joints of its ends', () => {
+	const moving = shells.clone();
+	const { count } = moving.getAttribute('position');
+	const joints = Float32Array.from({ length: 4 * count }, (_, i) => (Math.floor(i / 4) % 5) + (i % 4));
+	moving.setAttribute('skinIndex', new Uint8BufferAttribute(Uint8Array.from(joints), 4));
+	moving.setAttribute(
+		'skinWeight',
+		new Uint8BufferAttribute(
+			Uint8Array.from(joints, (_, i) => [200, 55, 0, 0][i % 4] as number),
+			4,
+			true,
+		),
+	);
+	const made = finQuads(moving, mask, places);
+	for (let i = 0; i < made.getAttribute('position').count; i++) {
+		const copies = Array.from({ length: count }, (_, vertex) => vertex).filter(
+			(vertex) => place(moving, vertex) === place(made, i),
+		);
+		expect(copies.map((vertex) => `${row(moving, 'skinIndex', vertex)}`)).toContain(`${row(made, 'skinIndex', i)}`);
+		expect(row(made, 'skinWeight', i)[0]).toBeCloseTo(200 / 255, 5);
+		if (i > 400) break;
+	}
+	expect(finQuads(shells, mask, places).hasAttribute('skinIndex')).toBe(false);
 });

@@ -12,7 +12,7 @@ const curves: Curves = { even: [table(0, 0), table(1, 0)], along: [table(0, 1), 
 
 describe('curveTable', () => {
 	it('has a curve per channel, knots along x, and both parts at three radii along y', () => {
-		const { data, width, height } = curveTable(curves).image;
+		const { data, width, height } = curveTable([curves]).image;
 		expect([width, height]).toEqual([17, 6]);
 		const at = (row: number, knot: number, channel: number) =>
 			DataUtils.fromHalfFloat((data as Uint16Array)[4 * (17 * row + knot) + channel] ?? 0);
@@ -27,7 +27,7 @@ describe('SlabLight', () => {
 	const means = { curves, way: [0, 1] as const };
 
 	it('has a row per slab and state, linear in its weights', () => {
-		const light = new SlabLight({ kind: 'ptm' }, means, [{ weights: [[1, 0]] }], false);
+		const light = new SlabLight({ kind: 'ptm' }, [means], [{ weights: [[1, 0]] }], false);
 		const read = () => Array.from(light.texture.image.data as Float32Array);
 		const [first] = [read()];
 		light.states = [{ weights: [[0, 1]] }];
@@ -64,7 +64,7 @@ describe('what is told of several hairs', () => {
 	it('is in the last three texels of its slab', () => {
 		const { curves: own } = coloured;
 		if (!own) throw new Error('no curves');
-		const light = new SlabLight({ kind: 'ptm' }, { curves: own, way: [0, 1] }, [state], false);
+		const light = new SlabLight({ kind: 'ptm' }, [{ curves: own, way: [0, 1] }], [state], false);
 		const data = light.texture.image.data as Float32Array;
 		const second = data.slice(data.length - 12);
 		const close = (values: number[]) => values.map((value) => expect.closeTo(value, 5));
@@ -75,7 +75,7 @@ describe('what is told of several hairs', () => {
 		const { curves: own } = coloured;
 		if (!own) throw new Error('no curves');
 		const means = { curves: own, way: [0, 1] as const };
-		const data = new SlabLight({ kind: 'ptm' }, means, [state], false).texture.image.data as Float32Array;
+		const data = new SlabLight({ kind: 'ptm' }, [means], [state], false).texture.image.data as Float32Array;
 		for (const [b, radius] of [1, 4, 16].entries()) {
 			const [sky] = curveSkies({ kind: 'ptm' }, means, radius);
 			const shares = skyShares(multiple, means, state.weights, radius);

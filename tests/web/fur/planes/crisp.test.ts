@@ -50,7 +50,7 @@ describe('crisp hairs', () => {
 	])('hide as much as soft ones, with coverage in %s', (_, channel) => {
 		const plane = textureArray('plane', [level(slabs, channel), level(coarse, channel)], extent);
 		const other = textureArray('other', [new Uint8Array(SIZE * SIZE * 12)], extent);
-		const levels = crispLevels(channel === 2 ? { plane0: other, plane1: plane } : { plane0: plane }, 3);
+		const levels = crispLevels(channel === 2 ? { plane0: other, plane1: plane } : { plane0: plane });
 		expect(levels).toHaveLength(2);
 		const each = levels.flatMap((two) => two.toArray());
 		for (const k of [0, 1, 2]) {

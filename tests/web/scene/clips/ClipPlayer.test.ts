@@ -167,3 +167,23 @@ describe('the room of a body', () => {
 		expect(mesh.morphTargetInfluences).toEqual([0]);
 	});
 });
+
+describe('the room of a clip', () => {
+	const made = (rest?: { box: Box3; radius: number }) => {
+		const body = limb();
+		return new ClipPlayer(body.object, [body.mesh], body.clips, rest);
+	};
+
+	it('is that of the body at rest where the clip hardly leaves it', () => {
+		const own = made();
+		const aside = (share: number) => {
+			const box = own.box.clone();
+			box.max.x += share * own.radius;
+			return { box, radius: 1.01 * own.radius };
+		};
+		const kept = made(aside(0.03));
+		expect([...corners(kept.box), kept.radius]).toEqual([...corners(aside(0.03).box), aside(0.03).radius]);
+		const left = made(aside(0.2));
+		expect([...corners(left.box), left.radius]).toEqual([...corners(own.box), own.radius]);
+	});
+});

@@ -2,7 +2,6 @@
 
 uniform float brightness; // radiance of a white hair
 
-in vec3 vAt;
 
 out vec4 fragColour;
 

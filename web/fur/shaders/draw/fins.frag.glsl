@@ -3,19 +3,30 @@ uniform float finOpacity;
 uniform sampler2DArray colourPlane; // colour of the texel's hairs
 #endif
 
-in vec2 vAt;
+#ifdef ROOTS
+uniform sampler2D roots; // colour of the skin at the roots of the hairs
+in vec2 vRoot;
+vec3 rootColour; // of this fragment
+#define baseColour (vSkin.rgb * rootColour)
+#else
+#define baseColour vSkin.rgb
+#endif
+
 in vec4 vSkin;
 in float vFade;
 out vec4 fragColour;
 
 void main() {
-	vec3 at = vec3(vAt, 0.0);
+	vec3 at = vAt;
 	FurTexel texel = furTexel(at);
+#ifdef ROOTS
+	rootColour = texture(roots, vRoot).rgb;
+#endif
 	float alpha = texel.alpha * vFade * finOpacity;
 	if (alpha < 0.01) discard;
 	vec3 colour = furRamp(vSkin.a, clamp(vAt.y, 0.0, 1.0)) * texel.tint;
 #ifdef COLOUR_PLANE
 	colour = mix(furBytes(colourPlane, at).rgb, colour, vSkin.a);
 #endif
-	fragColour = furOutput(furRadiance(texel, soiled(vSkin.rgb * colour), receivedLamps(), receivedSky()), alpha);
+	fragColour = furOutput(furRadiance(texel, soiled(baseColour * colour), receivedLamps(), receivedSky()), alpha);
 }

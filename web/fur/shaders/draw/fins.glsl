@@ -6,6 +6,6 @@ vec3 slabColour(FurPoint point, float tint) {
 #ifdef COLOUR_PLANE
 	colour = mix(ofSlab(point, HAIRS).rgb, colour, vSkin.a);
 #endif
-	return vSkin.rgb * colour;
+	return baseColour * colour;
 }
 #endif

@@ -2,11 +2,20 @@ layout(location = 12) in vec4 color; // colour of the skin, linear
 layout(location = 13) in vec4 _fur; // see frame.glsl
 layout(location = 15) in vec4 _edge; // XY = angles of the two faces' normals about the edge, over π; ZW = comb along the edge and across it
 
+#ifdef ROOTS
+layout(location = 14) in vec2 uv1; // place of the root in the picture of the roots
+uniform vec2 rootsUnit; // coordinates of that picture per tile
+out vec2 vRoot;
+#define baseColour (vSkin.rgb * color.rgb)
+#else
+#define baseColour vSkin.rgb
+#endif
+
 uniform float tiles; // texture coordinates → tiles
 uniform float finHeights; // second texture coordinate → heights
 uniform float finLength; // length of the fin, lengths of the fur here
 
-out vec2 vAt; // tiles along the edge, height
+out vec3 vAt; // XY = tiles along the edge, height; Z = fur
 out vec4 vSkin; // RGB = factor of the hairs' colour, A = mix of tip and tip2
 out float vFade;
 
@@ -51,13 +60,18 @@ void main() {
 	vFade = finFade(facesTowards(viewer, upright, across), dot(across, viewer));
 #endif
 
-	vAt = uv * vec2(tiles, finHeights * furTrim);
+	vAt = vec3(uv * vec2(furTiles, finHeights * furTrim), float(furRegion));
 	// An invisible quad collapses to its root and has no fragments.
 	float s = vFade > 0.0 ? min(vAt.y, furTrim) : 0.0;
 	vec3 comb = finComb(frame * vec3(_edge.z, 0.0, _edge.w));
 	vec3 pointVS = (placement * vec4(furPoint(rootPosition, n, comb, _fur.y * finLength, s), 1.0)).xyz;
 	gl_Position = projectionMatrix * vec4(pointVS, 1.0);
+#ifdef ROOTS
+	vSkin = vec4(skinColor, tipShare * _fur.w);
+	vRoot = uv1 - rootsUnit * furWidth * driftAt(s);
+#else
 	vSkin = vec4(skinColor * color.rgb, tipShare * _fur.w);
+#endif
 #ifdef WET
 	vSkin.rgb *= furTraits.y;
 #endif

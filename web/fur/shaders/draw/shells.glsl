@@ -3,9 +3,9 @@
 #ifdef MULTIPLE
 vec3 slabColour(FurPoint point, float tint) {
 #ifdef COLOUR_PLANE
-	return vColour * mix(ofSlab(point, HAIRS).rgb, furRamp(1.0, vHeight) * tint, vTip2);
+	return baseColour * mix(ofSlab(point, HAIRS).rgb, furRamp(1.0, vHeight) * tint, vTip2);
 #else
-	return vColour * tint;
+	return baseColour * tint;
 #endif
 }
 #endif

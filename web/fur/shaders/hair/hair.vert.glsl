@@ -1,13 +1,23 @@
 // Part of the hairs' colour that is independent of the texel, for any light.
 
-out vec3 vColour; // linear; a factor where there is a colour plane
+out vec3 vColour; // linear; a factor where there is a colour plane, or a picture of the roots
 #ifdef COLOUR_PLANE
 out float vTip2; // mix of the texel's colour and tip2
 out float vHeight; // 0 at the skin, 1 at the tip
 #endif
 
+#ifdef ROOTS
+#define baseColour (vColour * color.rgb)
+#else
+#define baseColour vColour
+#endif
+
 void passColour(ShellPoint shell) {
+#ifdef ROOTS
+	vColour = skinColor;
+#else
 	vColour = skinColor * color.rgb;
+#endif
 #ifdef WET
 	vColour *= furTraits.y;
 #endif

@@ -25,16 +25,18 @@ float crispCoverage(float coverage) {
 	return clamp((coverage - vKept) * crispness.x + vKept, 0.0, 1.0);
 }
 
-// coverage: that of a slab of the baked thickness, seen from straight above.
+// coverage: that of a slab of the baked thickness, seen from straight above. Drops fragments of other furs' hairs.
 float shellOpacity(float coverage) {
+	float kept = furShare();
+	if (kept <= 0.0) discard;
 #ifdef ALPHA_TO_COVERAGE
 	// Fragments of a pixel all cover the same samples first, so together no more than the densest: hairs get an edge one pixel
 	// wide.
-	float most = min(2.0 * vWeight * shellCount / (furTrim * float(LAYERS)), 1.0); // share of the overlapping patches here
+	float most = min(2.0 * vWeight * kept * shellCount / (furTrim * float(LAYERS)), 1.0); // share of the overlapping patches here
 	return clamp((coverage * most - HAIR) / max(fwidth(coverage), 1e-3) + 0.5, 0.0, 1.0);
 #else
 	float facing = max(abs(vFacing), 1.0 / MAX_SLANT);
 	// Extrapolation between samples may take the weight below 0.
-	return 1.0 - pow(1.0 - min(coverage, 0.996), max(vWeight, 0.0) / facing);
+	return 1.0 - pow(1.0 - min(coverage, 0.996), max(vWeight, 0.0) * kept / facing);
 #endif
 }

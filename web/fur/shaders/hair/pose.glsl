@@ -123,6 +123,7 @@ void skinRoot() {
 
 // Finds the root; call it before all other functions of the hairs.
 void takePose() {
+	takeFur();
 #ifdef POSED
 	rootPosition = position;
 	rootNormal = normalize(normal);

@@ -14,9 +14,14 @@ out vec2 vCrispness;
 uniform float tiles; // texture coordinates → tiles
 uniform float shellCount; // n of one body, or the largest of many; may be fractional
 uniform int firstShell; // first shell that is drawn
-uniform vec4 drift[(LAYERS + 2) / 2]; // two knots each: mean displacement of the hairs at the root and in every slab's middle, tile widths
 
-uniform vec4 crispLevels[(LAYERS + 1) / 2]; // coverage of two slabs each that crispness leaves alone: X = of texels, Y = of those twice as large
+#define FUR_SLABS (FURS * LAYERS) // of all furs in one state
+#ifdef WET
+#define CRISP_SLABS (FUR_SLABS * WET)
+#else
+#define CRISP_SLABS FUR_SLABS
+#endif
+uniform vec4 crispLevels[(CRISP_SLABS + 1) / 2]; // coverage of two slabs each, state after state, that crispness leaves alone: X = of texels, Y = of those twice as large
 #ifndef BODIES
 uniform vec2 crispness; // Y = share of the latter in the picture
 #endif
@@ -25,6 +30,14 @@ out vec3 vAt; // XY = tiles, Z = slab
 out float vWeight; // slabs that the shell stands for, times the patch's weight
 out float vFacing; // n·v
 out float vKept;
+#ifdef PARTED
+in vec4 regionSlope; // growth of the two bounds along u and v, per unit of texture coordinates: XY of the lower, ZW of the upper
+uniform float furCells; // cells along a tile of the coat in which all hairs are of one fur
+out vec2 vBounds; // bounds at the hairs' root
+out vec2 vRoot; // that root, cells
+#endif
+
+#define TIE 0.7 // phase at which half as many shells as slabs are as bright as a few more or less
 
 #define SLABS (furTrim * float(LAYERS)) // slabs left after a cut
 
@@ -36,27 +49,31 @@ struct ShellPoint {
 	mat3 frameVS; // (T, B, N)
 	vec3 comb; // displacement of the tip in that frame, share of the length
 	vec3 pointVS;
+	int slab;
 };
-
-vec2 driftKnot(int k) {
-	vec4 two = drift[k >> 1];
-	return (k & 1) == 0 ? two.xy : two.zw;
-}
-
-// Mean displacement of the hairs: 0 at the root, linear between slab middles and on beyond the last.
-vec2 driftAt(float s) {
-	float x = s * float(LAYERS) + 0.5;
-	if (x < 1.0 || LAYERS == 1) return driftKnot(1) * (2.0 * x - 1.0);
-	int k = min(int(x), LAYERS - 1);
-	return mix(driftKnot(k), driftKnot(k + 1), x - float(k));
-}
 
 // Slab shown by shell `i` of `count` at height s.
 int slabAt(float s, float i, float count) {
 	// With fewer shells than slabs, ties between two slabs are broken shell by shell: all shells changing at once would be
 	// visible when their number changes.
-	float nudge = count < SLABS ? 0.4 * (fract(0.618034 * i) - 0.5) : NUDGE;
+	float nudge = count < SLABS ? 0.4 * (fract(0.618034 * i + TIE) - 0.5) : NUDGE;
 	return clamp(int(s * float(LAYERS) + nudge), 0, TOP);
+}
+
+vec2 crispLevel(int slab) {
+	vec4 two = crispLevels[slab >> 1];
+	return (slab & 1) == 0 ? two.xy : two.zw;
+}
+
+// Coverage of a slab, fur after fur, that crispness leaves alone, of texels and of those twice as large.
+vec2 keptLevels(int slab) {
+#ifdef WET
+	int below = stateBelow(vPlace);
+	vec2 drier = crispLevel(slab + below * FUR_SLABS);
+	return mix(drier, crispLevel(slab + (below + 1) * FUR_SLABS), clamp(vPlace - float(below), 0.0, 1.0));
+#else
+	return crispLevel(slab);
+#endif
 }
 
 // Number of shells of a slab, the outermost counted by its share. It equalises the slabs' weights, or fur would change its
@@ -107,10 +124,16 @@ ShellPoint shellPoint() {
 #else
 	int slab = slabAt(point.s, i, count);
 #endif
-	vAt = vec3(uv * tiles - (driftAt(point.s) - driftKnot(slab + 1)), float(slab));
-	vWeight = _fur.x * share / sharesOf(slab, count);
-	vec4 two = crispLevels[slab >> 1];
-	vec2 kept = (slab & 1) == 0 ? two.xy : two.zw;
+	vec2 drifted = driftAt(point.s);
+	vAt = vec3(uv * furTiles - (drifted - driftKnot(slab + 1)), float(slab + furRegion * LAYERS));
+	vWeight = _fur.x * FUR_SHARE * share / sharesOf(slab, count);
+#ifdef PARTED
+	drifted *= furWidth;
+	vBounds = _region.xy - vec2(dot(regionSlope.xy, drifted), dot(regionSlope.zw, drifted)) / tiles;
+	vRoot = (uv * tiles - drifted) * furCells;
+#endif
+	point.slab = slab;
+	vec2 kept = keptLevels(slab + furRegion * LAYERS);
 	vKept = mix(kept.x, kept.y, crispness.y);
 	vFacing = dot(point.turn * n, viewerVS(point.pointVS));
 	gl_Position = point.there ? projectionMatrix * vec4(point.pointVS, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);

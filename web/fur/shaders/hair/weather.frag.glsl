@@ -1,9 +1,9 @@
 // Texels of wet and dirty fur, mixed from states.
 
 #ifdef FIN
-#define SLABS 1.0
+#define SLABS float(FURS)
 #else
-#define SLABS float(LAYERS)
+#define SLABS float(FURS * LAYERS)
 #endif
 
 #ifdef WET

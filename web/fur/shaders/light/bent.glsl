@@ -1,8 +1,13 @@
 // Light on fur that is bent further than baked. Texels stay; the effective direction of light and the hairs' reflectance
 // change, by the law of pelt/bent.py. `furbake bend` compares it with bakes of the bent hairs.
 
+#ifdef REGIONS
+uniform vec2 leans[REGIONS]; // of each fur
+#define lean leans[furRegion]
+#else
 uniform vec2 lean; // mean displacement of the tips inside the tile, share of the length along (T, B)
-uniform vec4 bent[6]; // weights of eight terms, two vectors for each of 1, s, s²
+#endif
+uniform vec4 bent[6 * FURS]; // of each fur: weights of eight terms, two vectors for each of 1, s, s²
 
 #if defined(STRAIGHT) && !defined(SWING)
 #if STRAIGHT
@@ -50,7 +55,8 @@ Bending bendingOf(vec3 comb, float s) {
 	upright.UP = 1.0;
 	float q = dot(tip, tip);
 	// In the order of the format, with y = leaning·l: x·z, p, q·z, q; x, q·y, q·y·z, x·y.
-	vec4 first = bent[0] + s * (bent[2] + s * bent[4]), second = bent[1] + s * (bent[3] + s * bent[5]);
+	int own = 6 * furRegion;
+	vec4 first = bent[own] + s * (bent[own + 2] + s * bent[own + 4]), second = bent[own + 1] + s * (bent[own + 3] + s * bent[own + 5]);
 	bending.factor.even = 1.0 + first.y * dot(tip, leaning) + first.w * q;
 	bending.factor.gradient = second.x * tip + q * (first.z * upright + second.y * leaning);
 	bending.factor.form = outerProduct(first.x * tip + second.z * q * leaning, upright) + second.w * outerProduct(tip, leaning);

@@ -1,8 +1,8 @@
 // Mean curves, format 2.x: mean brightness of a slab under a light from any direction, also below its horizon. A texel's
 // light is its coefficients' sum times its slab's curve, a weighted sum of up to four curves shared by all slabs.
 
-uniform sampler2D curveTable; // RGBA = curves; X = 17 knots along the light's height, Y = the part without azimuth at β = 1, 4, 16, then that along the lean
-uniform highp sampler2D slabLight; // a row per slab, state after state: see below
+uniform sampler2D curveTable; // fur after fur: RGBA = curves; X = 17 knots along the light's height, Y = the part without azimuth at β = 1, 4, 16, then that along the lean
+uniform highp sampler2D slabLight; // a row per slab, state after state, in each fur after fur: see below
 
 // Columns of a row. Coefficients 0..2 (low) and 3..5 (high) have a texel each.
 #define WEIGHTS 0 // weights of the curves
@@ -20,11 +20,12 @@ uniform highp sampler2D slabLight; // a row per slab, state after state: see bel
 #define HAIRS 63 // RGB = mean colour, for a pelt with a colour plane
 
 vec4 ofRow(int row, int texel) {
+	row += furRegion * LAYERS;
 #ifdef WET
 	int below = stateBelow(vPlace);
-	row += below * LAYERS;
+	row += below * FURS * LAYERS;
 	vec4 drier = texelFetch(slabLight, ivec2(texel, row), 0);
-	return mix(drier, texelFetch(slabLight, ivec2(texel, row + LAYERS), 0), clamp(vPlace - float(below), 0.0, 1.0));
+	return mix(drier, texelFetch(slabLight, ivec2(texel, row + FURS * LAYERS), 0), clamp(vPlace - float(below), 0.0, 1.0));
 #else
 	return texelFetch(slabLight, ivec2(texel, row), 0);
 #endif
@@ -90,7 +91,8 @@ vec4 curvesAt(float height, float left, float radius, vec3 lightTS) {
 #else
 	float along = dot(leanTS(), lightTS);
 #endif
-	return texture(curveTable, at / vec2(1.0, 6.0)) + along * texture(curveTable, vec2(at.x, (at.y + 3.0) / 6.0));
+	at.y += 6.0 * float(furRegion);
+	return texture(curveTable, at / vec2(1.0, 6.0 * float(FURS))) + along * texture(curveTable, vec2(at.x, (at.y + 3.0) / (6.0 * float(FURS))));
 }
 
 // Factor of Σ a·φ of the slab's texels; may be slightly below 0 where nearly dark, which keeps it linear.

@@ -2,8 +2,14 @@
 // sides of them. By the law of pelt/eye.py, with numbers fitted by each bake.
 
 #ifdef EYE
-uniform vec4 eye[9]; // weights of twelve terms, three vectors for each of 1, s, s²
+uniform vec4 eye[9 * FURS]; // of each fur: weights of twelve terms, three vectors for each of 1, s, s²
+#ifdef REGIONS
+uniform vec4 surges[REGIONS]; // of each fur
+#define furSurge surges[furRegion]
+#else
+#define furSurge surge
 uniform vec4 surge; // light of a lamp beside the eye, which sees no shadows: excess X seen from above, X + Y from aside; Z = width, radians; W = share of a half sphere
+#endif
 #endif
 
 // Eye from a point of the body. Bent hairs are seen as unbent ones by an eye that is turned as their light is: a flank seen onto
@@ -42,18 +48,19 @@ vec3 napTowards(Eye from, vec3 lightTS) {
 	float q = from.q, p = from.p, a = dot(from.level, lightTS), b = dot(leanTS(), lightTS), z = lightTS.UP;
 	vec4 first = vec4(q, a, q * b, p * b), second = vec4(q * z, q * b * b, p, a * a), third = vec4(p * a * b, a * z, q * b * z, q * a * b);
 	vec3 nap = vec3(1.0, 0.0, 0.0);
-	for (int k = 0; k < 3; k++) nap[k] += dot(first, eye[3 * k]) + dot(second, eye[3 * k + 1]) + dot(third, eye[3 * k + 2]);
+	int own = 9 * furRegion;
+	for (int k = 0; k < 3; k++) nap[k] += dot(first, eye[own + 3 * k]) + dot(second, eye[own + 3 * k + 1]) + dot(third, eye[own + 3 * k + 2]);
 	return nap;
 }
 
 // Excess of light beside the eye. up: height of the eye over the horizon
 float surgeFrom(float up) {
-	return surge.x + surge.y * (1.0 - up * up);
+	return furSurge.x + furSurge.y * (1.0 - up * up);
 }
 
 // Factor of the light of a lamp beside the eye.
 float surgeTowards(Eye from, vec3 lightVS) {
-	vec3 apart = (lightVS - from.viewer) / surge.z;
+	vec3 apart = (lightVS - from.viewer) / furSurge.z;
 	return 1.0 + surgeFrom(from.up) / (1.0 + dot(apart, apart));
 }
 

@@ -1,12 +1,23 @@
 // Texel of fur: its polynomial texture map, decoded (paper, eq. 3) and evaluated (eq. 1 without its factors 2).
 
 uniform sampler2DArray plane0; // (a0, a1, a2, a5); with three coefficients (a0, a1, a2, α)
+#ifdef REGIONS
+uniform vec4 codings[4 * REGIONS]; // of each fur scale0, offset0, scale1, offset1 below
+#define scale0 codings[4 * furRegion]
+#define offset0 codings[4 * furRegion + 1]
+#define scale1 codings[4 * furRegion + 2].xy
+#define offset1 codings[4 * furRegion + 3].xy
+#ifdef TWO_PLANES
+uniform sampler2DArray plane1; // (a3, a4, α, tint)
+#endif
+#else
 uniform vec4 scale0; // λ·255 per channel of plane0
 uniform vec4 offset0; // −λ·Ω per channel of plane0
 #ifdef TWO_PLANES
 uniform sampler2DArray plane1; // (a3, a4, α, tint)
 uniform vec2 scale1; // λ·255 of a3, a4
 uniform vec2 offset1; // −λ·Ω of a3, a4
+#endif
 #endif
 uniform float gloss; // strength of both highlights
 uniform float backlight; // strength of light through the hairs from behind

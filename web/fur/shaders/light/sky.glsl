@@ -7,7 +7,9 @@ Quadratic seenByEye(FurPoint point, Eye from) {
 	vec3 level = from.level, leaning = leanTS(), upright = vec3(0.0);
 	upright.UP = 1.0;
 	float q = from.q, p = from.p, s = point.s / furTrim;
-	vec4 first = eye[0] + s * (eye[3] + s * eye[6]), second = eye[1] + s * (eye[4] + s * eye[7]), third = eye[2] + s * (eye[5] + s * eye[8]);
+	int own = 9 * furRegion;
+	vec4 first = eye[own] + s * (eye[own + 3] + s * eye[own + 6]), second = eye[own + 1] + s * (eye[own + 4] + s * eye[own + 7]);
+	vec4 third = eye[own + 2] + s * (eye[own + 5] + s * eye[own + 8]);
 	seen.even += first.x * q + second.z * p;
 	seen.gradient = first.y * level + (first.z * q + first.w * p) * leaning + second.x * q * upright;
 	seen.form = outerProduct(second.w * level + (third.x * p + third.w * q) * leaning + third.y * upright, level);
@@ -96,7 +98,7 @@ vec2 seenSky(FurPoint point, Quadratic seen, Radiance around) {
 	viewer.UP = max(viewer.UP, 0.0);
 	viewer /= max(length(viewer), 1e-4);
 	float beside = max(c + dot(g, viewer), 0.0) / max(c + 0.5 * rise, 1e-6);
-	return vec2(mean, mean + surgeFrom(viewer.UP) * surge.w * beside * heldNap(seen, viewer));
+	return vec2(mean, mean + surgeFrom(viewer.UP) * furSurge.w * beside * heldNap(seen, viewer));
 }
 #endif
 

@@ -1,4 +1,3 @@
-in vec3 vAt;
 
 out vec4 fragColour;
 

@@ -1,4 +1,3 @@
-in vec3 vAt;
 in vec3 vMapped;
 
 out vec4 fragColour;

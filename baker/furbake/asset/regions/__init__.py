@@ -1,0 +1,1 @@
+"""Several furs on one body: their vertices, images and numbers in an asset."""

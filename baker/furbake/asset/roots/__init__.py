@@ -1,0 +1,1 @@
+"""The picture of the hairs' roots in glTF: written, checked, and read back."""

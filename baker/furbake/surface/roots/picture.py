@@ -1,0 +1,89 @@
+"""The picture of a fur's roots: the skin's own colours, laid out by the shells' texture coordinates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.ndimage import distance_transform_edt
+
+from furbake.surface.charts import Charts
+from furbake.surface.colours import Bytes, smaller, srgb_bytes
+from furbake.surface.material import Picture
+from furbake.surface.mesh import Surface
+from furbake.surface.roots.layout import laid_out
+from furbake.surface.roots.look import Points, colours_at, nearest_on_skin, on_skin
+from furbake.surface.roots.raster import drawn
+from furbake.surface.soup import Flags, Floats
+
+LONGEST = 1024
+"""Texels of the picture's longer side, at most."""
+
+WITHIN = 2
+"""Points along each side of a texel whose colours are averaged."""
+
+
+@dataclass(frozen=True)
+class Roots:
+    """Colours of a skin where the hairs have their roots.
+
+    picture : PNG or JPEG, sRGB
+    uv : (M, 2) texture coordinates of the shells, tiles, no two patches over each other
+    scale : (2,) coordinates of the picture per tile
+    """
+
+    picture: Picture
+    uv: Floats
+    scale: Floats
+
+
+def picture_of_roots(skin: Surface, ground: Surface, charts: Charts, drift: Floats, finest: int) -> Roots:
+    """Roots of a ground that is the skin or a simpler copy of it.
+
+    drift : (2,) displacement of the tips from their roots, tiles; finest : texels per tile that are of use
+    """
+    uv = laid_out(charts, drift)
+    density = min(float(finest), (LONGEST - 1) / float(uv.max()))
+    width, height = (int(np.ceil(side * density)) + 1 for side in uv.max(axis=0))
+    pixels = _drawn(skin, ground, charts, uv * density, (height, width), density)
+    return Roots(smaller(pixels), uv, density / np.array([width, height]))
+
+
+def _drawn(skin: Surface, ground: Surface, charts: Charts, uv: Floats, shape: tuple[int, int], density: float) -> Bytes:
+    """(height, width, 3) sRGB bytes; uv : (M, 2) in texels."""
+    parts = list(drawn(uv[charts.faces], shape))
+    face, row, column, shares = (np.concatenate(found) for found in zip(*parts, strict=True))
+    corners = charts.source[charts.faces]
+    same = on_skin(skin, corners) if ground is skin else None
+    total = np.zeros((len(face), 3))
+    steps = (np.arange(WITHIN) + 0.5) / WITHIN - 0.5
+    for aside in ((x, y) for x in steps for y in steps):
+        # Beside the middle, but never beyond the face: what lies there may be another part of the model's picture.
+        held = np.clip(shares + _change(uv[charts.faces[face]], aside), 0.0, 1.0)
+        held /= held.sum(axis=1, keepdims=True)
+        if same is None:
+            points = nearest_on_skin(skin, np.einsum("nc,nck->nk", held, ground.vertices[corners[face]]))
+        else:
+            points = Points(same[0][face], np.take_along_axis(held, same[1][face], axis=1))
+        total += colours_at(skin, points)
+    colours = np.zeros((*shape, 3))
+    colours[row, column] = total / WITHIN**2
+    known = np.zeros(shape, dtype=bool)
+    known[row, column] = True
+    return srgb_bytes(_filled(colours, known, density))
+
+
+def _change(corners: Floats, aside: tuple[float, float]) -> Floats:
+    """(n, 3) how the shares of the corners of (n, 3, 2) triangles change on the way `aside`."""
+    one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    area = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
+    second = (aside[0] * two[:, 1] - aside[1] * two[:, 0]) / area
+    third = (one[:, 0] * aside[1] - one[:, 1] * aside[0]) / area
+    return np.stack([-second - third, second, third], axis=1)
+
+
+def _filled(colours: Floats, known: Flags, density: float) -> Floats:
+    """The picture with the nearest known colour around its patches, and the mean of all far off."""
+    far, (row, column) = distance_transform_edt(~known, return_indices=True)
+    mean = colours[known].mean(axis=0)
+    return np.asarray(np.where((far < density)[..., None], colours[row, column], mean))

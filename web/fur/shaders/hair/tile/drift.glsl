@@ -1,0 +1,16 @@
+// Drift of the hairs inside the tile of their fur.
+
+uniform vec4 drift[FURS * ((LAYERS + 2) / 2)]; // of each fur, two knots each: mean displacement of the hairs at the root and in every slab's middle, tile widths
+
+vec2 driftKnot(int k) {
+	vec4 two = drift[furRegion * ((LAYERS + 2) / 2) + (k >> 1)];
+	return (k & 1) == 0 ? two.xy : two.zw;
+}
+
+// Mean displacement of the hairs: 0 at the root, linear between slab middles and on beyond the last.
+vec2 driftAt(float s) {
+	float x = s * float(LAYERS) + 0.5;
+	if (x < 1.0 || LAYERS == 1) return driftKnot(1) * (2.0 * x - 1.0);
+	int k = min(int(x), LAYERS - 1);
+	return mix(driftKnot(k), driftKnot(k + 1), x - float(k));
+}
