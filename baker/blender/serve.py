@@ -47,7 +47,7 @@ class Server:
                 self.wfile.write(data)
 
             def _here(self) -> bool:
-                """Whether it was asked for by this computer's name: a page elsewhere could have its own name for it."""
+                """True where this computer's own name was asked: a page elsewhere could have another name for it."""
                 return self.headers.get("Host", "").partition(":")[0] in {"127.0.0.1", "localhost"}
 
             def log_message(self, *_arguments: object) -> None:

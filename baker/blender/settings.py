@@ -54,7 +54,10 @@ class FurSettings(bpy.types.PropertyGroup):
         name="Length", min=0.0, unit="LENGTH", description="Longest fur of a preset. 0: by the body's thickness"
     )
     follow: IntProperty(
-        name="Fill in", min=-1, default=-1, description="Hairs grown beside each of its hairs. -1: as many as cover the skin"
+        name="Fill in",
+        min=-1,
+        default=-1,
+        description="Hairs grown beside each hair. -1: as many as cover the skin",
     )
     length_group: StringProperty(name="Length", description="Vertex group: share of the longest fur")
     mask_group: StringProperty(name="Mask", description="Vertex group: where fur grows")

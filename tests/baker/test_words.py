@@ -12,7 +12,15 @@ import pytest
 import furbake
 
 TESTS = Path(__file__).parent
-FILES = sorted([*Path(furbake.__file__).parent.rglob("*.py"), *TESTS.rglob("*.py"), *TESTS.parent.glob("golden/*.py")])
+EXTENSION = Path(furbake.__file__).parents[1] / "blender"
+FILES = sorted(
+    [
+        *Path(furbake.__file__).parent.rglob("*.py"),
+        *EXTENSION.glob("*.py"),
+        *TESTS.rglob("*.py"),
+        *TESTS.parent.glob("golden/*.py"),
+    ]
+)
 
 OPENINGS = ("Of ", "What ", "Has ", "Whether ", "For what ", "With what ", "To what ", "Who ", "Whom ", "Somebody ")
 """Openings that leave the reader without a subject."""

@@ -1,6 +1,6 @@
 """Runs in Blender's Python: a scene, the extension in it, and what came of it as JSON.
 
-    PYTHON inside.py ZIP FURBAKE FOLDER
+PYTHON inside.py ZIP FURBAKE FOLDER
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ PLAIN = "--no-length-by-thickness --set length_noise=0"
 
 
 def choose(thing: bpy.types.Object) -> None:
+    """Select one object."""
     for each in bpy.context.selected_objects:
         each.select_set(False)
     thing.select_set(True)
@@ -64,7 +65,7 @@ def monkey() -> bpy.types.Object:
 
 
 def state() -> list[Any]:
-    """What an export must leave as it was."""
+    """Objects, data, poses and selection, which an export leaves as they were."""
     active = bpy.context.view_layer.objects.active
     data = [len(each) for each in (bpy.data.meshes, bpy.data.hair_curves, bpy.data.node_groups, bpy.data.collections)]
     poses = [each.pose_position for each in bpy.data.armatures]
@@ -94,7 +95,7 @@ def exported(thing: bpy.types.Object, out: Path) -> dict[str, Any]:
     hairs.write_hairs(bpy.context, thing, out)
     with np.load(out) as arrays:
         points, counts, widths = arrays["points"], arrays["counts"], arrays["widths"]
-        colours = arrays["colours"] if "colours" in arrays else None
+        colours = arrays.get("colours")
     places = np.stack([points[:, 0], -points[:, 2], points[:, 1]], axis=1)
     starts = np.cumsum(counts) - counts
     mesh = thing.data
@@ -148,7 +149,7 @@ def spline() -> bpy.types.Object:
 
 
 def taken(folder: Path, before: set[bpy.types.Object]) -> dict[str, Any]:
-    """What the import of a baked folder brought."""
+    """Objects that the import of a baked folder brought."""
     made = [each for each in bpy.data.objects if each not in before]
     hairs = next(each for each in made if each.type == "CURVES")
     skin = hairs.data.surface
@@ -173,6 +174,7 @@ def taken(folder: Path, before: set[bpy.types.Object]) -> dict[str, Any]:
 
 
 def main(package: str, furbake: str, folder: str) -> dict[str, Any]:
+    """Everything, in one scene."""
     out = Path(folder)
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.extensions.package_install_files(filepath=package, repo="user_default", enable_on_install=True)

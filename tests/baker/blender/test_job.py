@@ -122,7 +122,14 @@ def test_the_server_gives_files_of_its_folders_alone(part: Any, tmp_path: Path) 
             return found.status
 
         assert [status(path) for path in ("/", "/?model=0", "/0/model.gltf")] == [200, 200, 200]
-        hidden = ("/0/../secret.json", "/0/%2e%2e/secret.json", "/../secret.json", "/0/notes.txt", "/1/model.gltf", "/0/")
+        hidden = (
+            "/0/../secret.json",
+            "/0/%2e%2e/secret.json",
+            "/../secret.json",
+            "/0/notes.txt",
+            "/1/model.gltf",
+            "/0/",
+        )
         assert {status(path) for path in hidden} == {404}
         assert status("/0/model.gltf", "evil.example:80") == 404
     finally:

@@ -99,7 +99,7 @@ def monkey() -> bpy.types.Object:
 
 
 def render(path: Path) -> None:
-    """What Cycles sees from the page's side, under one lamp and a faint sky."""
+    """Render from the page's side by Cycles, under one lamp and a faint sky."""
     bpy.ops.preferences.addon_enable(module="cycles")
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
