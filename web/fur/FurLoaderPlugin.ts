@@ -27,7 +27,7 @@ import { type Cut, PeltStates } from './planes/PeltStates.ts';
 import { readOneLevel, textureArray } from './planes/planes.ts';
 import { statesOf } from './planes/states.ts';
 import { ALPHA_CUT } from './shells/lod.ts';
-import { markFurs } from './shells/regions.ts';
+import { markFurs } from './shells/regions/markFurs.ts';
 
 /**
  * Anisotropy of the shells' planes. In close-ups of the bunny 2 gains 1.4 dB against a supersampled picture, 4 and more

@@ -176,7 +176,12 @@ class BakeOptions:
         """Raise `OptionError` for what cannot stand beside regions."""
         if self.regions is None:
             return
-        for name, got in (("swatch", self.swatch), ("groom", self.groom), ("basis", self.basis), ("curves", self.curves)):
+        for name, got in (
+            ("swatch", self.swatch),
+            ("groom", self.groom),
+            ("basis", self.basis),
+            ("curves", self.curves),
+        ):
             if got not in (None, "ptm", "slab"):
                 raise OptionError(f"regions: got {name} {got} beside them, expected grown fur, ptm and slab")
 

@@ -25,7 +25,12 @@ def grown(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     """Heights of the tiles that were grown: none where a pelt comes from the cache."""
     heights: list[float] = []
     grow = Tile.grow
-    monkeypatch.setattr(Tile, "grow", lambda options, height, *more: heights.append(height) or grow(options, height, *more))
+
+    def noted(options: BakeOptions, height: float, *more: Any) -> Tile:
+        heights.append(height)
+        return grow(options, height, *more)
+
+    monkeypatch.setattr(Tile, "grow", noted)
     return heights
 
 

@@ -10,7 +10,7 @@ import {
 } from 'three';
 import output from '../shaders/draw/output.glsl?raw';
 import colour from '../shaders/hair/colour.glsl?raw';
-import dissolve from '../shaders/hair/dissolve.glsl?raw';
+import dissolve from '../shaders/hair/regions/dissolve.glsl?raw';
 import frame from '../shaders/hair/frame.glsl?raw';
 import hairIn from '../shaders/hair/hair.frag.glsl?raw';
 import hairOut from '../shaders/hair/hair.vert.glsl?raw';

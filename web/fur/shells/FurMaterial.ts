@@ -8,7 +8,7 @@ import { crispLevels } from '../planes/crisp.ts';
 import fragmentMain from '../shaders/draw/shells.frag.glsl?raw';
 import ends from '../shaders/draw/shells.glsl?raw';
 import vertexMain from '../shaders/draw/shells.vert.glsl?raw';
-import dissolve from '../shaders/hair/dissolve.glsl?raw';
+import dissolve from '../shaders/hair/regions/dissolve.glsl?raw';
 import frame from '../shaders/hair/frame.glsl?raw';
 import hairIn from '../shaders/hair/hair.frag.glsl?raw';
 import hairOut from '../shaders/hair/hair.vert.glsl?raw';
@@ -18,7 +18,7 @@ import drift from '../shaders/hair/tile/drift.glsl?raw';
 import { ALPHA_CUT } from './lod.ts';
 import { morphUniforms, weightUniforms } from './morphs.ts';
 import { PeltMaterial } from './PeltMaterial.ts';
-import { regionUniforms } from './regions.ts';
+import { regionUniforms } from './regions/regionUniforms.ts';
 
 /** Properties that a FurMaterial has beside those of every material. */
 export interface FurMaterialParameters extends ShaderMaterialParameters {

@@ -1,0 +1,21 @@
+/** Numbers of several furs on one body, as uniforms. See shaders/hair/regions/region.glsl. */
+
+import { Color, type IUniform } from 'three';
+import type { FurAsset } from '../../format.ts';
+import { leanOf } from '../../light/bent.ts';
+
+/** Numbers of each fur that the shaders look up, the coat first. */
+export function regionUniforms(
+	{ cells, furs: regions }: NonNullable<FurAsset['regions']>,
+	furs: readonly FurAsset[],
+): Record<string, IUniform> {
+	return {
+		furCells: { value: cells },
+		tileWidths: { value: [1, ...regions.map(({ tile }) => tile)] },
+		leans: { value: furs.map(leanOf) },
+		regionRamps: {
+			value: furs.flatMap(({ ramp: { root, tip, tip2 } }) => [root, tip, tip2].map((colour) => new Color(...colour))),
+		},
+		regionPowers: { value: furs.map(({ ramp }) => ramp.power) },
+	};
+}
