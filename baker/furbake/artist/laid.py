@@ -17,7 +17,7 @@ TALL = 0.95
 FLAT = 0.04
 """Least height of a tip that is told from the skin, share of its strand."""
 
-COMBED = 0.05
+COMBED = 0.01
 """What a comb costs beside a tip that is missed by its strand's length: light on the tile knows its lean."""
 
 ROUNDS = 3
