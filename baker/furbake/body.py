@@ -98,7 +98,6 @@ def grounded(skin: Surface) -> Surface:
     return simplify(skin, SHELL_FACES) if len(skin.faces) > MANY_FACES else skin
 
 
-# Long: stages of one body, each of which needs those before.
 def prepare(model: str, options: BakeOptions) -> Body:
     """Read `model` and lay its fur. Raises MeshError or OptionError, each with one sentence."""
     skin = _skin(model, options)
