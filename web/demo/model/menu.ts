@@ -22,7 +22,7 @@ export interface MenuEntry {
 	/** states of a pelt beside dry and clean */
 	wet?: boolean;
 	dirt?: boolean;
-	/** strength of a pelt's highlights, where it is not the usual one */
+	/** strength of the highlights, where it is not the usual one */
 	gloss?: number;
 	/** share of a model's own second tip colour on a pelt, 0..1 */
 	tips?: number;

@@ -93,7 +93,7 @@ function outfitsOf(
 			// The model's own fur suits its body better than the pelt.
 			const own = method !== 'eigen' && view.preset === undefined;
 			const pelt = own && !lent ? undefined : peltOf(view, entry, menu, method);
-			const { tips = 1, gloss } = (!own && pelt) || {};
+			const { tips = 1, gloss } = (own ? { gloss: entry?.gloss } : pelt) ?? {};
 			return { pelt: pelt && (await load(pelt.name, limits)), tips, gloss, method: name, light: await lightOf(name) };
 		}),
 	);
