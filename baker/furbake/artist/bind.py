@@ -157,7 +157,7 @@ def _floating(ground: Ground, roots: Floats, limit: float) -> float:
 
 
 def _far(ground: Ground, roots: Floats, limit: float) -> str:
-    """What is wrong with a groom whose roots are far from the body."""
+    """Sentence about a groom whose roots are far from the body."""
     extent = ground.surface.extent
     for turn, matrix in {"": np.eye(3), **TURNED}.items():
         for factor, what in {1.0: "", **UNITS}.items():

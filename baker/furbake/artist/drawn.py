@@ -92,7 +92,7 @@ def frames(source: Source, which: Ints) -> tuple[Floats, Floats, Floats]:
 
 
 def _traits(source: Source) -> tuple[Floats, ...]:
-    """What a tile's strands have in common with the whole groom: height, reach and width, (S,) each."""
+    """Traits by which a tile's strands are held against the whole groom: height, reach and width, (S,) each."""
     bound, fields = source.bound, source.fields
     height = source.stands.at(np.maximum(fields.height, 1e-3 * fields.length))
     length = source.stands.at(fields.length)

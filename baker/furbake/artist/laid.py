@@ -18,7 +18,7 @@ FLAT = 0.04
 """Least height of a tip that is told from the skin, share of its strand."""
 
 COMBED = 0.01
-"""What a comb costs beside a tip that is missed by its strand's length: light on the tile knows its lean."""
+"""Cost of a comb beside a tip that is missed by its strand's length: light on the tile knows its lean."""
 
 ROUNDS = 3
 """Rounds of averages over the edges, for length and comb: where one leaps, light does."""

@@ -1,4 +1,4 @@
-"""What a groom and the fur made of it have in common, as samples and as histograms side by side."""
+"""Traits of a groom and of the fur made of it, as samples and as histograms side by side."""
 
 from __future__ import annotations
 

@@ -82,7 +82,7 @@ class BakeOptions:
     uv: Uv = "lapped"
     """Lapped patches along the fur, or the model's own texture coordinates."""
     colour: ColourKind = "texture"
-    """Of hairs on a model with a picture: that of the picture at their roots, or one colour per vertex."""
+    """Colour of hairs on a model with a picture: the picture's at their roots, or one per vertex."""
     length_by_thickness: bool = False
     """Shorter fur where the body is thin (ears, feet)."""
     auto_length: bool = False

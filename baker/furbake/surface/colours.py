@@ -24,7 +24,7 @@ STRIPE = 256
 """Rows of a picture that are converted together."""
 
 QUALITY = 90
-"""Of JPEG."""
+"""Quality of JPEG."""
 
 STEPS = 6
 """Points along each side of a face at which its picture is read."""

@@ -72,10 +72,10 @@ EDITS = {
     "old version": (lambda d: put(fur(d), "version", "1.1"), "FUR_ptm_shells: 'environment' is a required property"),
     "short table": (lambda d: fur(d)["curves"]["even"][0][1].pop(), "curves.even[0][1]: [0"),
     "two bodies": (lambda d: fur(d)["curves"]["along"][0].pop(), "FUR_ptm_shells: curves.along[0]: [["),
-    "a curve less": (lambda d: fur(d)["curves"]["along"].pop(), "curves.along has 2 tables, expected 3 as curves.even"),
+    "a curve less": (lambda d: fur(d)["curves"]["along"].pop(), "curves.along has 3 tables, expected 4 as curves.even"),
     "light below": (lambda d: put(fur(d)["curves"]["even"][0][0], 0, 0.1), "curves.even is not 0 at the first knot"),
     "slabs unweighted": (lambda d: fur(d)["pelts"][0]["weights"].pop(), "pelts[0].weights has 3 rows, expected 4"),
-    "curve unweighted": (lambda d: fur(d)["pelts"][0]["weights"][2].pop(), "pelts[0].weights has a row of 2 numbers"),
+    "curve unweighted": (lambda d: fur(d)["pelts"][0]["weights"][2].pop(), "pelts[0].weights has a row of 3 numbers"),
     "an environment": (
         lambda d: put(side(d), "environment", [[0] * 9] * 6),
         "an environment in version 2.0, expected none",

@@ -109,8 +109,8 @@ BAD_COMMANDS = {
     ): "length: got length, tile and height",
     ("bake", "torus:2x3", "-o", "out"): "torus:2x3: 2 rows and 3 columns, expected 3 to 1024 of each",
     ("bake", "plane", "-o", "out", "--samples", "folder"): "folder: is a folder, expected a file to write",
-    ("bake", "plane"): "-o: missing, expected furbake bake MODEL -o DIR",
-    ("bake",): "MODEL, -o: missing, expected furbake bake MODEL -o DIR",
+    ("bake", "plane"): "-o: missing, expected furbake bake [MODEL] -o DIR",
+    ("bake",): "-o: missing, expected furbake bake [MODEL] -o DIR",
     ("bake", "", "-o", "out"): "MODEL: got '', expected a path",
     ("bake", "a\0b", "-o", "out"): "MODEL: got 'a\\x00b', expected a path",
     (

@@ -119,7 +119,7 @@ def nearest_on_skin(surface: Surface, places: Floats) -> Points:
 
 
 def textured(surface: Surface) -> bool:
-    """Whether a picture colours some of the surface's skin."""
+    """True where a picture colours some of the surface's skin."""
     return any(piece.uv is not None and piece.material.picture is not None for piece in surface.skin)
 
 

@@ -73,7 +73,7 @@ def sphere() -> Surface:
 
 
 def seen(surface: Surface, places: np.ndarray) -> np.ndarray:
-    """What the model shows at places of its skin."""
+    """Colours that the model shows at places of its skin."""
     colour = expected(0.5 + 0.45 * places[:, :2] / np.abs(surface.vertices).max())
     return colour * np.where(places[:, 2:] > 0, [0.5, 1, 1], [0.8, 1, 1])
 
