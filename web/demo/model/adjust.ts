@@ -8,11 +8,17 @@ import { hasEigen } from './outfits.ts';
 /** Picks a sentence out of a language's words. */
 export type Reason = (words: Words) => string;
 
-/** @returns the view without what cannot be shown, and why */
+/**
+ * Leaves out of a view what cannot be shown.
+ *
+ * @param alone whether the model can stand in no crowd
+ * @returns the view that is left, and why
+ */
 export function adjust(
 	asked: View,
 	entry: MenuEntry | undefined,
 	menu: readonly MenuEntry[],
+	alone = false,
 ): { view: View; reasons: Reason[] } {
 	let view = asked;
 	const reasons: Reason[] = [];
@@ -32,6 +38,10 @@ export function adjust(
 	if (!hasEigen(view, entry, menu) && Object.keys(withoutEigen(view)).length > 0) {
 		reasons.push((words) => words.noEigenHere);
 		leaveOut(withoutEigen(view));
+	}
+	if ((view.crowd ?? 1) > 1 && alone) {
+		reasons.push((words) => words.standsAlone);
+		leaveOut({ crowd: undefined });
 	}
 	const rival = isRival(view.method ?? 'ptm');
 	if ((view.crowd ?? 1) > 1 && (view.split || rival)) {

@@ -72,7 +72,9 @@ export class Dressing {
 		if (!model?.fur) return this.#onShow.changed();
 		const late = () => turn !== this.#latest || model !== stage.model;
 		const { menu, entry } = this.#onShow;
-		const { view, reasons } = adjust(this.#store.get(), entry, menu);
+		const { shells, asset } = model.fur;
+		const alone = shells.skeleton !== undefined && asset.regions !== undefined;
+		const { view, reasons } = adjust(this.#store.get(), entry, menu, alone);
 		this.#store.change(view);
 		for (const reason of reasons) notice(reason(words));
 		const withStates = this.#dynamics.needsStates(view);

@@ -122,6 +122,7 @@ export const en = {
 	notSaved: (reason: string) => `The picture cannot be saved: ${reason}`,
 	noLink: 'A model from your own files has no address: this link shows the rest of the view.',
 	notInLink: 'What was painted on the fur is not in the link.',
+	standsAlone: 'A model with joints and several furs stands alone: the crowd is left out.',
 	rivalLeftOut: 'A crowd is lit by PTM or eigen, in one picture: the other method is left out.',
 	noEigenHere: 'This fur was baked without eigen curves: showing PTM.',
 	inAddress: (problems: string) => `In the address:\n${problems}`,

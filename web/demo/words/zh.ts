@@ -129,6 +129,7 @@ export const zh: Words = {
 	notSaved: (reason) => `无法保存图片：${reason}`,
 	noLink: '来自本地文件的模型没有地址：此链接只重现其余设置。',
 	notInLink: '涂在毛发上的水和泥不会写进链接。',
+	standsAlone: '带骨骼且有多种毛发的模型只能单独显示：已忽略群体。',
 	rivalLeftOut: '群体只用 PTM 或特征基受光，不能分屏：已忽略另一种方法。',
 	noEigenHere: '这种毛发烘焙时没有特征基系数：现用 PTM 显示。',
 	inAddress: (problems) => `地址栏中：\n${problems}`,

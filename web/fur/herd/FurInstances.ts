@@ -87,7 +87,10 @@ export class FurInstances extends Object3D {
 	readonly #drawn: Uint32Array;
 	readonly #ends: Uint32Array;
 
-	/** @param levels largest number of shells per body of each level, falling, whole numbers from 1 to 256 */
+	/**
+	 * @param levels largest number of shells per body of each level, falling, whole numbers from 1 to 256
+	 * @throws Error for several furs on a body with joints: WebGL2 has no room for so many attributes
+	 */
 	constructor(fur: Fur, capacity: number, levels: readonly number[] = LEVELS) {
 		super();
 		this.name = 'fur instances';
@@ -108,6 +111,8 @@ export class FurInstances extends Object3D {
 		const { shells, fins, skin } = fur;
 		const root = skin.parent ?? skin;
 		const { skeleton } = shells;
+		if (skeleton && fur.asset.regions)
+			throw new Error('FurInstances: got several furs on a body with joints, expected one fur or a body without');
 		this.#poses = skeleton && new HerdPoses(skeleton);
 		this.#firstJoints = new Uint32Array(capacity);
 		this.#furMatrix = placement(shells, root);

@@ -36,3 +36,9 @@ it.each<[string, Partial<View>, Partial<View>, string[]]>([
 	expect(view).toEqual({ ...FIRST_VIEW, ...left });
 	expect(reasons.map((reason) => reason(en))).toEqual(sentences);
 });
+
+it('leaves no crowd of a model that stands alone', () => {
+	const { view, reasons } = adjust({ ...FIRST_VIEW, crowd: 5 }, menu[0], menu, true);
+	expect(view).toEqual(FIRST_VIEW);
+	expect(reasons.map((reason) => reason(en))).toEqual([en.standsAlone]);
+});
