@@ -1,9 +1,13 @@
 /** Views that can come true: takes out what the model on show does not support. */
 
+import type { Fur } from '../../fur/index.ts';
 import { isRival, type View } from '../state/view.ts';
 import type { Words } from '../words/en.ts';
 import { type MenuEntry, pelts } from './menu.ts';
 import { hasEigen } from './outfits.ts';
+
+/** Whether fur can stand in no crowd: herds have no room for several furs on joints. */
+export const standsAlone = ({ asset, shells }: Fur): boolean => Boolean(asset.regions && shells.skeleton);
 
 /** Picks a sentence out of a language's words. */
 export type Reason = (words: Words) => string;

@@ -10,11 +10,11 @@ import {
 } from 'three';
 import output from '../shaders/draw/output.glsl?raw';
 import colour from '../shaders/hair/colour.glsl?raw';
-import dissolve from '../shaders/hair/regions/dissolve.glsl?raw';
 import frame from '../shaders/hair/frame.glsl?raw';
 import hairIn from '../shaders/hair/hair.frag.glsl?raw';
 import hairOut from '../shaders/hair/hair.vert.glsl?raw';
 import opacity from '../shaders/hair/opacity.glsl?raw';
+import dissolve from '../shaders/hair/regions/dissolve.glsl?raw';
 import shell from '../shaders/hair/shell.glsl?raw';
 import drift from '../shaders/hair/tile/drift.glsl?raw';
 import view from '../shaders/light/view.glsl?raw';

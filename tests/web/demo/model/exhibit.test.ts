@@ -18,7 +18,7 @@ beforeEach(() => vi.clearAllMocks());
 
 /** With a model on show whose fur knows wet states. */
 function exhibit(view: View) {
-	const fur = { states: { wet: true, dirt: false } };
+	const fur = { states: { wet: true, dirt: false }, asset: {}, shells: {} };
 	const stage = {
 		...{ model: { fur }, scene: new Group(), limits: {}, gl: { isContextLost: () => false } },
 		...{ setCrowd() {}, moveBody() {} },
