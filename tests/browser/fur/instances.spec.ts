@@ -55,7 +55,8 @@ for (const [what, wanted] of [
 		// Whiskers are a pixel wide, their shadows a texel.
 		const { worst, psnr } = compare(plain, one, wanted.shadow ? 12 : 4);
 		// Rounding decides which side of a shadow's edge a few fragments are on; highlights are up to 3 times as bright.
-		expect(psnr).toBeGreaterThan(wanted.shadow || wanted.shiny ? 57 : 60);
+		// Joints of one body are rounded otherwise than those of many.
+		expect(psnr).toBeGreaterThan(wanted.shadow || wanted.shiny ? 57 : 59);
 		expect(worst).toBeLessThan(wanted.shadow ? 0.2 : 0.1);
 		expect(floats(one.picture).some((value, i) => i % 4 < 3 && value > 0.3)).toBe(true);
 	});
@@ -155,7 +156,6 @@ test('bodies share the fur on the GPU, and leave it as it was', async ({ page })
 	expect(during?.planes, 'planes are not uploaded twice').toBe(before?.planes);
 	expect(during?.buffers).toBeGreaterThan(before?.buffers ?? Number.NaN);
 	expect(after?.geometries).toBe(before?.geometries);
-	// Indices of all fins stay with the fur, which by itself draws only those that are seen.
-	expect(after?.buffers).toBe((before?.buffers ?? Number.NaN) + 1);
+	expect(after?.buffers).toBe(before?.buffers);
 	expect(pictures.map((picture) => picture === pictures[0])).toEqual([true, true, true]);
 });
