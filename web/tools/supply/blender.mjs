@@ -7,7 +7,6 @@ import { join, resolve } from 'node:path';
 import { parseArgs } from 'node:util';
 import { ensureBlender, ensureNode } from '../environment.mjs';
 import { command, Failure, root, runAside, say } from '../process.mjs';
-import { packExtension } from './extension.mjs';
 
 await command(async () => {
 	const { values } = parseArgs({
@@ -20,6 +19,8 @@ await command(async () => {
 	await ensureNode();
 	const code = await runAside(process.execPath, [join(root, 'web', 'tools', 'library.mjs')]);
 	if (code !== 0) throw new Failure(`npm run library failed with exit code ${code}`);
+	// It needs packages that a new clone gets by `ensureNode`.
+	const { packExtension } = await import('./extension.mjs');
 	const folder = resolve(values.out);
 	mkdirSync(folder, { recursive: true });
 	say(packExtension(folder));
