@@ -135,9 +135,12 @@ export async function ensureBlender() {
 		say('installing Blender as a Python package (baker/.bpy)');
 		const made = await runAside(name, [...args, '-m', 'venv', '--clear', blenderVenv]);
 		const quiet = ['--quiet', '--disable-pip-version-check'];
-		if (made === 0 && (await runAside(inside, ['-m', 'pip', 'install', ...quiet, blender])) === 0) return inside;
+		const installed = made === 0 && (await runAside(inside, ['-m', 'pip', 'install', ...quiet, blender])) === 0;
+		if (installed && (await ask(inside, ['-c', 'import bpy'])) !== undefined) return inside;
 		rmSync(blenderVenv, { recursive: true, force: true });
-		throw new Failure(`pip install ${blender} failed`);
+		throw new Failure(
+			installed ? `${blender} cannot be imported: libraries of the system are missing` : `pip install ${blender} failed`,
+		);
 	}
 	throw new Failure(`no Python ${blenderPython} found, which ${blender} is for`);
 }
