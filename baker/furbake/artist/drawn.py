@@ -59,9 +59,10 @@ def draw(source: Source, seed: int) -> tuple[Strands, Ints]:
     rng = np.random.default_rng([seed, 4])
     traits = _traits(source)
     typical = _typical(source)
+    tree = cKDTree(_feet(source, np.arange(source.bound.count)))
     best: tuple[float, Ints, Floats] | None = None
     for _ in range(DRAWS):
-        which, roots = _neighbourhoods(source, typical, rng)
+        which, roots = _neighbourhoods(source, typical, tree, rng)
         if not len(which):
             continue
         off = max(distance(trait[which], trait) for trait in traits)
@@ -110,13 +111,15 @@ def _typical(source: Source) -> Ints:
     return found if len(found) >= min(500, source.bound.count / 4) else np.arange(source.bound.count)
 
 
-def _neighbourhoods(source: Source, typical: Ints, rng: np.random.Generator) -> tuple[Ints, Floats]:
-    """Strands and their roots in the tile, (n,) and (n, 2): around each of some sites those around some strand."""
+def _neighbourhoods(source: Source, typical: Ints, tree: cKDTree, rng: np.random.Generator) -> tuple[Ints, Floats]:
+    """Strands and their roots in the tile, (n,) and (n, 2): around each of some sites those around some strand.
+
+    tree : of the feet of all strands
+    """
     whole = source.density * source.tile**2
     sites = scattered_points(int(np.clip(round(whole / PER_NEIGHBOURHOOD), 1, MOST_NEIGHBOURHOODS)), rng)
     seeds = rng.choice(typical, len(sites))
-    feet = _feet(source, np.arange(source.bound.count))
-    tree = cKDTree(feet)
+    feet = np.asarray(tree.data)
     dense = source.stands.at(source.fields.density)[seeds]
     grown = np.sqrt(dense / source.density) / source.tile  # so that as many strands stand in a tile's area
     far = 1.5 / np.sqrt(len(sites))

@@ -279,16 +279,16 @@ export class PeltMaterial extends ShaderMaterial {
 		}
 	}
 
+	/** Draw the coat alone, all over a body with several furs or by a pelt of several. @internal */
+	set oneFur(on: boolean) {
+		this.#switch('ONE_FUR', on);
+	}
+
 	/** @param on whether the value has any effect */
 	#set(name: 'gloss' | 'backlight' | 'density', value: number, on: boolean): void {
 		const uniform = this.uniforms[name];
 		if (uniform) uniform.value = value;
 		this.#switch(name.toUpperCase(), on);
-	}
-
-	/** Draw the coat alone, all over a body with several furs or by a pelt of several. @internal */
-	set oneFur(on: boolean) {
-		this.#switch('ONE_FUR', on);
 	}
 
 	#switch(define: string, on: boolean): void {
