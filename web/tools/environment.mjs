@@ -139,7 +139,9 @@ export async function ensureBlender() {
 		if (installed && (await ask(inside, ['-c', 'import bpy'])) !== undefined) return inside;
 		rmSync(blenderVenv, { recursive: true, force: true });
 		throw new Failure(
-			installed ? `${blender} cannot be imported: libraries of the system are missing` : `pip install ${blender} failed`,
+			installed
+				? `${blender} cannot be imported: libraries of the system are missing`
+				: `pip install ${blender} failed`,
 		);
 	}
 	throw new Failure(`no Python ${blenderPython} found, which ${blender} is for`);
