@@ -10,14 +10,11 @@ import {
 	type Texture,
 } from 'three';
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
-import { checkGeometry } from './body/checkGeometry.ts';
 import { loadRoots } from './body/roots/Roots.ts';
 import { Skin } from './body/Skin.ts';
 import { Fur } from './Fur.ts';
 import { finQuads } from './fins/finQuads.ts';
-import { checkGltf } from './format/gltf.ts';
-import { checkRig } from './format/rig.ts';
-import { type Fin, FUR_EXTENSION, FUR_VERSION, type FurAsset, fursOf, type Pelt, parseFur } from './format.ts';
+import { type Fin, FUR_EXTENSION, FUR_VERSION, type FurAsset, fursOf, isNewer, type Pelt } from './format.ts';
 import type { FurTextures } from './light/texels.ts';
 import { checkLimits, type FurLimits } from './planes/furLimits.ts';
 import { GltfFiles } from './planes/GltfFiles.ts';
@@ -44,6 +41,11 @@ type Stored = Pick<Pelt, 'planes' | 'colour' | 'direction'>;
 
 /** Options of FurLoaderPlugin. */
 export interface FurLoaderOptions {
+	/**
+	 * Checks the file before it is shown; true by default. False for models that are known to be sound, as by `furbake
+	 * validate`: the checks are then not fetched, and what a broken file does is not told.
+	 */
+	check?: boolean;
 	/** Limits of the GPU, by `furLimits`: a larger asset is refused before its planes are decoded. */
 	limits?: FurLimits;
 	/** Anisotropy of the shells' planes, texels, 1 to 16 as far as the GPU allows; 2 by default. */
@@ -75,8 +77,8 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 	readonly #parser: GLTFParser;
 	readonly #options: FurLoaderOptions;
 	readonly #files: GltfFiles;
+	#checks: typeof import('./checks.ts') | undefined;
 
-	/** @throws Error for an asset with fur whose glTF itself is broken: three's loader would read it without a look */
 	constructor(parser: GLTFParser, options: FurLoaderOptions = {}) {
 		this.#parser = parser;
 		this.#options = options;
@@ -84,14 +86,26 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		const packed = isPacked(parser.json);
 		if (packed) parser.options.meshoptDecoder ??= meshDecoder();
 		if (!this.#extension) return;
-		checkGltf(parser.json);
-		checkRig(parser.json, this.#extension);
+		if (options.check !== false) this.#checkFirst();
 		// The loader itself fetches the buffer of compressed views: it has to arrive whole, too.
 		if (packed) parser.loadBuffer = (index) => this.#files.buffer(index);
 	}
 
 	get #extension() {
 		return this.#parser.json.extensions?.[FUR_EXTENSION];
+	}
+
+	/** Lets three's loader wait for the checks: it would read a broken glTF without a look. */
+	#checkFirst(): void {
+		const parser = this.#parser;
+		const parse = parser.parse.bind(parser);
+		parser.parse = (onLoad, onError) => {
+			const checked = import('./checks.ts').then((checks) => {
+				checks.checkModel(parser.json);
+				this.#checks = checks;
+			});
+			checked.then(() => parse(onLoad, onError), onError);
+		};
 	}
 
 	/** Called by the loader: reads from a buffer that has arrived whole. */
@@ -104,12 +118,12 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 	async afterRoot(gltf: GLTF): Promise<void> {
 		const extension = this.#extension;
 		if (!extension) return;
-		const asset = parseFur(extension);
-		if (!asset) {
+		if (isNewer(extension)) {
 			const warn = (version: string) =>
 				console.warn(`${FUR_EXTENSION}: version ${version} is newer than ${FUR_VERSION}; showing the skin alone`);
 			return (this.#options.newer ?? warn)(extension.version);
 		}
+		const asset: FurAsset = extension;
 		if (this.#options.limits) checkLimits(asset, this.#options.limits);
 		gltf.userData.fur = await this.#grow(asset, gltf.scene);
 	}
@@ -147,7 +161,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 			this.#skin(asset.skin),
 		]);
 		const pieces = isMesh(object) ? [object] : (object.children as Mesh[]);
-		for (const piece of pieces) checkGeometry(`${FUR_EXTENSION}/skin`, piece.geometry, jointsOf(piece));
+		for (const piece of pieces) this.#checks?.checkGeometry(`${FUR_EXTENSION}/skin`, piece.geometry, jointsOf(piece));
 		// Vertex colours of the shells already contain the base colour of every material or picture.
 		const own = pieces[0]?.material as MeshStandardMaterial | undefined;
 		const colour = (!surface.geometry.hasAttribute('color') && own?.color) || new Color(1, 1, 1);
@@ -190,7 +204,7 @@ export class FurLoaderPlugin implements GLTFLoaderPlugin {
 		}
 		if (regions) markFurs(object.geometry, regions.furs.length, `${FUR_EXTENSION}/${role}`);
 		object.geometry.morphAttributes = { ...object.geometry.morphAttributes, ...(await this.#tangents(node)) };
-		checkGeometry(`${FUR_EXTENSION}/${role}`, object.geometry, jointsOf(object));
+		this.#checks?.checkGeometry(`${FUR_EXTENSION}/${role}`, object.geometry, jointsOf(object));
 		return object;
 	}
 

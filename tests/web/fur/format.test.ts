@@ -1,6 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { alphaChannel, channelOf, type FurAsset, type Pelt, parseFur } from '../../../web/fur/format.ts';
+import { parseFur } from '../../../web/fur/format/extension.ts';
+import { alphaChannel, channelOf, type FurAsset, type Pelt } from '../../../web/fur/format.ts';
 
 /** A golden extension with the side view that fins need. */
 const withFins = (name = 'ptm-6'): FurAsset & Record<string, unknown> => {

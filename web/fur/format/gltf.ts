@@ -1,6 +1,7 @@
 /** Check of a glTF's own JSON: three's loader trusts every reference, type and range in it. */
 
 import { type Schema, Validator } from '@cfworker/json-schema';
+import { PACKED } from '../format.ts';
 import { checkSchema } from './schema.ts';
 
 /** Bytes of a component, by accessor.componentType. */
@@ -9,9 +10,6 @@ const BYTES: Record<number, number> = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125
 const SIZES: Record<string, number> = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT2: 4, MAT3: 9, MAT4: 16 };
 /** Numbers of accessors without a buffer view together: they take memory, but no bytes of the file. */
 const MAX_ZEROS = 1 << 24;
-
-/** Extensions of a buffer view that is compressed. */
-export const PACKED = ['EXT_meshopt_compression', 'KHR_meshopt_compression'];
 
 /** Span of bytes in a buffer view. */
 interface Span {

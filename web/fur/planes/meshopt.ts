@@ -1,6 +1,6 @@
 /** Decoder of compressed meshes, fetched by the first file that has some. */
 
-import { PACKED } from '../format/gltf.ts';
+import { PACKED } from '../format.ts';
 
 /** Methods that three's loader calls on `MeshoptDecoder`. */
 export interface MeshDecoder {

@@ -42,7 +42,7 @@ export async function decodeAll(files: readonly PlaneFile[], { width, height, la
 	const texels: PlaneBytes[] = [];
 	for (const { name, bytes } of files) {
 		await turn();
-		texels.push(decodePlane(name, bytes, width, height * layers));
+		texels.push(await decodePlane(name, bytes, width, height * layers));
 	}
 	return texels;
 }

@@ -20,12 +20,12 @@ import { decodePng, pngHeader } from './png.ts';
 export type PlaneBytes = Uint8Array<ArrayBuffer>;
 
 /**
- * Decodes a plane. The decoder is a dependency, not the browser's: an image element may multiply RGB by A on its way to
+ * Decodes a plane. The browser inflates and no more: an image element may multiply RGB by A on its way to
  * the GPU, and texels with α = 0 would lose their coefficients.
  *
  * @throws Error where the picture is not `width` × `height`, 8 bits, RGB or RGBA
  */
-export function decodePlane(name: string, png: Uint8Array, width: number, height: number): PlaneBytes {
+export async function decodePlane(name: string, png: Uint8Array, width: number, height: number): Promise<PlaneBytes> {
 	const header = pngHeader(png);
 	if (!header) throw new Error(`${name}: not a readable PNG (got ${png.length} bytes without a PNG's header)`);
 	// Check the size before decoding: a few bytes may unpack to more than the memory.
@@ -36,7 +36,7 @@ export function decodePlane(name: string, png: Uint8Array, width: number, height
 		throw new Error(`${name}: got ${channels} channels of ${depth} bits, expected RGB or RGBA of 8`);
 	let data: Uint8Array;
 	try {
-		data = decodePng(png, header);
+		data = await decodePng(png, header);
 	} catch (error) {
 		throw new Error(`${name}: not a readable PNG (${(error as Error).message})`);
 	}

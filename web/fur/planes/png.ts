@@ -1,15 +1,10 @@
 /**
- * PNG → pixels, of 8 bits per channel. fflate inflates, in pieces that are counted: a library's reader (fast-png 8) hands
- * over every IDAT chunk whole, of which `Unzlib` (fflate 0.8.3) loses what comes after 131 072 literals in a row, and inflates
- * without bound. The rest of that reader, for other depths and kinds, is 5 kB gzipped.
+ * PNG → pixels, of 8 bits per channel. The browser inflates, beside the page's own work, and what comes is counted: a
+ * library's reader (fast-png 8) inflates without bound, in the page's way, and is 5 kB gzipped.
  *
  * Format: https://www.w3.org/TR/png-3/, sections 8 (interlacing), 9 (filters) and 11.2 (chunks).
  */
 
-import { Unzlib } from 'fflate';
-
-/** Bytes inflated at once: a literal takes one bit at least, so at most 131 064 of them. */
-const PIECE = 16_383;
 /** Bytes of signature and header. */
 const HEADER = 33;
 /** Channels by colour type. */
@@ -84,7 +79,10 @@ export function isWholePng(png: Uint8Array): boolean {
  * @param header as from `pngHeader`; its size is trusted
  * @throws Error where the data is broken, or of another length than the header says
  */
-export function decodePng(png: Uint8Array, { width, height, channels, interlaced }: PngHeader): Uint8Array {
+export async function decodePng(
+	png: Uint8Array,
+	{ width, height, channels, interlaced }: PngHeader,
+): Promise<Uint8Array> {
 	const pictures = (interlaced ? INTERLACED : WHOLE)
 		.map(([x, y, right, down]) => {
 			const [columns, rows] = [Math.ceil((width - x) / right), Math.ceil((height - y) / down)];
@@ -92,7 +90,7 @@ export function decodePng(png: Uint8Array, { width, height, channels, interlaced
 		})
 		.filter(({ bytes, rows }) => bytes > 0 && rows > 0);
 	// Rows begin with the number of their filter.
-	const raw = inflated(
+	const raw = await inflated(
 		png,
 		pictures.reduce((sum, { rows, bytes }) => sum + rows * (1 + bytes), 0),
 	);
@@ -137,18 +135,27 @@ function paeth(left: number, up: number, corner: number): number {
 }
 
 /** Data of all IDAT chunks, inflated. @throws Error for more or less than `size` bytes */
-function inflated(png: Uint8Array, size: number): Uint8Array<ArrayBuffer> {
+async function inflated(png: Uint8Array, size: number): Promise<Uint8Array<ArrayBuffer>> {
+	const data = [...chunks(png)].flatMap(({ type, data }) => (type === 'IDAT' ? [data as Uint8Array<ArrayBuffer>] : []));
 	const raw = new Uint8Array(size);
+	const more = new Error(`it unpacks to more than the ${size} bytes of its size`);
 	let got = 0;
-	const stream = new Unzlib((bytes) => {
-		if (got + bytes.length > size) throw new Error(`it unpacks to more than the ${size} bytes of its size`);
-		raw.set(bytes, got);
-		got += bytes.length;
+	const count = new WritableStream<Uint8Array>({
+		write(bytes) {
+			if (got + bytes.length > size) throw more;
+			raw.set(bytes, got);
+			got += bytes.length;
+		},
 	});
-	for (const { type, data } of chunks(png)) {
-		if (type !== 'IDAT') continue;
-		for (let at = 0; at < data.length; at += PIECE) stream.push(data.subarray(at, at + PIECE));
+	let broken = false;
+	try {
+		await new Blob(data).stream().pipeThrough(new DecompressionStream('deflate')).pipeTo(count);
+	} catch (error) {
+		if (error === more) throw more;
+		// Each browser says it in its own words.
+		broken = true;
 	}
 	if (got < size) throw new Error(`got ${got} bytes of data, expected ${size}`);
+	if (broken) throw new Error('its data or their checksum are broken');
 	return raw;
 }

@@ -7,7 +7,7 @@ import { describe, expect, it } from 'vitest';
 import { type FurMethodTarget, furMethod } from '../../../../web/fur/baselines/furMethod.ts';
 import { LengyelMaterial } from '../../../../web/fur/baselines/LengyelMaterial.ts';
 import { UnlitMaterial } from '../../../../web/fur/baselines/UnlitMaterial.ts';
-import { parseFur } from '../../../../web/fur/format.ts';
+import { parseFur } from '../../../../web/fur/format/extension.ts';
 import { FurMaterial } from '../../../../web/fur/shells/FurMaterial.ts';
 import { FurShells } from '../../../../web/fur/shells/FurShells.ts';
 

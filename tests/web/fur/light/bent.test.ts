@@ -1,6 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { type FurAsset, parseFur } from '../../../../web/fur/format.ts';
+import { parseFur } from '../../../../web/fur/format/extension.ts';
+import type { FurAsset } from '../../../../web/fur/format.ts';
 import { bentWeights, leanOf } from '../../../../web/fur/light/bent.ts';
 
 const golden = (): FurAsset =>

@@ -24,14 +24,14 @@ function enormous(): Uint8Array {
 }
 
 describe('decodePlane', () => {
-	it('keeps every byte, those of empty texels too', () => {
+	it('keeps every byte, those of empty texels too', async () => {
 		const texels = noise(8 * 16 * 4);
 		for (let i = 3; i < texels.length; i += 8) texels[i] = 0;
-		expect(decodePlane('p', encode({ width: 8, height: 16, channels: 4, data: texels }), 8, 16)).toEqual(texels);
+		expect(await decodePlane('p', encode({ width: 8, height: 16, channels: 4, data: texels }), 8, 16)).toEqual(texels);
 	});
 
-	it('makes RGB opaque', () => {
-		const texels = decodePlane('colour', png(4, 8, 3), 4, 8);
+	it('makes RGB opaque', async () => {
+		const texels = await decodePlane('colour', png(4, 8, 3), 4, 8);
 		expect([...texels.subarray(0, 8)]).toEqual([...noise(3), 255, ...noise(6).subarray(3), 255]);
 	});
 
@@ -42,8 +42,8 @@ describe('decodePlane', () => {
 		['no PNG', new TextEncoder().encode('hello'), /^plane0\.png: not a readable PNG/],
 		['cut off', png(8, 16, 4).subarray(0, 60), /^plane0\.png: not a readable PNG/],
 		['a size beyond all memory', enormous(), 'plane0.png: got 1000000000 × 16 pixels, expected 8 × 16'],
-	])('refuses %s', (_, bytes, message) => {
-		expect(() => decodePlane('plane0.png', bytes, 8, 16)).toThrow(message);
+	])('refuses %s', async (_, bytes, message) => {
+		await expect(decodePlane('plane0.png', bytes, 8, 16)).rejects.toThrow(message);
 	});
 });
 
