@@ -1,4 +1,4 @@
-/** Library for other apps: an ES module per entry point, their two small readers bundled, three.js external; runs from an import map, too. */
+/** Library for other apps: an ES module per entry point, with the checker of schemas bundled, three.js external; runs from an import map, too. */
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
 import { licencesPlugin } from './tools/site/licences.mjs';
@@ -18,6 +18,9 @@ export default defineConfig({
 		// Apps minify.
 		minify: false,
 		lib: { entry: { index: at('fur/index.ts'), reference: at('fur/reference.ts') }, formats: ['es'] },
-		rolldownOptions: { external: /^three(\/|$)/, output: { chunkFileNames: 'shared.js' } },
+		rolldownOptions: {
+			external: /^three(\/|$)/,
+			output: { chunkFileNames: ({ name, isDynamicEntry }) => (isDynamicEntry ? `${name}.js` : 'shared.js') },
+		},
 	},
 });

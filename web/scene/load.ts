@@ -65,6 +65,8 @@ export async function loadModel(
 			},
 		});
 	});
+	// Beside the file, not after it; the plugin tells where they do not come.
+	import('../fur/checks.ts').catch(() => {});
 	const load = () => loader.loadAsync(url);
 	const gltf = await load()
 		.catch((error: unknown) => (isBrokenOff(error) ? load() : Promise.reject(error)))
