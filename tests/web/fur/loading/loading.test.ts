@@ -152,3 +152,14 @@ it('without our extension a model loads as ever, its faults included', async () 
 	plain.accessors[0].count = 1e6;
 	expect(await refusal(plain)).toContain('Invalid typed array length');
 });
+
+it('a model is trusted where the app asks for it', async () => {
+	const odd = structuredClone(json);
+	odd.extensions.FUR_ptm_shells.pelts[0].scale = 'none';
+	serve(files);
+	expect(await refusal(odd)).toMatch(/^FUR_ptm_shells\/pelts\/0\/scale: /);
+	serve(files);
+	expect(await refusal(json, { check: false })).toBe('loaded');
+	serve(files);
+	expect(await refusal(odd, { check: false })).not.toMatch(/FUR_ptm_shells\/pelts/);
+});
