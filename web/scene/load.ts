@@ -4,9 +4,10 @@ import { type AnimationClip, Box3, type LoadingManager, Mesh, type Object3D, Ski
 import { type GLTF, GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { type Fur, type FurLimits, FurLoaderPlugin } from '../fur/index.ts';
 import { disposeAll } from '../page/dispose.ts';
+import { gleam } from '../page/gleam.ts';
 import type { ClipPlayer } from './clips/ClipPlayer.ts';
 import type { Room } from './clips/Reach.ts';
-import type { Model } from './model.ts';
+import { features, type Model } from './model.ts';
 
 /** Source of a model's files. */
 export interface Source {
@@ -73,6 +74,7 @@ export async function loadModel(
 		});
 	const whole = await (model ?? modelOf(gltf.scene, clips));
 	whole.fur = gltf.userData.fur;
+	if (whole.fur) gleam(features(whole.object, whole.fur));
 	if (newer) whole.newer = newer;
 	return whole;
 }
