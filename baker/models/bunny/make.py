@@ -158,10 +158,8 @@ def rabbit(source: Path) -> tuple[Floats, Ints]:
 def main(source: Path, out: Path) -> None:
     """Write the model into a file."""
     vertices, faces = rabbit(source)
-    skin = trimesh.visual.material.PBRMaterial(
-        name="base", baseColorFactor=(204, 204, 204, 255), metallicFactor=0.0, roughnessFactor=0.5
-    )
-    mesh = trimesh.Trimesh(vertices, faces, process=False, visual=trimesh.visual.TextureVisuals(material=skin))
+    # Without a material: bare skin has the colour of the roots.
+    mesh = trimesh.Trimesh(vertices, faces, process=False)
     out.write_bytes(mesh.export(file_type="glb"))
     print(out, len(vertices), "vertices", len(faces), "faces", out.stat().st_size, "bytes", mesh.is_watertight)
 
