@@ -6,7 +6,7 @@ const PALE = 0.4;
 /** Strength of the highlights of deep colours over the usual; a picture may have some anywhere. */
 const DEEP = 0.4;
 
-/** What the strength of a fur's highlights goes by. */
+/** Colours of a fur, by which the strength of its highlights goes. */
 interface Coloured {
 	ramp: { tip: readonly number[] };
 	/** present where hairs have the colours of a picture */

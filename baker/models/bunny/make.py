@@ -19,13 +19,13 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
-THICKNESS = 0.42
+THICKNESS = 0.6
 """Thickness of an ear over that of the mesh."""
 
 REACH = 0.3
 """Distance from the axis of an ear within which its vertices lie."""
 
-NARROW = 0.4
+NARROW = 0.3
 """Share of its width that an ear loses towards its end."""
 
 SMOOTH = 6
