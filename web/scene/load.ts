@@ -4,7 +4,6 @@ import { type AnimationClip, Box3, type LoadingManager, Mesh, type Object3D, Ski
 import { type GLTF, GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { type Fur, type FurLimits, FurLoaderPlugin } from '../fur/index.ts';
 import { disposeAll } from '../page/dispose.ts';
-
 import type { ClipPlayer } from './clips/ClipPlayer.ts';
 import type { Room } from './clips/Reach.ts';
 import { gleam } from './gleam.ts';

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from furbake.asset.gltf import STATE
 from furbake.asset.planes import PlaneError, Planes, unpack, unpack_fin
-from furbake.asset.read import TYPES, Asset, AssetError
+from furbake.asset.read import Asset, AssetError
 from furbake.pelt.curves import KNOTS, RADII, Curves, lean_direction
 from furbake.pelt.hairs.ramp import Ramp
 from furbake.pelt.hairs.states import PeltState
@@ -17,6 +17,7 @@ from furbake.pelt.light.paths import BODY_RADIUS
 from furbake.pelt.multiple import Multiple
 from furbake.pelt.pelt import FinPelt, Pelt
 from furbake.pelt.texels.basis import PTM, Basis, smooth_terms
+from furbake.surface.read.accessors import TYPES
 
 Floats = NDArray[np.float64]
 RGB = tuple[float, float, float]

@@ -75,7 +75,7 @@ def divided(vertices: Floats, faces: Ints, normals: Floats, chosen: Mask) -> tup
     """The mesh with all edges of the chosen faces halved, neighbours split to fit; new points lie on the round surface
     that the normals tell (Phong tessellation, Boubekeur and Alexa 2008)."""
     edges = np.sort(faces[:, [[0, 1], [1, 2], [2, 0]]], axis=2)
-    halved, index = np.unique(edges[chosen].reshape(-1, 2), axis=0, return_inverse=True)
+    halved = np.unique(edges[chosen].reshape(-1, 2), axis=0)
     number = {(int(a), int(b)): len(vertices) + k for k, (a, b) in enumerate(halved)}
     ends, up = vertices[halved], normals[halved]
     middle = ends.mean(axis=1)

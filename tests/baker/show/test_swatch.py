@@ -106,9 +106,7 @@ def test_a_lamp_beside_the_eye_has_its_surge() -> None:
     np.testing.assert_allclose(factor[1], 1 - 0.25 / (1 + 0.4 / 0.16), rtol=1e-12)
 
 
-def test_a_folders_fur_is_lit_as_on_a_ball_of_the_models_size(
-    tmp_path: Path, make_pelt: Callable[..., Pelt]
-) -> None:
+def test_a_folders_fur_is_lit_as_on_a_ball_of_the_models_size(tmp_path: Path, make_pelt: Callable[..., Pelt]) -> None:
     # A square of side 1 with hairs of 0.5: a ball of radius 0.5 has β 1.
     folder = write(tmp_path / "out", make_pelt())
     assert body_radius(read_asset(folder)) == pytest.approx(1.0, rel=1e-4)
