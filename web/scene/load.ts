@@ -6,7 +6,8 @@ import { type Fur, type FurLimits, FurLoaderPlugin } from '../fur/index.ts';
 import { disposeAll } from '../page/dispose.ts';
 import type { ClipPlayer } from './clips/ClipPlayer.ts';
 import type { Room } from './clips/Reach.ts';
-import type { Model } from './model.ts';
+import { gleam } from './gleam.ts';
+import { features, type Model } from './model.ts';
 
 /** Source of a model's files. */
 export interface Source {
@@ -75,6 +76,7 @@ export async function loadModel(
 		});
 	const whole = await (model ?? modelOf(gltf.scene, clips));
 	whole.fur = gltf.userData.fur;
+	if (whole.fur) gleam(features(whole.object, whole.fur));
 	if (newer) whole.newer = newer;
 	return whole;
 }

@@ -6,7 +6,7 @@ import { daylightSky, KEY_COLOUR } from '../page/daylight.ts';
 import { ContactShadow, Ground, SLATE } from '../page/ground.ts';
 import { Lamp, lampDistance } from '../page/lamp.ts';
 import { MovingLight } from '../page/light.ts';
-import { DEFAULT_LOOK } from '../page/look.ts';
+import { DEFAULT_LOOK, glossOf } from '../page/look.ts';
 import type { Environment } from '../scene/environment.ts';
 import { footing } from '../scene/footing.ts';
 import type { Model } from '../scene/model.ts';
@@ -78,8 +78,12 @@ export class FurPicture {
 		this.#shown = shown;
 		this.#setStanding(shown !== undefined);
 		if (!shown) return;
-		const { model, fur, gloss = DEFAULT_LOOK.gloss } = shown;
-		if (fur) Object.assign(fur.shells.material, { gloss, backlight: DEFAULT_LOOK.backlight });
+		const { model, fur, gloss } = shown;
+		if (fur)
+			Object.assign(fur.shells.material, {
+				gloss: gloss ?? glossOf(fur.asset),
+				backlight: DEFAULT_LOOK.backlight,
+			});
 		this.scene.add(model.object);
 		this.#frame();
 		this.#followPose();

@@ -13,9 +13,11 @@ from furbake.asset.read import Asset, AssetError
 from furbake.pelt.curves import KNOTS, RADII, Curves, lean_direction
 from furbake.pelt.hairs.ramp import Ramp
 from furbake.pelt.hairs.states import PeltState
+from furbake.pelt.light.paths import BODY_RADIUS
 from furbake.pelt.multiple import Multiple
 from furbake.pelt.pelt import FinPelt, Pelt
 from furbake.pelt.texels.basis import PTM, Basis, smooth_terms
+from furbake.surface.read.accessors import TYPES
 
 Floats = NDArray[np.float64]
 RGB = tuple[float, float, float]
@@ -35,6 +37,18 @@ def read_pelt(asset: Asset, state: int = 0) -> Pelt:
     except (LookupError, TypeError, AttributeError, ValueError) as error:
         detail = f"{type(error).__name__}: {error}"
         raise AssetError(f"{asset.folder}: malformed pelt ({detail}), see furbake validate") from error
+
+
+def body_radius(asset: Asset) -> float:
+    """β of a ball as large as the model: half the longest side of its skin's box over the length of its fur."""
+    try:
+        node = asset.document["nodes"][asset.fur["skin"]]
+        box = asset.document["accessors"][asset.primitive(asset.fur["skin"])["attributes"]["POSITION"]]
+        sides = (np.array(box["max"], np.float64) - box["min"]) * node.get("scale", (1.0, 1.0, 1.0))
+        full = np.iinfo(np.dtype(TYPES[box["componentType"]])).max if box.get("normalized") else 1.0
+        return float(max(sides)) / full / 2.0 / float(asset.fur["length"])
+    except (LookupError, TypeError, ValueError, ZeroDivisionError):
+        return BODY_RADIUS
 
 
 def skin_colour(asset: Asset) -> RGB:

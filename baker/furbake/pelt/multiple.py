@@ -67,13 +67,15 @@ class Multiple:
         held_colour = np.clip(colour, 0, MAX_COLOUR)
         return np.asarray(held_colour / self.albedo * (1 - self.ratio * self.albedo) / (1 - self.ratio * held_colour))
 
-    def tinges(self, curves: Curves, weights: Array, ramp: Ramp, base: Array, lights: Array) -> Array:
+    def tinges(
+        self, curves: Curves, weights: Array, ramp: Ramp, base: Array, lights: Array, beta: float = BODY_RADIUS
+    ) -> Array:
         """Factors of the light of n lamps, and last of an even sky, for the hairs' colour, (n + 1, K, 3).
 
         ramp : of the hairs, where they have no colours of their own; base : (3,) factor of all these colours
         """
         colour = ramp.colour(self.tint, np.zeros(len(self.tint))) if self.colour is None else self.colour
-        shares = np.concatenate([self.share(lights), sky_share(self, curves, weights)[None]])
+        shares = np.concatenate([self.share(lights, beta), sky_share(self, curves, weights, beta)[None]])
         return np.asarray(1 + shares[..., None] * (self.gain((base * colour).T).T - 1))
 
 

@@ -15,9 +15,11 @@ from numpy.typing import NDArray
 
 from furbake.asset.planes import write_png
 from furbake.asset.read import read_asset
-from furbake.asset.stored import read_pelt, skin_colour
+from furbake.asset.stored import body_radius, read_pelt, skin_colour
 from furbake.daylight import PAGE, RGB, Scene, tone_mapped
 from furbake.options import OptionError
+from furbake.pelt.curves import RADII
+from furbake.pelt.eye import surge
 from furbake.pelt.light.paths import BODY_RADIUS
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.texels.basis import environment
@@ -32,6 +34,8 @@ FROM_THE_SIDE: Direction = (-0.62, 0.48, 0.62)
 
 SHELLS_PER_SLAB = 3
 """Shells drawn per slab, as by the page: they are sheared along the hairs, which then run on unbroken."""
+
+UP = np.array([0.0, 0.0, 1.0])
 
 SKIN = 0.35
 """Colour of the bare skin over that of the roots."""
@@ -72,6 +76,7 @@ def render(
         shells_per_slab=shells_per_slab,
         scene=scene,
         skin=skin_colour(asset),
+        beta=body_radius(asset),
     )
 
 
@@ -99,13 +104,15 @@ def picture(
     scene: Scene = PAGE,
     skin: RGB = (1.0, 1.0, 1.0),
     hairs: Pelt | None = None,
+    beta: float = BODY_RADIUS,
 ) -> Bytes:
     """A pelt that need not be in a folder; otherwise as `render`.
 
     skin : linear, multiplies the fur's colours; hairs : of a dirty pelt, the clean one that has its hairs' colours
+    beta : radius, in lengths of the fur, of the body that the fur is lit on; the picture is flat all the same
     """
     look = {"tiles": tiles, "size": size, "shells_per_slab": shells_per_slab}
-    (image,) = pictures(pelt, [light], **look, scene=scene, skin=skin, hairs=hairs)
+    (image,) = pictures(pelt, [light], **look, scene=scene, skin=skin, hairs=hairs, beta=beta)
     return image
 
 
@@ -119,6 +126,7 @@ def pictures(
     scene: Scene = PAGE,
     skin: RGB = (1.0, 1.0, 1.0),
     hairs: Pelt | None = None,
+    beta: float = BODY_RADIUS,
 ) -> list[Bytes]:
     """As `picture`, under several lights, which costs little more than one."""
     _within("tiles", tiles, 1, 16)
@@ -126,7 +134,7 @@ def pictures(
     _within("shells_per_slab", shells_per_slab, 1, 8)
     directions = np.stack([light_direction(light) for light in lights])
     found = []
-    for tile in radiance(pelt, directions, -(-size // tiles), shells_per_slab, scene, skin, hairs):
+    for tile in radiance(pelt, directions, -(-size // tiles), shells_per_slab, scene, skin, hairs, beta):
         whole = np.tile(srgb_bytes(tone_mapped(tile)), (tiles, tiles, 1))
         found.append(np.ascontiguousarray(whole[:size, :size][::-1]))
     return found
@@ -140,33 +148,38 @@ def radiance(
     scene: Scene = PAGE,
     skin: RGB = (1.0, 1.0, 1.0),
     hairs: Pelt | None = None,
+    beta: float = BODY_RADIUS,
 ) -> Array:
     """One tile seen from straight above under each of n lights, row 0 at v = 0: (n, pixels, pixels, 3) linear.
 
     Shells over the skin, from the innermost out: radiance = colour · L·E/(4π), lamp and sky clamped apart.
+    beta : as of `picture`
     """
     coefficients = pelt.values
     hairs = hairs or pelt
     colours = None if hairs.colour is None else from_srgb(hairs.colour)
     mud = None if pelt.state.mud is None else np.array(pelt.state.mud)
-    sky_moments = sky_of(pelt) @ sky_harmonics(scene)
+    beta = float(np.clip(beta, RADII[0], RADII[-1]))
+    sky_moments = sky_of(pelt, beta) @ sky_harmonics(scene)
     count = pelt.layers * shells_per_slab
     heights = (np.arange(count) + 0.5) / count
     shear = drift_at(heights, pelt.drift) - np.repeat(pelt.drift, shells_per_slab, axis=0)
     base, lamp = pelt.state.shade * np.array(skin), np.array(scene.lamp)
     root, tip = np.array(pelt.ramp.root), np.array(pelt.ramp.tip)
 
-    mean = pelt.mean(lights)
+    mean = pelt.mean(lights, beta)
+    above = np.broadcast_to(UP, lights.shape)
+    beside_eye = np.ones(len(lights)) if pelt.surge is None else surge(lights, above, np.asarray(pelt.surge))
     tinge = np.ones((len(lights) + 1, pelt.layers, 3))
     if pelt.multiple is not None and pelt.curves is not None and pelt.weights is not None:
-        tinge = pelt.multiple.tinges(pelt.curves, pelt.weights, hairs.ramp, base, lights)
+        tinge = pelt.multiple.tinges(pelt.curves, pelt.weights, hairs.ramp, base, lights, beta)
 
     def lit(at: Array, k: int, s: float) -> Iterator[Array]:
         """Light of all pixels of slab k under each lamp."""
         sky = tinge[-1, k] * np.maximum(at @ sky_moments[k], 0)
         for n, light in enumerate(lights):
             seen, fade = above_horizon(light, s)
-            share = fade if mean is None else mean[n, k]
+            share = beside_eye[n] * (fade if mean is None else mean[n, k])
             curve = np.maximum(at @ (share * pelt.basis(seen[None])[0]), 0)
             yield (curve[..., None] * (tinge[n, k] * lamp) + sky) / (4 * np.pi)
 
@@ -187,11 +200,11 @@ def radiance(
     return images
 
 
-def sky_of(pelt: Pelt) -> Array:
-    """Harmonics of the radiance → light moments of each slab, (K, C, 9)."""
+def sky_of(pelt: Pelt, beta: float = BODY_RADIUS) -> Array:
+    """Harmonics of the radiance → light moments of each slab on a body of radius β, (K, C, 9)."""
     if pelt.curves is None or pelt.weights is None:
         return np.broadcast_to(environment(pelt.basis), (pelt.layers, pelt.coefficients, 9))
-    return np.tensordot(pelt.weights, pelt.curves.environment(pelt.basis), 1)
+    return np.tensordot(pelt.weights, pelt.curves.environment(pelt.basis, beta), 1)
 
 
 def light_direction(light: Sequence[float]) -> Array:

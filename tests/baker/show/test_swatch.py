@@ -17,7 +17,7 @@ import pytest
 from furbake.asset.gltf import FurModel, write_gltf
 from furbake.asset.planes import read_png
 from furbake.asset.read import AssetError, read_asset
-from furbake.asset.stored import read_pelt, skin_colour
+from furbake.asset.stored import body_radius, read_pelt, skin_colour
 from furbake.daylight import Scene
 from furbake.options import OptionError, preset
 from furbake.pelt.hairs.ramp import Ramp
@@ -94,6 +94,26 @@ def test_sky_is_the_integral_of_its_radiance() -> None:
     c, g = harmonics[0] * math.sqrt(1 / (4 * math.pi)), harmonics[2] * math.sqrt(3 / (4 * math.pi))
     assert math.pi * c + 2 / 3 * math.pi * g == pytest.approx(3)
     assert math.pi * c - 2 / 3 * math.pi * g == pytest.approx(1)
+
+
+def test_a_lamp_beside_the_eye_has_its_surge() -> None:
+    # 1 + A/(1 + |l − v|²/w²), seen from straight above; |l − v|² is 0.4 for a lamp of height 0.8.
+    plain = even_pelt([0, 0, 0, 0, 0, 1.0])
+    surging = replace(plain, surge=np.array([-0.25, 0.5, 0.4]))
+    lamps = np.array([[0.0, 0.0, 1.0], [0.6, 0.0, 0.8]])
+    factor = radiance(surging, lamps, 8, 1, LAMP_ONLY) / radiance(plain, lamps, 8, 1, LAMP_ONLY)
+    np.testing.assert_allclose(factor[0], 0.75, rtol=1e-12)
+    np.testing.assert_allclose(factor[1], 1 - 0.25 / (1 + 0.4 / 0.16), rtol=1e-12)
+
+
+def test_a_folders_fur_is_lit_as_on_a_ball_of_the_models_size(tmp_path: Path, make_pelt: Callable[..., Pelt]) -> None:
+    # A square of side 1 with hairs of 0.5: a ball of radius 0.5 has β 1.
+    folder = write(tmp_path / "out", make_pelt())
+    assert body_radius(read_asset(folder)) == pytest.approx(1.0, rel=1e-4)
+    document = json.loads((folder / "model.gltf").read_text("utf-8"))
+    document["extensions"]["FUR_ptm_shells"]["length"] = 0.05
+    (folder / "model.gltf").write_text(json.dumps(document), "utf-8")
+    assert body_radius(read_asset(folder)) == pytest.approx(10.0, rel=1e-4)
 
 
 def test_lamp_and_sky_are_clamped_apart() -> None:

@@ -13,7 +13,7 @@ import {
 	type furMethod,
 	updateFurs,
 } from '../../fur/index.ts';
-import { DEFAULT_LOOK } from '../../page/look.ts';
+import { DEFAULT_LOOK, glossOf } from '../../page/look.ts';
 import type { Store } from '../state/store.ts';
 import type { View } from '../state/view.ts';
 import { paint } from './colours.ts';
@@ -23,7 +23,7 @@ export interface Outfit {
 	pelt: Fur | undefined;
 	/** Share of the body's second tip colour on a pelt, 0..1. */
 	tips: number;
-	/** Strength of its highlights; undefined: the usual. */
+	/** Strength of its highlights; undefined: by its colours. */
 	gloss: number | undefined;
 	method: FurMethodName;
 	/** Makes the light of a method of comparison; undefined: the fur's own light. */
@@ -274,7 +274,7 @@ export class Looks {
 	}
 }
 
-function style(fur: Fur, gloss = DEFAULT_LOOK.gloss, { shells, length = 1, density = 1, colour }: View): void {
+function style(fur: Fur, gloss = glossOf(fur.asset), { shells, length = 1, density = 1, colour }: View): void {
 	const { material } = fur.shells;
 	material.gloss = gloss;
 	material.backlight = DEFAULT_LOOK.backlight;

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from furbake.asset.stored import skin_colour
+from furbake.asset.stored import body_radius, skin_colour
 from furbake.show.report import charts
 from furbake.show.report.groom import groom_section
 from furbake.show.report.measure import Measured, number
@@ -90,7 +90,7 @@ def _lamp_names() -> list[str]:
 def _swatches(measured: Measured) -> str:
     skin = skin_colour(measured.asset)
     lights = [(float(u), float(v), float(z)) for u, v, z in measured.lights]
-    images = pictures(measured.pelt, lights, tiles=1, size=SWATCH, skin=skin)
+    images = pictures(measured.pelt, lights, tiles=1, size=SWATCH, skin=skin, beta=body_radius(measured.asset))
     cells = [
         f'<figure><img src="{data_uri(image)}" width="{SWATCH}" height="{SWATCH}" alt="Fur lit {name}">'
         f"<figcaption>{dial(light, f'Lamp {name}')}<span>{name}</span></figcaption></figure>"

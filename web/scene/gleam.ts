@@ -1,0 +1,77 @@
+/**
+ * Reflections of eyes, noses and the like between hairs: a standard material without a map of its surroundings shines where
+ * a lamp is mirrored and nowhere else, so an eye with the lamp behind it is a black ball with a grey rim.
+ *
+ * The sky of the scene's own lights (ambient, hemisphere, probe) is mirrored, with the horizon as an edge. What would come
+ * through the fur around such a part is dark, and a rough part such as a lid's rim has no highlights, as skin below fur has none.
+ */
+
+import { type Material, type Mesh, MeshStandardMaterial, ShaderChunk } from 'three';
+
+/** Height, sine, of the mirrored horizon's middle, and half its width where the part is smooth. */
+const HORIZON = { middle: 0.1, width: 0.2 };
+/** Cosines between the mirrored direction and the part's front (+z) between which the fur around it lets light through. */
+const FUR = { from: -0.6, to: 0.3 };
+
+const VARYING = /* glsl */ `
+#ifdef GLEAM
+varying vec3 vFront;
+#endif`;
+
+// Merged parts of a crowd have no front of their own.
+const FRONT = /* glsl */ `
+#ifdef GLEAM
+#ifdef USE_INSTANCING
+vFront = vec3(0.0);
+#else
+vFront = normalize(normalMatrix * vec3(0.0, 0.0, 1.0));
+#endif
+#endif`;
+
+const MIRROR = /* glsl */ `
+#ifdef GLEAM
+vec3 mirrored = reflect(-geometryViewDir, geometryNormal);
+vec3 mirroredLight = ambientLightColor;
+float blur = ${HORIZON.width} + material.roughness;
+#if defined(USE_LIGHT_PROBES)
+mirroredLight += getLightProbeIrradiance(lightProbe, mirrored);
+#endif
+#if NUM_HEMI_LIGHTS > 0
+#pragma unroll_loop_start
+for (int i = 0; i < NUM_HEMI_LIGHTS; i ++) {
+	mirroredLight += mix(hemisphereLights[i].groundColor, hemisphereLights[i].skyColor,
+		smoothstep(${HORIZON.middle} - blur, ${HORIZON.middle} + blur, dot(mirrored, hemisphereLights[i].direction)));
+}
+#pragma unroll_loop_end
+#endif
+float throughFur = dot(vFront, vFront) > 0.5 ? smoothstep(${FUR.from}, ${FUR.to}, dot(mirrored, vFront)) : 1.0;
+float shine = throughFur * (1.0 - pow4(material.roughness));
+radiance += RECIPROCAL_PI * mirroredLight * shine;
+reflectedLight.directSpecular *= shine;
+#endif
+`;
+
+let known = false;
+
+/** Teach three's standard material the define `GLEAM`; materials without it stay as they are. */
+function teach(): void {
+	if (known) return;
+	known = true;
+	ShaderChunk.normal_pars_vertex += VARYING;
+	ShaderChunk.normal_pars_fragment += VARYING;
+	ShaderChunk.normal_vertex += FRONT;
+	ShaderChunk.lights_fragment_end = MIRROR + ShaderChunk.lights_fragment_end;
+}
+
+const mirrors = (material: Material | Material[]): material is MeshStandardMaterial =>
+	material instanceof MeshStandardMaterial && !material.envMap && !material.flatShading;
+
+/** Lets parts beside skin and fur reflect the sky. @param parts whose front is +z, as those of `--features` */
+export function gleam(parts: readonly Mesh[]): void {
+	for (const { material } of parts) {
+		if (!mirrors(material) || material.defines?.GLEAM !== undefined) continue;
+		teach();
+		material.defines = { ...material.defines, GLEAM: '' };
+		material.needsUpdate = true;
+	}
+}
