@@ -26,11 +26,12 @@ OWN_POINTS, OWN_POINTS_PER_TEXEL = 8, 8
 POINTS_PER_TEXEL, MIN_POINTS = 2, 2
 """Points of a bent ray per texel that it moves aside, and in a slab at least."""
 
-STRIP, DARK = 8, 1e-4
+STRIP, DARK = 4, 1e-4
 """Slabs whose rays are followed together, from the tips down, and the mean T below which all deeper ones are black."""
 
 BLOCK = 2**16
 """Numbers of the kernels that are made together: they stay in the cache until they have been used."""
+
 
 MAX_WORK = 2**15
 """Multiplications of one matrix product: BLAS starts no threads for it, which other lights use."""
@@ -113,23 +114,30 @@ class Depth:
         total = np.zeros((count, *self.spectrum.shape[1:]), np.complex64)
         way = light[:2] / max(float(np.hypot(*light[:2])), 1e-9)
         rows = self._look(strip.feet * way[1], self.size)
-        columns = self._look(strip.feet * way[0], total.shape[2])
+        wide = total.shape[2]
+        columns = self._look(strip.feet * way[0], wide)
         columns *= strip.weights[:, None]
-        most = int(strip.rays.max(initial=1)), int(strip.each.max(initial=1))
-        block = in_blocks(*most, total.shape[2], self.size)
-        scratch = np.empty(most[0] * block * total.shape[2], np.complex64)
+        most = int(strip.rays.max(initial=1))
+        block = halved(self.size, BLOCK / (most * wide))
+        scratch = np.empty(most * block * wide, np.complex64)
         products = []
-        for slab in np.flatnonzero(strip.rays):
-            rays, each, first, start = (int(part[slab]) for part in (strip.rays, strip.each, strip.first, strip.start))
-            some = slice(start, start + rays * each)
-            down = rows[some].reshape(rays, each, -1).swapaxes(1, 2)
-            across = columns[some].reshape(rays, each, -1)
-            kernels = scratch[: rays * block * total.shape[2]].reshape(rays, block, -1)
-            products.append((down, across, kernels, self.spectrum[slab], total[first : first + rays]))
+        cells = zip(*(part.tolist() for part in (strip.start, strip.first, strip.rays, strip.each)), strict=True)
+        for spectrum, (start, first, rays, each) in zip(self.spectrum, cells, strict=True):
+            if rays:
+                some = slice(start, start + rays * each)
+                down = rows[some].reshape(rays, each, self.size).swapaxes(1, 2)
+                across = columns[some].reshape(rays, each, wide)
+                kernels = scratch[: rays * block * wide].reshape(rays, block, wide)
+                # Many small products, in one call.
+                few = halved(block, MAX_WORK / (each * wide))
+                down = down.reshape(rays, self.size // few, few, each)
+                made = kernels.reshape(rays, block // few, few, wide)
+                products.append((down, across[:, None], made, kernels, spectrum, total[first : first + rays]))
         for low in range(0, self.size, block):
             part = slice(low, low + block)
-            for down, across, kernels, spectrum, sums in products:
-                np.matmul(down[:, part], across, out=kernels)
+            for down, across, made, kernels, spectrum, sums in products:
+                few = down.shape[2]
+                np.matmul(down[:, low // few : (low + block) // few], across, out=made)
                 np.multiply(kernels, spectrum[part], out=kernels)
                 here = sums[:, part]
                 np.add(here, kernels, out=here)
@@ -145,7 +153,8 @@ class Depth:
         return np.asarray(found, np.complex64)
 
     def _in_space(self, spectrum: Spectrum) -> Single:
-        return np.maximum(scipy.fft.irfft2(spectrum, s=(self.size, self.size)), 0)
+        depths: Single = scipy.fft.irfft2(spectrum, s=(self.size, self.size), overwrite_x=True)
+        return np.maximum(depths, 0, out=depths)
 
 
 @dataclass(frozen=True)
@@ -218,12 +227,11 @@ def _turns(size: int) -> NDArray[np.complex64]:
     return np.asarray(np.exp(2j * np.pi / size * (np.outer(texel, texel) % size)), np.complex64)
 
 
-def in_blocks(rays: int, points: int, columns: int, size: int) -> int:
-    """Rows of the kernels (rays, size, columns) that are made together by products over so many points."""
-    block = size
-    while block % 2 == 0 and block * max(rays * columns / BLOCK, points * columns / MAX_WORK) > 1:
-        block //= 2
-    return block
+def halved(rows: int, most: float) -> int:
+    """`rows`, halved until they are at most that many, or odd."""
+    while rows % 2 == 0 and rows > most:
+        rows //= 2
+    return rows
 
 
 def passing(depth: Single) -> Single:
