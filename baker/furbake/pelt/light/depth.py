@@ -125,12 +125,12 @@ class Depth:
         for spectrum, (start, first, rays, each) in zip(self.spectrum, cells, strict=True):
             if rays:
                 some = slice(start, start + rays * each)
-                down = rows[some].reshape(rays, each, self.size).swapaxes(1, 2)
+                few = halved(block, MAX_WORK / (each * wide))
                 across = columns[some].reshape(rays, each, wide)
                 kernels = scratch[: rays * block * wide].reshape(rays, block, wide)
-                # Many small products, in one call.
-                few = halved(block, MAX_WORK / (each * wide))
-                down = down.reshape(rays, self.size // few, few, each)
+                # Many small products, made in one call.
+                turned = rows[some].reshape(rays, each, self.size).swapaxes(1, 2)
+                down = turned.reshape(rays, self.size // few, few, each)
                 made = kernels.reshape(rays, block // few, few, wide)
                 products.append((down, across[:, None], made, kernels, spectrum, total[first : first + rays]))
         for low in range(0, self.size, block):
@@ -153,8 +153,8 @@ class Depth:
         return np.asarray(found, np.complex64)
 
     def _in_space(self, spectrum: Spectrum) -> Single:
-        depths: Single = scipy.fft.irfft2(spectrum, s=(self.size, self.size), overwrite_x=True)
-        return np.maximum(depths, 0, out=depths)
+        depths = scipy.fft.irfft2(spectrum, s=(self.size, self.size), overwrite_x=True)
+        return np.asarray(np.maximum(depths, 0, out=depths), np.float32)
 
 
 @dataclass(frozen=True)
