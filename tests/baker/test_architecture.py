@@ -118,7 +118,7 @@ ONLY_IN: dict[str, str | tuple[str, ...]] = {
     "fast_simplification": "surface/repair/simplify.py",
     "filelock": "asset/store.py",
     "ctypes": "asset/exchange.py",
-    "platformdirs": "cli/caches.py",
+    "platformdirs": "cli/baking.py",
     "rich": "cli",
     "click": "cli",
 }

@@ -3,26 +3,20 @@
 from __future__ import annotations
 
 import json
-import time
-from contextlib import AbstractContextManager, nullcontext
 from dataclasses import asdict, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import SimpleNamespace
 from typing import Any
-from urllib.parse import quote
 
 from furbake.asset.inspect import summary
 from furbake.asset.read import read_asset
 from furbake.asset.validate import check, validate
-from furbake.cli.caches import pelt_cache
-from furbake.cli.chosen import chosen, options_for
+from furbake.cli.baking import pelt_cache
+from furbake.cli.chosen import chosen
 from furbake.cli.command import INVALID
-from furbake.cli.output import complain, say
-from furbake.cli.parsing import UsageError
+from furbake.cli.output import say
 from furbake.cli.progress import shown
-from furbake.cores import cores
-from furbake.freshness import fresh_record
 from furbake.groom.files import write_groom
 from furbake.groom.strands import STAGES as GROOM_STAGES
 from furbake.groom.strands import groom
@@ -39,70 +33,8 @@ from furbake.study.verify import body
 from furbake.study.verify.colour import colour_lines, verify_colour
 from furbake.study.verify.tables import lines as body_lines
 from furbake.study.verify.tile import SAMPLES, lines, verify
-from furbake.surface.read.reading import STAGES as USD
-from furbake.surface.read.reading import kind_of
-from furbake.tile.tile import Spread
 
 VERIFY_STAGES = ("strands", "light", "trace")
-
-
-def run_bake(args: SimpleNamespace) -> int:
-    """Bake a mesh into a folder."""
-    args.model = args.model or mesh_of(args.groom)
-    options = options_for(args.model, args)
-    out = Path(args.out)
-    if args.if_stale and (record := fresh_record(args.model, out, options)):
-        if args.json:
-            say(json.dumps({"folder": str(out), "baked": False, "seconds": {}, **record}))
-        elif not args.quiet:
-            say(f"{out}: up to date")
-        return 0
-    samples, cache = Path(args.samples) if args.samples else None, pelt_cache(args)
-    start = time.perf_counter()
-    with _spread(args) as spread, shown(STAGES, args.quiet, args.percent) as progress:
-        result = bake(
-            args.model, out, options, force=args.force or args.if_stale, samples=samples, progress=progress,
-            cache=cache, spread=spread,
-            notify=(lambda notice: None) if args.quiet else (lambda notice: complain(f"note: {notice}")),
-        )  # fmt: skip
-    if args.json:
-        say(json.dumps({"folder": str(out), "baked": True, "seconds": result.seconds, **result.record}))
-    elif not args.quiet:
-        size = sum(result.record["asset"]["bytes"].values()) / 1e6
-        say(
-            f"{out}: {result.record['input']['name']} in {options.layers} layers of {options.size} x {options.size}, "
-            f"{result.record['fit']['psnr']:.1f} dB, {size:.2f} MB, {time.perf_counter() - start:.1f} s"
-        )
-        if not args.if_stale:
-            say(f"to see it: npm start, then {_on_the_page(out)}")
-    return 0
-
-
-def mesh_of(groom: str | None) -> str:
-    """The model of a bake that names none: the mesh beside the strands. Raises UsageError where it has none."""
-    if groom is None:
-        raise UsageError("MODEL: missing, expected furbake bake MODEL -o DIR")
-    if kind_of(groom) not in USD:
-        raise UsageError(f"MODEL: missing, and {groom} holds strands alone, expected furbake bake MODEL -o DIR")
-    return groom
-
-
-def _spread(args: SimpleNamespace) -> AbstractContextManager[Spread | None]:
-    """Workers that sample the light; None: this process does."""
-    if args.scheduler is None:
-        return nullcontext()
-    from furbake.cluster.crew import spread_over  # noqa: PLC0415 — an optional extra
-
-    return spread_over(args.scheduler, cores())
-
-
-def _on_the_page(out: Path) -> str:
-    """Way to show a baked folder on the demo page: its address below the page's, or a drop."""
-    folders = out.resolve().parts
-    if "public" in folders[:-1]:
-        start = len(folders) - folders[::-1].index("public")
-        return f"?model={quote('/'.join(folders[start:]))} in its address"
-    return f"drop the folder {out} on the page"
 
 
 def run_inspect(args: SimpleNamespace) -> int:

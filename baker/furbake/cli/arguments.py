@@ -150,7 +150,7 @@ GROOM = [
 COMMANDS = {
     command.name: command
     for command in (
-        Command("bake", "[MODEL] -o DIR", action("actions", "run_bake"), BAKE),
+        Command("bake", "[MODEL] -o DIR", action("baking", "run_bake"), BAKE),
         Command("inspect", "DIR", action("actions", "run_inspect"), [folder(), switch("--json", "as one JSON object")]),
         Command("validate", "DIR", action("actions", "run_validate"), [folder()]),
         Command("presets", "[NAME]", action("actions", "run_presets"), PRESETS),

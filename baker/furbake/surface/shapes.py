@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 
 import numpy as np
-import trimesh
 
 from furbake.surface.charts import Floats, Ints, Natural
 from furbake.surface.mesh import MeshError, Surface
@@ -53,6 +52,8 @@ def builtin(name: str) -> Surface:
 
 def sphere() -> Surface:
     """Ball of radius 1. A subdivided icosahedron: no poles, and no texture coordinates of its own."""
+    import trimesh  # noqa: PLC0415 — 0.1 s, for this alone
+
     ball = trimesh.creation.icosphere(subdivisions=SUBDIVISIONS)
     vertices = np.asarray(ball.vertices, dtype=np.float64)
     return Surface(vertices, np.asarray(ball.faces, dtype=np.int64), unit(vertices))

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from furbake.cli import actions
+from furbake.cli import baking
 from helpers.command import TINY, listed
 
 
@@ -18,7 +18,7 @@ def test_interrupt(run: Callable[..., Any], monkeypatch: pytest.MonkeyPatch) -> 
     def stop(*args: Any, **kwargs: Any) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(actions, "bake", stop)
+    monkeypatch.setattr(baking, "bake", stop)
     done = run("bake", "plane", "-o", "out")
     assert (done.status, done.out, done.err) == (130, "", "furbake: interrupted, nothing written\n")
 

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from furbake import cli
-from furbake.cli import actions
+from furbake.cli import baking
 from helpers.command import TINY, listed
 
 
@@ -146,6 +146,6 @@ def test_a_full_disk_names_the_folder(run: Callable[..., Any], monkeypatch: pyte
     def full(*arguments: Any, **settings: Any) -> None:
         raise OSError(number, os.strerror(number))
 
-    monkeypatch.setattr(actions, "bake", full)
+    monkeypatch.setattr(baking, "bake", full)
     done = run("bake", "plane", "-o", "some/out", *TINY)
     assert done.err == f"furbake: error: some/out: {os.strerror(number).lower()}, expected room to write\n"

@@ -15,9 +15,9 @@ from furbake.batch import memory
 from furbake.batch.crew import Crew, LocalCrew
 from furbake.batch.journal import journal
 from furbake.batch.run import Row, Telling, run
+from furbake.cli.baking import pelt_cache
 from furbake.cli.batch.listing import listed
 from furbake.cli.batch.table import Table, facts
-from furbake.cli.caches import pelt_cache
 from furbake.cli.command import INVALID, told
 from furbake.cli.interrupt import INTERRUPTED
 from furbake.cli.output import complain, say

@@ -7,6 +7,9 @@ Bilinear look-up is the mean over a voxel's square of a ray through constant vox
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import lru_cache
+
 import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
@@ -23,14 +26,12 @@ OWN_POINTS, OWN_POINTS_PER_TEXEL = 8, 8
 POINTS_PER_TEXEL, MIN_POINTS = 2, 2
 """Points of a bent ray per texel that it moves aside, and in a slab at least."""
 
-STRIP, DARK = 8, 1e-4
+STRIP, DARK = 4, 1e-4
 """Slabs whose rays are followed together, from the tips down, and the mean T below which all deeper ones are black."""
 
-TOGETHER = 2**17
-"""Numbers in the spectra of a strip, at most: with them a core's cache holds what is added up."""
-
-BLOCK = 2**14
+BLOCK = 2**16
 """Numbers of the kernels that are made together: they stay in the cache until they have been used."""
+
 
 MAX_WORK = 2**15
 """Multiplications of one matrix product: BLAS starts no threads for it, which other lights use."""
@@ -58,28 +59,32 @@ class Depth:
         self.back = None if aside is None else _moved(-aside, self.size)
         if self.back is not None:
             self.spectrum *= self.back.conj()
-        texel = np.arange(self.size)
-        self.turns = np.exp(2j * np.pi / self.size * (np.outer(texel, texel) % self.size)).astype(np.complex64)
+        self.turns = _turns(self.size)
 
     def through(self, light: Array) -> tuple[Single, Single]:
         """Transmittance between the light and the voxels, (K, N, N), and the skin, (N, N). 0 behind the body."""
         clear = np.zeros((self.layers, self.size, self.size), np.float32)
-        middle, lz = (np.arange(self.layers) + 0.5) / self.layers, float(light[2])
-        count = min(max(TOGETHER // self.spectrum[0].size, 1), STRIP)
-        for top in range(self.layers, 0, -count):
-            strip = slice(max(top - count, 0), top)
-            rays = Rays(middle[strip], lz, self.beta)
-            spectrum = self._depths(rays, 0.5 / self.layers, light)
+        floor, lz = np.zeros_like(clear[0]), float(light[2])
+        # The first ray is that of the skin.
+        heights = np.append(0.0, (np.arange(self.layers) + 0.5) / self.layers)
+        starts = np.append(0.0, np.full(self.layers, 0.5 / self.layers))
+        rays = Rays(heights, lz, self.beta)
+        points = Points.along(rays, starts, self.layers, self.height, self.size)
+        for top in range(self.layers, 0, -STRIP):
+            strip = slice(max(top - STRIP, 0), top)
+            with_skin = strip.start == 0 and lz > 0
+            of = slice(0 if with_skin else strip.start + 1, top + 1)
+            spectrum = self._depths(points.strip(of), of.stop - of.start, light)
             if self.back is not None:
-                spectrum *= self.back[strip]
-            np.exp(-self._in_space(spectrum), out=clear[strip])
-            clear[strip][rays.blocked] = 0
-            if clear[strip].mean() < DARK:
-                return clear, np.zeros_like(clear[0])
-        if lz <= 0:
-            return clear, np.zeros_like(clear[0])
-        skin = self._depths(Rays(np.zeros(1), lz, self.beta), 0.0, light)
-        return clear, np.exp(-self._in_space(skin)[0])
+                spectrum[int(with_skin) :] *= self.back[strip]
+            depths = self._in_space(spectrum)
+            np.exp(-depths[int(with_skin) :], out=clear[strip])
+            clear[strip][rays.blocked[1:][strip]] = 0
+            if with_skin:
+                floor = np.exp(-depths[0])
+            elif clear[strip].mean() < DARK:
+                break
+        return clear, floor
 
     def own(self, light: Array) -> Single:
         """τ along the ray up to half a slab's thickness on both sides of the voxel's middle, (K, N, N)."""
@@ -104,71 +109,129 @@ class Depth:
                 weights += np.bincount((row + down) % n * n + (column + right) % n, wx * wy, n * n)
         return (weights / count).reshape(n, n).astype(np.float32)
 
-    def _depths(self, rays: Rays, start: float, light: Array) -> Spectrum:
-        """Spectrum of τ on the way from t = `start` to the light, (n, N, N / 2 + 1) for n rays."""
-        total = np.zeros((len(rays.height), *self.spectrum.shape[1:]), np.complex64)
-        texel = self.height * self.size
-        way = light[:2] * (texel / max(float(np.hypot(*light[:2])), 1e-9))
-        feet, weights, counts = self._points(rays, start, texel)
-        odd = self.size // (self.size & -self.size)
-        scratch = np.empty(max(BLOCK, total[:, :odd].size), np.complex64)
-        for slab in np.flatnonzero(counts.any(0)):
-            met = np.flatnonzero(counts[:, slab])
-            some, points = slice(met[0], met[-1] + 1), counts[:, slab].max()
-            at, weight = feet[some, slab, :points], weights[some, slab, :points, None]
-            rows = self._look(at * way[1], self.size).swapaxes(1, 2)
-            columns = self._look(at * way[0], self.size // 2 + 1) * weight
-            block = in_blocks(len(at), points, columns.shape[2], self.size)
-            shape = len(at), block, columns.shape[2]
-            kernels = scratch[: shape[0] * shape[1] * shape[2]].reshape(shape)
-            for first in range(0, self.size, block):
-                part = slice(first, first + block)
-                np.matmul(rows[:, part], columns, out=kernels)
-                kernels *= self.spectrum[slab, part]
-                total[some, part] += kernels
+    def _depths(self, strip: Strip, count: int, light: Array) -> Spectrum:
+        """Spectrum of τ at these points on `count` rays to the light, (count, N, N / 2 + 1)."""
+        total = np.zeros((count, *self.spectrum.shape[1:]), np.complex64)
+        way = light[:2] / max(float(np.hypot(*light[:2])), 1e-9)
+        rows = self._look(strip.feet * way[1], self.size)
+        wide = total.shape[2]
+        columns = self._look(strip.feet * way[0], wide)
+        columns *= strip.weights[:, None]
+        most = int(strip.rays.max(initial=1))
+        block = halved(self.size, BLOCK / (most * wide))
+        scratch = np.empty(most * block * wide, np.complex64)
+        products = []
+        cells = zip(*(part.tolist() for part in (strip.start, strip.first, strip.rays, strip.each)), strict=True)
+        for spectrum, (start, first, rays, each) in zip(self.spectrum, cells, strict=True):
+            if rays:
+                some = slice(start, start + rays * each)
+                few = halved(block, MAX_WORK / (each * wide))
+                across = columns[some].reshape(rays, each, wide)
+                kernels = scratch[: rays * block * wide].reshape(rays, block, wide)
+                # Many small products, made in one call.
+                turned = rows[some].reshape(rays, each, self.size).swapaxes(1, 2)
+                down = turned.reshape(rays, self.size // few, few, each)
+                made = kernels.reshape(rays, block // few, few, wide)
+                products.append((down, across[:, None], made, kernels, spectrum, total[first : first + rays]))
+        for low in range(0, self.size, block):
+            part = slice(low, low + block)
+            for down, across, made, kernels, spectrum, sums in products:
+                few = down.shape[2]
+                np.matmul(down[:, low // few : (low + block) // few], across, out=made)
+                np.multiply(kernels, spectrum[part], out=kernels)
+                here = sums[:, part]
+                np.add(here, kernels, out=here)
         return total
 
-    def _points(self, rays: Rays, start: float, texel: float) -> tuple[Array, Single, NDArray[np.intp]]:
-        """Points along n rays, P at most in each of K slabs: feet and weights, (n, K, P), and their number, (n, K)."""
-        ray, slab, spans = rays.pieces(self.layers, start)
-        length = spans[:, 1] - spans[:, 0]
-        moved = (rays.feet(spans[:, 1], ray) - rays.feet(spans[:, 0], ray)) * texel
-        points = MIN_POINTS * np.maximum(np.ceil(moved * (POINTS_PER_TEXEL / MIN_POINTS)), 1).astype(np.intp)
-        counts = np.zeros((len(rays.height), self.layers), np.intp)
-        np.add.at(counts, (ray, slab), points)
-        piece = np.repeat(np.arange(len(points)), points)
-        share = (np.arange(len(piece)) - np.repeat(np.cumsum(points) - points, points) + 0.5) / points[piece]
-        t, of = spans[piece, 0] + length[piece] * share, ray[piece]
-        # A ray below the horizon meets slabs twice: the points of both times stand one after the other.
-        cell = of * self.layers + slab[piece]
-        order = np.argsort(cell, kind="stable")
-        before = np.cumsum(counts) - counts.ravel()
-        number = np.arange(len(cell)) - before[cell[order]]
-        shape = *counts.shape, int(counts.max(initial=1))
-        feet, weights = np.zeros(shape), np.zeros(shape, np.float32)
-        where = *np.divmod(cell[order], self.layers), number
-        feet[where] = rays.feet(t, of)[order]
-        weight = length[piece] * (self.height / points[piece]) * thinned(rays.heights(t, of), self.beta)
-        weights[where] = weight[order]
-        return feet, weights, counts
-
     def _look(self, at: Array, frequencies: int) -> NDArray[np.complex64]:
-        """Spectra of linear look-up `at` texels (n, P) from the voxel, (n, P, `frequencies`)."""
-        whole = np.floor(at).astype(np.intp)
-        part = (at - whole).astype(np.float32)[..., None]
-        before, after = (self.turns[(whole + step) % self.size, :frequencies] for step in (0, 1))
-        return np.asarray(before + part * (after - before), np.complex64)
+        """Spectra of linear look-up `at` texels (P,) from the voxel, (P, `frequencies`)."""
+        whole = np.floor(at)
+        found = self.turns[whole.astype(np.intp) % self.size, :frequencies]
+        part = np.multiply.outer((at - whole).astype(np.float32), self.turns[1, :frequencies] - 1)
+        part += 1
+        found *= part
+        return np.asarray(found, np.complex64)
 
     def _in_space(self, spectrum: Spectrum) -> Single:
-        return np.maximum(scipy.fft.irfft2(spectrum, s=(self.size, self.size)), 0)
+        depths = scipy.fft.irfft2(spectrum, s=(self.size, self.size), overwrite_x=True)
+        return np.asarray(np.maximum(depths, 0, out=depths), np.float32)
 
 
-def in_blocks(rays: int, points: int, columns: int, size: int) -> int:
-    """Rows of the kernels (rays, size, columns) that are made together by products over so many points."""
-    block = size
-    while block % 2 == 0 and block * max(rays * columns / BLOCK, points * columns / MAX_WORK) > 1:
-        block //= 2
-    return block
+@dataclass(frozen=True)
+class Points:
+    """Points along n rays through K slabs, in their order: ray by ray, slab by slab.
+
+    counts : (n, K) of the points of each ray in each slab
+    feet, weights : (P,) texels aside, and what counts of σ there
+    """
+
+    counts: NDArray[np.intp]
+    feet: Array
+    weights: Single
+
+    @classmethod
+    def along(cls, rays: Rays, start: Array, layers: int, height: float, size: int) -> Points:
+        """start : (n,) distances at which the rays begin; height : of the fur, tile widths, in `layers` slabs."""
+        ray, slab, spans = rays.pieces(layers, start)
+        length, texel = spans[:, 1] - spans[:, 0], height * size
+        moved = (rays.feet(spans[:, 1], ray) - rays.feet(spans[:, 0], ray)) * texel
+        points = MIN_POINTS * np.maximum(np.ceil(moved * (POINTS_PER_TEXEL / MIN_POINTS)), 1).astype(np.intp)
+        counts = np.zeros((len(rays.height), layers), np.intp)
+        np.add.at(counts, (ray, slab), points)
+        piece = np.repeat(np.arange(len(points)), points)
+        share = (np.arange(len(piece)) - (np.cumsum(points) - points)[piece] + 0.5) / points[piece]
+        t, of = spans[piece, 0] + length[piece] * share, ray[piece]
+        weight = length[piece] * (height / points[piece]) * thinned(rays.heights(t, of), rays.beta)
+        # A ray below the horizon meets slabs twice: the points of both times stand one after the other.
+        order = np.argsort(of * layers + slab[piece], kind="stable")
+        return cls(counts, (rays.feet(t, of) * texel)[order], weight.astype(np.float32)[order])
+
+    def strip(self, some: slice) -> Strip:
+        """Those of some rays."""
+        counts = self.counts[some]
+        begin, end = (int(self.counts[:ray].sum()) for ray in (some.start, some.stop))
+        hit, each = counts > 0, counts.max(0)
+        first = hit.argmax(0)
+        rays = np.where(each > 0, len(hit) - hit[::-1].argmax(0) - first, 0)
+        room = rays * each
+        starts = np.cumsum(room) - room
+        cells = starts + (np.arange(len(counts))[:, None] - first) * each
+        before = np.cumsum(counts).reshape(counts.shape) - counts
+        place = np.repeat((cells - before).ravel(), counts.ravel()) + np.arange(end - begin)
+        feet, weights = np.zeros(room.sum()), np.zeros(room.sum(), np.float32)
+        feet[place], weights[place] = self.feet[begin:end], self.weights[begin:end]
+        return Strip(feet, weights, starts, first, rays, each)
+
+
+@dataclass(frozen=True)
+class Strip:
+    """Points of neighbouring rays, slab by slab and there ray by ray, as many of each.
+
+    feet, weights : (P,) as of `Points`; a weight is 0 where a ray has fewer points in a slab than others
+    start, first, rays, each : (K,) of every slab the first point, the first ray, and the numbers of rays and of points
+        of each
+    """
+
+    feet: Array
+    weights: Single
+    start: NDArray[np.intp]
+    first: NDArray[np.intp]
+    rays: NDArray[np.intp]
+    each: NDArray[np.intp]
+
+
+@lru_cache(4)
+def _turns(size: int) -> NDArray[np.complex64]:
+    """e^(2πi·x·f / size) for whole x and f, (size, size)."""
+    texel = np.arange(size)
+    return np.asarray(np.exp(2j * np.pi / size * (np.outer(texel, texel) % size)), np.complex64)
+
+
+def halved(rows: int, most: float) -> int:
+    """`rows`, halved until they are at most that many, or odd."""
+    while rows % 2 == 0 and rows > most:
+        rows //= 2
+    return rows
 
 
 def passing(depth: Single) -> Single:

@@ -93,8 +93,9 @@ class Rays:
         """β·ψ(t)."""
         return np.asarray(self.beta * np.arctan2(t * self.across, self.radius[ray] + t * self.lz))
 
-    def pieces(self, slabs: int, start: float) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
-        """The rays from t = `start` to the end of the fur, cut where they pass from one of the equal slabs to another.
+    def pieces(self, slabs: int, start: Array) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
+        """The rays from t = `start` (n,) to the end of the fur, cut where they pass from one of the equal slabs to
+        another.
 
         Returns each piece's ray and slab, (m,), and the distances where it starts and ends, (m, 2). A ray that is
         blocked has none.
@@ -103,7 +104,7 @@ class Rays:
         square = (self.beta + np.arange(slabs + 1) / slabs) ** 2 - (r * self.across) ** 2
         # Levels that a ray doesn't come down to are passed at its lowest point.
         root = np.sqrt(np.maximum(square, 0))
-        edges = np.maximum(np.concatenate([-root[:, ::-1], root], 1) - r * self.lz, start)
+        edges = np.maximum(np.concatenate([-root[:, ::-1], root], 1) - r * self.lz, start[:, None])
         ray, edge = np.nonzero((np.diff(edges) > STEP) & ~self.blocked[:, None])
         spans = np.stack([edges[ray, edge], edges[ray, edge + 1]], 1)
         slab = np.floor(self.heights(spans.mean(1), ray) * slabs).astype(np.intp)

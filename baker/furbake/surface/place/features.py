@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import trimesh
 from scipy.spatial.transform import Rotation
 
 from furbake.surface.files import read_text
@@ -118,6 +117,8 @@ def ball(half: bool = False) -> tuple[Floats, Ints]:
 
     half : only what has z >= 0, open behind
     """
+    import trimesh  # noqa: PLC0415 — 0.1 s, for this alone
+
     shape = trimesh.creation.icosphere(subdivisions=SUBDIVISIONS)
     vertices, faces = unit(np.asarray(shape.vertices, dtype=np.float64)), np.asarray(shape.faces, dtype=np.int64)
     if not half:

@@ -17,7 +17,6 @@ from furbake.surface.material import Material
 from furbake.surface.read.archive import sources
 from furbake.surface.read.gltf_data import UndecodableError
 from furbake.surface.read.gltf_scene import Scene, read_gltf
-from furbake.surface.read.others import read_other
 from furbake.surface.read.usd import read_usd
 from furbake.surface.rig.rig import Rig
 from furbake.surface.soup import MeshError, Soup, join
@@ -96,7 +95,11 @@ def kind_of(name: str) -> str:
 
 
 def _read_one(model: Source, kind: str) -> Scene:
-    return read_gltf(model) if kind in ("glb", "gltf") else Scene(*read_other(model, kind), ())
+    if kind in {"glb", "gltf"}:
+        return read_gltf(model)
+    from furbake.surface.read.others import read_other  # noqa: PLC0415 — trimesh takes 0.1 s
+
+    return Scene(*read_other(model, kind), ())
 
 
 def _read_archive(archive: Source, kind: str) -> Scene:
