@@ -98,7 +98,7 @@ class ShownTexels:
         """Visible share of the slabs per area of skin, (K, N, N), for an eye at v where they are.
 
         A shell hides 1 − (1 − α)^`slant`. What is above a point is met along a straight ray over a ball of radius β,
-        as in `Rays`; shells are not thinned as hairs are that diverge.
+        as in `Rays`.
         """
         layers, size, _ = self.coverage.shape
         radius = self.beta + (np.arange(layers) + 0.5) / layers
@@ -122,7 +122,8 @@ class ShownTexels:
         """Power of a shell for a ray of these level parts, (2,), and this height."""
         if self.spread is None:
             return np.float32(1 / up)
-        return np.float32(slant(self.slopes[slab], self.spread, level / up))
+        stretch = 1 + (slab + 0.5) / len(self.slopes) / self.beta
+        return np.float32(slant(self.slopes[slab], self.spread, level / up, stretch))
 
 
 def even(field: Single) -> Single:

@@ -147,6 +147,7 @@ export class FurMaterial extends PeltMaterial {
 				},
 				defines: {
 					MAX_SLANT: '6.0',
+					MAX_STRETCH: '4.0',
 					HAIR: '0.2',
 					LAYERS: asset.layers,
 					...(asset.eye && { EYE: '' }),

@@ -135,11 +135,12 @@ def slopes(drift: Array, height: float) -> Array:
     return np.asarray(np.diff(ends, axis=0) * len(drift) / height)
 
 
-def slant(slope: Array, spread: float, ray: Array) -> float:
-    """Hairs along a ray over those along the vertical, for hairs of a mean slope (2,) and a ray of a slope (2,).
+def slant(slope: Array, spread: float, ray: Array, stretch: float = 1.0) -> float:
+    """Hairs along a ray over those along the vertical of flat skin, by a mean slope (2,) and a ray of a slope (2,).
 
-    Slopes are displacements per height. What of a slab's hairs is hit goes by how far they lie aside of the ray.
+    Slopes are displacements per height. What of a slab's hairs is hit goes by how far they lie aside of the ray. On a
+    round body they are apart by `stretch` = 1 + h/β, and as much steeper to the side.
     """
     ray = ray / max(float(np.linalg.norm(ray)) / MAX_SLANT, 1.0)
-    apart, upright = (np.hypot(np.linalg.norm(way), spread) for way in (slope - ray, slope))
-    return float(apart / max(float(upright), 1e-6))
+    apart = np.hypot(np.linalg.norm(stretch * slope - ray), stretch * spread)
+    return float(apart / max(float(np.hypot(np.linalg.norm(slope), spread)), 1e-6)) / stretch**2

@@ -93,8 +93,8 @@ float sharesOf(int slab, float count) {
 #endif
 }
 
-// Hairs that a ray to the eye meets in a slab over those met along the normal, by how far they lie aside of it; by the law of
-// pelt/hairs/shown.py.
+// Hairs that a ray to the eye meets in a slab over those met along the normal of flat skin, by how far they lie aside of it and
+// how far apart they are on a round body; by the law of pelt/hairs/shown.py.
 float slantOf(ShellPoint point) {
 	float up = max(abs(point.facing), 1.0 / MAX_SLANT), spread = slants[furRegion].x;
 	if (spread < 0.0) return 1.0 / up;
@@ -105,8 +105,11 @@ float slantOf(ShellPoint point) {
 	float k = float(point.slab);
 	vec2 drifting = (driftAt((k + 1.0) / float(LAYERS)) - driftAt(k / float(LAYERS))) * float(LAYERS);
 	vec2 level = (viewerVS(point.pointVS) * point.frameVS).xy * (sign(point.facing) / up);
-	vec2 apart = drifting + reach * (2.0 * point.s * point.comb.xy - furRise(point.comb) * level);
-	return length(vec3(apart, spread)) / max(length(vec3(drifting, spread)), 1e-6);
+	vec3 round = point.s * furCurvature(_fur.y);
+	mat2 stretch = mat2(1.0 + round.x, round.z, round.z, 1.0 + round.y);
+	float wider = clamp(determinant(stretch), 1.0 / MAX_STRETCH, MAX_STRETCH);
+	vec2 apart = stretch * drifting + reach * (2.0 * point.s * point.comb.xy - furRise(point.comb) * level);
+	return length(vec3(apart, spread * sqrt(wider))) / (wider * max(length(vec3(drifting, spread)), 1e-6));
 }
 
 // Places the vertex and writes varyings that are independent of the light.
