@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.pelt.curves import lean_direction
-from furbake.pelt.hairs.strands import Coat, Strands
 from furbake.pelt.hairs.shown import shown_slabs
+from furbake.pelt.hairs.strands import Coat, Strands
 from furbake.pelt.hairs.volume import Volume, fine_shape, voxelise
 from furbake.pelt.light.transport import Setting, hemisphere, sample
 from furbake.pelt.pelt import Pelt

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.cores import cores
-from furbake.pelt.hairs.shown import BETWEEN, MOST, slant, slopes
+from furbake.pelt.hairs.shown import BETWEEN, MOST
 from furbake.pelt.hairs.strands import Coat
 from furbake.pelt.hairs.volume import SOLID_SLAB, Volume, doubled, moved, pool
 from furbake.pelt.light.fibre import THINNEST, Cylinders
@@ -83,7 +83,6 @@ class ShownTexels:
         """lights : (n, 3); beta : as of `Beam`"""
         size = min(pelt.size, SHOWN_SIZE)
         self.height, self.beta = pelt.height, FLAT if beta is None else beta
-        self.spread, self.slopes = pelt.spread, slopes(pelt.drift, pelt.height)
         self.coverage = np.minimum(pool(pelt.alpha.astype(np.float32) / 255, size), np.float32(MOST))
         light = pelt.light(lights) if beta is None else pelt.light(lights, beta)
         self.light = moved(pool(light, size), np.full(2, BETWEEN))
@@ -97,8 +96,8 @@ class ShownTexels:
     def visible(self, eye: Array) -> Single:
         """Visible share of the slabs per area of skin, (K, N, N), for an eye at v where they are.
 
-        A shell hides 1 − (1 − α)^`slant`. What is above a point is met along a straight ray over a ball of radius β,
-        as in `Rays`.
+        A shell hides 1 − (1 − α)^(1/n·v). What is above a point is met along a straight ray over a ball of radius β,
+        as in `Rays`; shells are not thinned as hairs are that diverge.
         """
         layers, size, _ = self.coverage.shape
         radius = self.beta + (np.arange(layers) + 0.5) / layers
@@ -109,21 +108,13 @@ class ShownTexels:
             rise = np.sqrt(np.maximum(1 - (r / radius[k + 1 :] * across) ** 2, 0))
             t = radius[k + 1 :] * rise - r * eye[2]
             feet = self.beta * np.arctan2(t * across, r + t * eye[2])
-            clear = np.log1p(-moved(self.coverage[k], np.full(2, BETWEEN))) * self._slant(k, eye[:2], float(eye[2]))
+            clear = np.log1p(-moved(self.coverage[k], np.full(2, BETWEEN))) / np.float32(eye[2])
             own = -np.expm1(clear)
             depth = np.zeros_like(own)
-            for above, (foot, up) in enumerate(zip(feet, rise, strict=True), k + 1):
-                level = eye[:2] * (r / radius[above])
-                depth += np.log1p(-moved(self.coverage[above], way * foot + BETWEEN)) * self._slant(above, level, up)
+            for shell, foot, up in zip(self.coverage[k + 1 :], feet, rise, strict=True):
+                depth += np.log1p(-moved(shell, way * foot + BETWEEN)) / np.float32(up)
             found[k] = np.exp(depth) * own * np.float32(eye[2] * (r / self.beta) ** 2)
         return found
-
-    def _slant(self, slab: int, level: Array, up: float) -> np.float32:
-        """Power of a shell for a ray of these level parts, (2,), and this height."""
-        if self.spread is None:
-            return np.float32(1 / up)
-        stretch = 1 + (slab + 0.5) / len(self.slopes) / self.beta
-        return np.float32(slant(self.slopes[slab], self.spread, level / up, stretch))
 
 
 def even(field: Single) -> Single:

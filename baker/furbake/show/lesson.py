@@ -108,7 +108,6 @@ def write(
         progress("strands", 0.0)
         strands = grow(options.coat, height, options.seed)
         progress("strands", 1.0)
-        progress("volume", 0.0)
         fine = voxelise(strands, height, *fine_shape(options.layers, options.size, height), options.coat.opacity)
         volume = shown_slabs(fine, strands, options.layers, options.size)
         progress("volume", 1.0)

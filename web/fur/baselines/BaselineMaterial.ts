@@ -16,7 +16,6 @@ import hairOut from '../shaders/hair/hair.vert.glsl?raw';
 import opacity from '../shaders/hair/opacity.glsl?raw';
 import dissolve from '../shaders/hair/regions/dissolve.glsl?raw';
 import shell from '../shaders/hair/shell.glsl?raw';
-import curvature from '../shaders/draw/curvature.glsl?raw';
 import drift from '../shaders/hair/tile/drift.glsl?raw';
 import view from '../shaders/light/view.glsl?raw';
 import { hairChunks, texelChunks } from '../shells/chunks.ts';
@@ -45,10 +44,9 @@ export class BaselineMaterial extends ShaderMaterial {
 			glslVersion: shells.glslVersion,
 			uniforms: { ...shells.uniforms, ...UniformsUtils.clone(UniformsLib.lights), ...uniforms },
 			defines: { ...parts, ...defines },
-			vertexShader: [
-				'#include <common>',
-				...[view, ...hairChunks, curvature, frame, drift, shell, colour, hairOut, vertexShader],
-			].join('\n'),
+			vertexShader: ['#include <common>', view, ...hairChunks, frame, drift, shell, colour, hairOut, vertexShader].join(
+				'\n',
+			),
 			fragmentShader: [
 				'#include <common>',
 				...texelChunks,

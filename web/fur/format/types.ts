@@ -155,8 +155,6 @@ export interface FurAsset {
 	eye?: number[][];
 	/** Surge of light of a lamp beside the eye: excess seen from above, further excess from aside, width in radians. */
 	surge?: [number, number, number];
-	/** Spread of the hairs' slopes about their mean at each height. */
-	spread?: number;
 	/** Linear colours along a hair: mix(root, tip, s^power). */
 	ramp: {
 		/** At the skin. */
@@ -185,7 +183,7 @@ export interface FurAsset {
 
 /** Fur of a region of a body; the rest is as of the coat. */
 export interface RegionFur
-	extends Pick<FurAsset, 'height' | 'curves' | 'drift' | 'bent' | 'eye' | 'surge' | 'spread' | 'ramp' | 'pelts'> {
+	extends Pick<FurAsset, 'height' | 'curves' | 'drift' | 'bent' | 'eye' | 'surge' | 'ramp' | 'pelts'> {
 	/** Name of the region. */
 	name: string;
 	/** Width of its tile over that of the coat's. */

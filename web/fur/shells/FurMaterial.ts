@@ -1,6 +1,6 @@
 import { Color, type ShaderMaterialParameters, Vector2, Vector3, Vector4 } from 'three';
 import { type Roots, rootUniforms } from '../body/roots/Roots.ts';
-import { type FurAsset, fursOf, type Pelt, tileOf } from '../format.ts';
+import { type FurAsset, fursOf, type Pelt } from '../format.ts';
 import { bentWeights, leanOf, wayOf } from '../light/bent.ts';
 import { eyeUniforms } from '../light/eye.ts';
 import type { FurTextures, TexelCoding } from '../light/texels.ts';
@@ -123,7 +123,6 @@ export class FurMaterial extends PeltMaterial {
 					shellCount: { value: asset.layers },
 					firstShell: { value: 0 },
 					drift: { value: furs.flatMap(({ drift }) => driftKnots(drift)) },
-					slants: { value: furs.map((fur, i) => slantOf(fur, asset, regions?.furs[i - 1]?.tile ?? 1)) },
 					lean: { value: leanOf(asset) },
 					bent: { value: furs.flatMap(bentWeights) },
 					...eyeUniforms(furs),
@@ -147,7 +146,6 @@ export class FurMaterial extends PeltMaterial {
 				},
 				defines: {
 					MAX_SLANT: '6.0',
-					MAX_STRETCH: '4.0',
 					HAIR: '0.2',
 					LAYERS: asset.layers,
 					...(asset.eye && { EYE: '' }),
@@ -174,16 +172,6 @@ function codingOf(asset: FurAsset): TexelCoding {
 	const { basis, environment, curves, pelts } = asset;
 	const means = curves && { curves, way: wayOf(asset), weights: pelt.weights ?? [], multiple: pelt.multiple };
 	return { ...pelt, basis, environment, means, pelts };
-}
-
-/**
- * Of a fur X = spread of its hairs' slopes, negative where the asset has none, Y = length of the longest fur, both as
- * displacements in widths of its tile.
- *
- * @param asset of the body; width: of the fur's tile over the coat's
- */
-function slantOf({ spread = -1, height }: FurAsset, asset: FurAsset, width: number): Vector2 {
-	return new Vector2(spread * height, asset.length / (tileOf(asset) * width));
 }
 
 /** Mean displacement of the hairs at the root and in every slab's middle, two to a vector. */

@@ -1,9 +1,8 @@
-"""Stored slabs that show as much of every height as the hairs do, and how much more of them an eye aside sees.
+"""Stored slabs that show as much of every height as the hairs do.
 
 Slabs are composited as if their hairs had nothing to do with each other. A hair goes on from slab to slab, and what lies
-below it is hidden once: `shown_slabs` takes the coverage of every slab to the power at which all of them together show,
-from straight above, as much of each height as the strands do. From aside a shell hides by the angle between the eye and
-its hairs, whose slopes differ by `spread_of`: see `slant`.
+below it is hidden once: `shown_slabs` takes 1 − α of every slab to the power at which all of them together show, from
+straight above, as much of each height as the strands do.
 """
 
 from __future__ import annotations
@@ -40,12 +39,6 @@ POWERS = (0.1, 4.0)
 
 STEPS = 20
 """Steps by halves towards a power."""
-
-STEEP, LEVELS = 4.0, 16
-"""Largest slope that counts, and heights whose mean slopes are taken apart."""
-
-MAX_SLANT = 6.0
-"""Largest slope of a ray to the eye, as in hair/shell.glsl."""
 
 
 def shown_slabs(fine: Volume, strands: Strands, layers: int, size: int, mud: Crumbs | None = None) -> Volume:
@@ -112,35 +105,3 @@ def powers(coverage: Array, shares: Array) -> Array:
         hidden = -clear * np.expm1(found[k] * depth)
         shown, clear = shown + float(hidden.mean()), clear - hidden
     return found
-
-
-def spread_of(strands: Strands, height: float) -> float:
-    """Mean distance of the hairs' slopes from the mean slope at their height."""
-    step = np.diff(strands.points, axis=1)
-    slope = np.clip(step[..., :2] / np.maximum(step[..., 2:], 1e-6), -STEEP, STEEP).reshape(-1, 2)
-    weight = ((strands.radius[:, 1:] + strands.radius[:, :-1]) * np.maximum(step[..., 2], 0)).ravel()
-    middle = (strands.points[:, 1:, 2] + strands.points[:, :-1, 2]).ravel() / (2 * height)
-    slab = np.clip((middle * LEVELS).astype(np.int64), 0, LEVELS - 1)
-    total = np.maximum(np.bincount(slab, weight, LEVELS), 1e-12)
-    means = np.stack([np.bincount(slab, weight * part, LEVELS) / total for part in slope.T], -1)
-    apart = np.linalg.norm(slope - means[slab], axis=1)
-    return float((weight * apart).sum() / max(float(weight.sum()), 1e-12))
-
-
-def slopes(drift: Array, height: float) -> Array:
-    """Mean slopes of the hairs in every slab, (K, 2), from the displacements at the slabs' middles, tile widths."""
-    knots = np.concatenate([np.zeros((1, 2)), drift])
-    after = np.concatenate([drift[1:], 2 * drift[-1:] - knots[-2:-1]])
-    ends = np.concatenate([np.zeros((1, 2)), (drift + after) / 2])
-    return np.asarray(np.diff(ends, axis=0) * len(drift) / height)
-
-
-def slant(slope: Array, spread: float, ray: Array, stretch: float = 1.0) -> float:
-    """Hairs along a ray over those along the vertical of flat skin, by a mean slope (2,) and a ray of a slope (2,).
-
-    Slopes are displacements per height. What of a slab's hairs is hit goes by how far they lie aside of the ray. On a
-    round body they are apart by `stretch` = 1 + h/β, and as much steeper to the side.
-    """
-    ray = ray / max(float(np.linalg.norm(ray)) / MAX_SLANT, 1.0)
-    apart = np.hypot(np.linalg.norm(stretch * slope - ray), stretch * spread)
-    return float(apart / max(float(np.hypot(np.linalg.norm(slope), spread)), 1e-6)) / stretch**2

@@ -19,8 +19,8 @@ from furbake.asset.planes import write_png
 from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt
 from furbake.options import BakeOptions, OptionError
-from furbake.pelt.hairs.strands import grow
 from furbake.pelt.hairs.shown import shown_slabs
+from furbake.pelt.hairs.strands import grow
 from furbake.pelt.hairs.volume import fine_shape, pool, voxelise
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.texels.fit import Judge

@@ -16,7 +16,7 @@ uniform float shellCount;
 #endif
 
 in float vWeight;
-in float vSlant;
+in float vFacing;
 
 in float vKept; // coverage that crispness leaves alone
 
@@ -35,7 +35,8 @@ float shellOpacity(float coverage) {
 	float most = min(2.0 * vWeight * kept * shellCount / (furTrim * float(LAYERS)), 1.0); // share of the overlapping patches here
 	return clamp((coverage * most - HAIR) / max(fwidth(coverage), 1e-3) + 0.5, 0.0, 1.0);
 #else
+	float facing = max(abs(vFacing), 1.0 / MAX_SLANT);
 	// Extrapolation between samples may take the weight below 0.
-	return 1.0 - pow(1.0 - min(coverage, 0.996), max(vWeight, 0.0) * kept * vSlant);
+	return 1.0 - pow(1.0 - min(coverage, 0.996), max(vWeight, 0.0) * kept / facing);
 #endif
 }

@@ -28,7 +28,7 @@ uniform vec2 crispness; // Y = share of the latter in the picture
 
 out vec3 vAt; // XY = tiles, Z = slab
 out float vWeight; // slabs that the shell stands for, times the patch's weight
-out float vSlant; // hairs along the ray to the eye over those along the normal
+out float vFacing; // n·v
 out float vKept;
 #ifdef PARTED
 in vec4 regionSlope; // growth of the two bounds along u and v, per unit of texture coordinates: XY of the lower, ZW of the upper
@@ -36,8 +36,6 @@ uniform float furCells; // cells along a tile of the coat in which all hairs are
 out vec2 vBounds; // bounds at the hairs' root
 out vec2 vRoot; // that root, cells
 #endif
-
-uniform vec2 slants[FURS]; // X = spread of the hairs' slopes, negative where it is not known; Y = length of the longest fur; widths of the fur's tile
 
 #define TIE 0.7 // phase at which half as many shells as slabs are as bright as a few more or less
 
@@ -52,7 +50,6 @@ struct ShellPoint {
 	vec3 comb; // displacement of the tip in that frame, share of the length
 	vec3 pointVS;
 	int slab;
-	float facing; // n·v
 };
 
 // Slab shown by shell `i` of `count` at height s.
@@ -91,25 +88,6 @@ float sharesOf(int slab, float count) {
 #else
 	return slab == TOP ? count - first : next - first;
 #endif
-}
-
-// Hairs that a ray to the eye meets in a slab over those met along the normal of flat skin, by how far they lie aside of it and
-// how far apart they are on a round body; by the law of pelt/hairs/shown.py.
-float slantOf(ShellPoint point) {
-	float up = max(abs(point.facing), 1.0 / MAX_SLANT), spread = slants[furRegion].x;
-	if (spread < 0.0) return 1.0 / up;
-	float reach = slants[furRegion].y * _fur.y;
-#ifdef WET
-	reach *= furTraits.x;
-#endif
-	float k = float(point.slab);
-	vec2 drifting = (driftAt((k + 1.0) / float(LAYERS)) - driftAt(k / float(LAYERS))) * float(LAYERS);
-	vec2 level = (viewerVS(point.pointVS) * point.frameVS).xy * (sign(point.facing) / up);
-	vec3 round = point.s * furCurvature(_fur.y);
-	mat2 stretch = mat2(1.0 + round.x, round.z, round.z, 1.0 + round.y);
-	float wider = clamp(determinant(stretch), 1.0 / MAX_STRETCH, MAX_STRETCH);
-	vec2 apart = stretch * drifting + reach * (2.0 * point.s * point.comb.xy - furRise(point.comb) * level);
-	return length(vec3(apart, spread * sqrt(wider))) / (wider * max(length(vec3(drifting, spread)), 1e-6));
 }
 
 // Places the vertex and writes varyings that are independent of the light.
@@ -157,8 +135,7 @@ ShellPoint shellPoint() {
 	point.slab = slab;
 	vec2 kept = keptLevels(slab + furRegion * LAYERS);
 	vKept = mix(kept.x, kept.y, crispness.y);
-	point.facing = dot(point.turn * n, viewerVS(point.pointVS));
-	vSlant = slantOf(point);
+	vFacing = dot(point.turn * n, viewerVS(point.pointVS));
 	gl_Position = point.there ? projectionMatrix * vec4(point.pointVS, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 	return point;
 }
