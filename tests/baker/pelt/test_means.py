@@ -11,7 +11,6 @@ from furbake.options import BakeOptions, preset
 from furbake.pelt.curves import RADII, Curves, abscissa, elevation, lean_direction
 from furbake.pelt.hairs.states import DIRTY, PeltState, in_state
 from furbake.pelt.hairs.strands import grow
-from furbake.pelt.hairs.volume import coarsen
 from furbake.pelt.light.paths import lowest
 from furbake.pelt.light.transport import Setting, hemisphere, sample_apart
 from furbake.pelt.means import Measured, coarser, directions, mean_light, measure, rounded, shared, tables
@@ -182,16 +181,15 @@ def test_bytes_suit_each_slab() -> None:
 
 
 def test_measured_means_are_those_of_the_samples() -> None:
-    _, fine, _ = grown(SMALL)
+    _, fine, volume = grown(SMALL)
     bodies = measure(fine, 6, 16, SMALL.coat)
-    coverage = coarsen(fine, 6, 16).coverage
     assert [body.beta for body in bodies] == list(RADII)
     dark = [body.values[body.lights[:, 2] < 0].max(0) for body in bodies]
     assert (dark[0] > dark[2]).all()  # the smaller the body, the farther light comes round it
     home = bodies[1]
     samples = under(home.lights, fine, SMALL)
     for lit, values in zip(samples[18:22], home.values[18:22], strict=True):
-        for slab, alpha, value in zip(lit, coverage, values, strict=True):
+        for slab, alpha, value in zip(lit, volume.coverage, values, strict=True):
             assert np.average(slab.ravel(), weights=alpha.ravel()) == pytest.approx(value, rel=1e-4)
 
 

@@ -47,7 +47,7 @@ def write_painted(folder: Path, control: Floats, colours: NDArray[np.floating]) 
 
 
 def shaded(between: Floats) -> tuple[Floats, NDArray[np.intp]]:
-    """Shades (n, 3) and the one of each piece (S, P − 1), by chance, so that their mean is the piece's own (S, P − 1, 3).
+    """Shades (n, 3) and one of them for each piece, (S, P − 1), by chance: their mean is the colours', (S, P − 1, 3).
 
     Each piece has one of the four shades around its colour, as often as its place between them says. The nearest shade
     would bring an error that goes with the height: the saturation of a wolf's light would be 8 % too great by 40 of
