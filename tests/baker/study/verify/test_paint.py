@@ -22,7 +22,7 @@ def test_hairs_of_many_colours_are_pieces_of_a_few(tmp_path: Path) -> None:
 
 
 def test_shades_have_the_hairs_own_mean_at_every_height() -> None:
-    """Of 3 000 hairs that grow paler and greyer, each its own way, the mean of any height's shades is its colours'."""
+    """Mean of the shades beside that of the colours, of 3 000 hairs that grow paler and greyer, each its own way."""
     rng = np.random.default_rng(3)
     s, pale = np.linspace(0, 1, 8)[None, :, None], rng.uniform(0.2, 1.0, (3000, 1, 1))
     colours = pale * ((1 - s) * np.array([0.2, 0.1, 0.04]) + s * np.array([0.8, 0.7, 0.6]))
