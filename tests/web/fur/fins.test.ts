@@ -145,7 +145,14 @@ describe('varyings', () => {
 		Object.assign(shells.material, { environment: true, gloss: 0.5, backlight: 6 });
 		expect([fins, shells].map(({ material }) => rows(material))).toEqual([15, 15]);
 		// With a picture of the roots, and furs of regions, in mud and rain.
-		Object.assign(shells.material.defines, { ROOTS: '', COLOUR_PLANE: '', WET: 3, DIRTY: '', SHADOW_PER_FRAGMENT: '', SHADOW_SHARE: '' });
+		Object.assign(shells.material.defines, {
+			ROOTS: '',
+			COLOUR_PLANE: '',
+			WET: 3,
+			DIRTY: '',
+			SHADOW_PER_FRAGMENT: '',
+			SHADOW_SHARE: '',
+		});
 		expect(rows(shells.material)).toBeLessThanOrEqual(15);
 		Object.assign(shells.material.defines, { REGIONS: 2, PARTED: '', TIGHT: '' });
 		expect(rows(shells.material)).toBe(15);
@@ -154,7 +161,16 @@ describe('varyings', () => {
 		shells.material.backlight = 0;
 		expect(rows(shells.material)).toBe(15);
 		shells.material.backlight = 6;
-		for (const name of ['ROOTS', 'COLOUR_PLANE', 'WET', 'DIRTY', 'REGIONS', 'PARTED', 'SHADOW_PER_FRAGMENT', 'SHADOW_SHARE'])
+		for (const name of [
+			'ROOTS',
+			'COLOUR_PLANE',
+			'WET',
+			'DIRTY',
+			'REGIONS',
+			'PARTED',
+			'SHADOW_PER_FRAGMENT',
+			'SHADOW_SHARE',
+		])
 			delete shells.material.defines[name];
 		shells.material.lampsPerFragment = true;
 		for (const { material } of [fins, shells]) {
