@@ -29,7 +29,7 @@ const worst = (a: number[], b: number[]) => Math.max(...a.map((value, i) => Math
 test('furs dissolve at their border: all of the light, by the shares that the file has', async ({ page }) => {
 	await openInPage(page, 'regions');
 	const urls = ['regions', 'regions-whole'].map((name) => served(`tests/golden/${name}/model.gltf`));
-	const { alike, calls, rivals, worn, found, error } = await page.evaluate(
+	const { alike, shining, calls, rivals, worn, found, error } = await page.evaluate(
 		([several, whole]) => loaded.border(several as string, whole as string),
 		urls,
 	);
@@ -52,6 +52,7 @@ test('furs dissolve at their border: all of the light, by the shares that the fi
 	expect(error).toBe(0);
 	expect(calls[1], 'draws of two furs').toBe(calls[0]);
 	for (const decibels of alike) expect(decibels, 'the same fur in two regions and in one').toBeGreaterThan(50);
+	expect(shining, 'with light from behind, for which varyings are left out').toBeGreaterThan(50);
 	for (const decibels of rivals) expect(decibels, 'by other methods').toBeGreaterThan(50);
 	expect(worn, 'dressed in one fur').toBeGreaterThan(50);
 	expect(off.soft?.light, 'light lost or gained at the border').toBeLessThan(0.02);

@@ -105,6 +105,12 @@ export async function border(several: string, whole: string) {
 	const [two, one] = await Promise.all([several, whole].map(async (url) => new Square(await loadFur(url))));
 	if (!two || !one) throw new Error('nothing to compare');
 	const alike = [0, 0.8].map((slant) => psnr(two.look(slant).draw(), one.look(slant).draw()));
+	const light = (backlight: number, gloss: number) => {
+		for (const { fur } of [two, one]) Object.assign(fur.material, { backlight, gloss });
+	};
+	light(40, 0.5);
+	const shining = psnr(two.draw(), one.draw());
+	light(0, 0);
 	const calls = [one, two].map((square) => {
 		square.draw(false);
 		const bare = renderer.info.render.calls;
@@ -150,5 +156,5 @@ export async function border(several: string, whole: string) {
 		region.needsUpdate = slope.needsUpdate = true;
 		found[name] = shares(two, white);
 	}
-	return { alike, calls, rivals, worn, found, error: gl.getError() };
+	return { alike, shining, calls, rivals, worn, found, error: gl.getError() };
 }

@@ -115,6 +115,7 @@ describe('varyings', () => {
 			.filter((line) => {
 				const [, directive, name = ''] = line.match(/^#(if\w*|else|endif)\b *(\w*)/) ?? [];
 				if (directive === 'ifdef') kept.push(name in defines);
+				else if (directive === 'ifndef') kept.push(!(name in defines));
 				else if (directive?.startsWith('if')) kept.push(true);
 				else if (directive === 'else') kept.push(!kept.pop());
 				else if (directive) kept.pop();
@@ -143,10 +144,34 @@ describe('varyings', () => {
 		expect([fins, shells].map(({ material }) => rows(material))).toEqual([8, 8]);
 		Object.assign(shells.material, { environment: true, gloss: 0.5, backlight: 6 });
 		expect([fins, shells].map(({ material }) => rows(material))).toEqual([15, 15]);
-		// With a picture of the roots.
-		shells.material.defines.ROOTS = '';
+		// With a picture of the roots, and furs of regions, in mud and rain.
+		Object.assign(shells.material.defines, {
+			ROOTS: '',
+			COLOUR_PLANE: '',
+			WET: 3,
+			DIRTY: '',
+			SHADOW_PER_FRAGMENT: '',
+			SHADOW_SHARE: '',
+		});
 		expect(rows(shells.material)).toBeLessThanOrEqual(15);
-		delete shells.material.defines.ROOTS;
+		Object.assign(shells.material.defines, { REGIONS: 2, PARTED: '', TIGHT: '' });
+		expect(rows(shells.material)).toBe(15);
+		delete shells.material.defines.TIGHT;
+		expect(rows(shells.material)).toBe(16);
+		shells.material.backlight = 0;
+		expect(rows(shells.material)).toBe(15);
+		shells.material.backlight = 6;
+		for (const name of [
+			'ROOTS',
+			'COLOUR_PLANE',
+			'WET',
+			'DIRTY',
+			'REGIONS',
+			'PARTED',
+			'SHADOW_PER_FRAGMENT',
+			'SHADOW_SHARE',
+		])
+			delete shells.material.defines[name];
 		shells.material.lampsPerFragment = true;
 		for (const { material } of [fins, shells]) {
 			expect(rows(material)).toBeLessThanOrEqual(15);

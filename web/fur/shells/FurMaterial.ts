@@ -116,7 +116,9 @@ export class FurMaterial extends PeltMaterial {
 			{
 				name: 'FurMaterial',
 				vertexShader: [frame, drift, shell, hairOut, vertexMain, ends].join('\n'),
-				fragmentShader: [dissolve, opacity, ...(roots ? [drift] : []), hairIn, fragmentMain, ends].join('\n'),
+				fragmentShader: [...(roots || regions ? [drift] : []), dissolve, opacity, hairIn, fragmentMain, ends].join(
+					'\n',
+				),
 				uniforms: {
 					tiles: { value: asset.tiles ?? 1 },
 					furLength: { value: asset.length },

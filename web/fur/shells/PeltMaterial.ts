@@ -103,6 +103,7 @@ export class PeltMaterial extends ShaderMaterial {
 				...(textures.colour && { COLOUR_PLANE: '' }),
 				SKY: '',
 				...(furs.length > 1 && { REGIONS: furs.length }),
+				...(furs.some((own) => String(own.scale) + own.bias !== String(texels.scale) + texels.bias) && { CODINGS: '' }),
 				...defines,
 			},
 			vertexShader: [

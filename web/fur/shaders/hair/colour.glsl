@@ -12,17 +12,29 @@ uniform vec3 regionRamps[3 * REGIONS]; // root, tip, tip2 of each fur; the coat'
 uniform float regionPowers[REGIONS];
 #endif
 
-// tipShare: mix of tip and tip2; s = 0 at the skin, 1 at the tip. Cut hair has the colours half way between its own roots
-// and a whole ramp: a whole ramp would be another animal's, and roots alone are dark.
-vec3 furRamp(float tipShare, float s) {
+#if !defined(REGIONS)
+#define OWN(coat, list, stride, i) coat
+#elif REGIONS == 2
+#define OWN(coat, list, stride, i) mix(coat, list[(stride) + (i)], furSecond)
+#else
+#define OWN(coat, list, stride, i) (furRegion == 0 ? coat : list[(stride) * furRegion + (i)])
+#endif
+
+// Place on the ramp of a point of the hair. s = 0 at the skin, 1 at the tip. Cut hair has the colours half way between its own
+// roots and a whole ramp: a whole ramp would be another animal's, and roots alone are dark.
+float rampPlace(float s) {
+	return pow(s / sqrt(furTrim), OWN(rampPower, regionPowers, 1, 0));
+}
+
+// Colour at a place on the ramp. tipShare: mix of tip and tip2
+vec3 rampAt(float tipShare, float place) {
 #ifdef COLOUR_PLANE
-	tipShare = 1.0;
+	return mix(OWN(root, regionRamps, 3, 0), OWN(tip2, regionRamps, 3, 2), place);
+#else
+	return mix(OWN(root, regionRamps, 3, 0), mix(OWN(tip, regionRamps, 3, 1), OWN(tip2, regionRamps, 3, 2), tipShare), place);
 #endif
-#ifdef REGIONS
-	if (furRegion > 0) {
-		int own = 3 * furRegion;
-		return mix(regionRamps[own], mix(regionRamps[own + 1], regionRamps[own + 2], tipShare), pow(s / sqrt(furTrim), regionPowers[furRegion]));
-	}
-#endif
-	return mix(root, mix(tip, tip2, tipShare), pow(s / sqrt(furTrim), rampPower));
+}
+
+vec3 furRamp(float tipShare, float s) {
+	return rampAt(tipShare, rampPlace(s));
 }

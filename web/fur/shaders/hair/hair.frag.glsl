@@ -16,16 +16,20 @@ vec3 rootColour; // colour at the roots of this fragment's hairs
 in vec3 vColour;
 #ifdef COLOUR_PLANE
 in float vTip2;
-in float vHeight;
+#ifdef TIGHT
+#define vRamp ((vAt.z - furLayer) / RAMP_SHARE)
+#else
+in float vRamp;
+#endif
 #endif
 
 vec3 hairColour(vec3 at, float tint) {
 #ifdef ROOTS
 	// Hairs of a texel stand aside of it by the drift of its slab.
-	rootColour = texture(roots, (at.xy - driftKnot(int(at.z + 0.5) - furRegion * LAYERS + 1)) * furWidth * rootsUnit).rgb;
+	rootColour = texture(roots, rootTiles(at) * furWidth * rootsUnit).rgb;
 #endif
 #ifdef COLOUR_PLANE
-	return soiled(baseColour * mix(furBytes(colourPlane, at).rgb, furRamp(1.0, vHeight) * tint, vTip2));
+	return soiled(baseColour * mix(furBytes(colourPlane, at).rgb, rampAt(1.0, vRamp) * tint, vTip2));
 #else
 	return soiled(baseColour * tint);
 #endif

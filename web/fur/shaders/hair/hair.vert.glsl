@@ -3,7 +3,11 @@
 out vec3 vColour; // linear; a factor where there is a colour plane, or a picture of the roots
 #ifdef COLOUR_PLANE
 out float vTip2; // mix of the texel's colour and tip2
-out float vHeight; // 0 at the skin, 1 at the tip
+#ifdef TIGHT
+float vRamp; // in vAt instead
+#else
+out float vRamp; // place on the ramp
+#endif
 #endif
 
 #ifdef ROOTS
@@ -23,7 +27,10 @@ void passColour(ShellPoint shell) {
 #endif
 #ifdef COLOUR_PLANE
 	vTip2 = tipShare * _fur.w;
-	vHeight = shell.s;
+	vRamp = rampPlace(shell.s);
+#ifdef TIGHT
+	vAt.z += RAMP_SHARE * vRamp;
+#endif
 #else
 	vColour *= furRamp(tipShare * _fur.w, shell.s);
 #endif

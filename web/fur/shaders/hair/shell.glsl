@@ -26,15 +26,18 @@ uniform vec4 crispLevels[(CRISP_SLABS + 1) / 2]; // coverage of two slabs each, 
 uniform vec2 crispness; // Y = share of the latter in the picture
 #endif
 
-out vec3 vAt; // XY = tiles, Z = slab
+out vec3 vAt; // XY = tiles, Z = slab, fur after fur; where TIGHT, the place on the ramp times RAMP_SHARE is added
 out float vWeight; // slabs that the shell stands for, times the patch's weight
 out float vFacing; // n·v
 out float vKept;
 #ifdef PARTED
 in vec4 regionSlope; // growth of the two bounds along u and v, per unit of texture coordinates: XY of the lower, ZW of the upper
+out float vLowest; // bounds of the numbers of this fur's hairs at their root
+out float vHighest;
+#ifndef TIGHT
 uniform float furCells; // cells along a tile of the coat in which all hairs are of one fur
-out vec2 vBounds; // bounds at the hairs' root
-out vec2 vRoot; // that root, cells
+out vec2 vRoot; // root of the hairs, cells
+#endif
 #endif
 
 #define TIE 0.7 // phase at which half as many shells as slabs are as bright as a few more or less
@@ -129,8 +132,11 @@ ShellPoint shellPoint() {
 	vWeight = _fur.x * FUR_SHARE * share / sharesOf(slab, count);
 #ifdef PARTED
 	drifted *= furWidth;
-	vBounds = _region.xy - vec2(dot(regionSlope.xy, drifted), dot(regionSlope.zw, drifted)) / tiles;
+	vLowest = _region.x - dot(regionSlope.xy, drifted) / tiles;
+	vHighest = _region.y - dot(regionSlope.zw, drifted) / tiles;
+#ifndef TIGHT
 	vRoot = (uv * tiles - drifted) * furCells;
+#endif
 #endif
 	point.slab = slab;
 	vec2 kept = keptLevels(slab + furRegion * LAYERS);

@@ -3,7 +3,7 @@
 
 #ifdef REGIONS
 uniform vec2 leans[REGIONS]; // lean of each fur
-#define lean leans[furRegion]
+#define lean ofFur(leans, 1, 0)
 #else
 uniform vec2 lean; // mean displacement of the tips inside the tile, share of the length along (T, B)
 #endif
@@ -55,8 +55,8 @@ Bending bendingOf(vec3 comb, float s) {
 	upright.UP = 1.0;
 	float q = dot(tip, tip);
 	// In the order of the format, with y = leaning·l: x·z, p, q·z, q; x, q·y, q·y·z, x·y.
-	int own = 6 * furRegion;
-	vec4 first = bent[own] + s * (bent[own + 2] + s * bent[own + 4]), second = bent[own + 1] + s * (bent[own + 3] + s * bent[own + 5]);
+	vec4 first = ofFur(bent, 6, 0) + s * (ofFur(bent, 6, 2) + s * ofFur(bent, 6, 4));
+	vec4 second = ofFur(bent, 6, 1) + s * (ofFur(bent, 6, 3) + s * ofFur(bent, 6, 5));
 	bending.factor.even = 1.0 + first.y * dot(tip, leaning) + first.w * q;
 	bending.factor.gradient = second.x * tip + q * (first.z * upright + second.y * leaning);
 	bending.factor.form = outerProduct(first.x * tip + second.z * q * leaning, upright) + second.w * outerProduct(tip, leaning);

@@ -5,7 +5,7 @@
 uniform vec4 eye[9 * FURS]; // weights of twelve terms, fur after fur, three vectors for each of 1, s, s²
 #ifdef REGIONS
 uniform vec4 surges[REGIONS]; // surge of each fur
-#define furSurge surges[furRegion]
+#define furSurge ofFur(surges, 1, 0)
 #else
 #define furSurge surge
 uniform vec4 surge; // light of a lamp beside the eye, which sees no shadows: excess X seen from above, X + Y from aside; Z = width, radians; W = share of a half sphere
@@ -48,8 +48,9 @@ vec3 napTowards(Eye from, vec3 lightTS) {
 	float q = from.q, p = from.p, a = dot(from.level, lightTS), b = dot(leanTS(), lightTS), z = lightTS.UP;
 	vec4 first = vec4(q, a, q * b, p * b), second = vec4(q * z, q * b * b, p, a * a), third = vec4(p * a * b, a * z, q * b * z, q * a * b);
 	vec3 nap = vec3(1.0, 0.0, 0.0);
-	int own = 9 * furRegion;
-	for (int k = 0; k < 3; k++) nap[k] += dot(first, eye[own + 3 * k]) + dot(second, eye[own + 3 * k + 1]) + dot(third, eye[own + 3 * k + 2]);
+	nap.x += dot(first, ofFur(eye, 9, 0)) + dot(second, ofFur(eye, 9, 1)) + dot(third, ofFur(eye, 9, 2));
+	nap.y += dot(first, ofFur(eye, 9, 3)) + dot(second, ofFur(eye, 9, 4)) + dot(third, ofFur(eye, 9, 5));
+	nap.z += dot(first, ofFur(eye, 9, 6)) + dot(second, ofFur(eye, 9, 7)) + dot(third, ofFur(eye, 9, 8));
 	return nap;
 }
 

@@ -1,17 +1,8 @@
 // Texel of fur: its polynomial texture map, decoded (paper, eq. 3) and evaluated (eq. 1 without its factors 2).
 
 uniform sampler2DArray plane0; // (a0, a1, a2, a5); with three coefficients (a0, a1, a2, α)
-#ifdef REGIONS
+#ifdef CODINGS // furs have codings of their own
 uniform vec4 codings[4 * REGIONS]; // scale0, offset0, scale1, offset1 below, fur after fur
-#if REGIONS == 2 // a choice of two is cheaper than a place in a list
-#define CODING(i) (furRegion == 0 ? codings[i] : codings[4 + i])
-#else
-#define CODING(i) codings[4 * furRegion + i]
-#endif
-#define scale0 CODING(0)
-#define offset0 CODING(1)
-#define scale1 CODING(2).xy
-#define offset1 CODING(3).xy
 #ifdef TWO_PLANES
 uniform sampler2DArray plane1; // (a3, a4, α, tint)
 #endif
@@ -39,12 +30,15 @@ struct FurTexel {
 
 FurTexel furTexel(vec3 at) {
 	FurTexel texel;
+#ifdef CODINGS
+	vec4 scale0 = ofFur(codings, 4, 0), offset0 = ofFur(codings, 4, 1), scale1 = ofFur(codings, 4, 2), offset1 = ofFur(codings, 4, 3);
+#endif
 	vec4 byte0 = furBytes(plane0, at);
 	vec4 a = byte0 * scale0 + offset0;
 	texel.low = a.xyz;
 #ifdef TWO_PLANES
 	vec4 byte1 = furBytes(plane1, at);
-	texel.high = vec3(byte1.xy * scale1 + offset1, a.w);
+	texel.high = vec3(byte1.xy * scale1.xy + offset1.xy, a.w);
 	texel.alpha = denser(byte1.z);
 	texel.tint = byte1.w;
 #else
@@ -57,7 +51,7 @@ FurTexel furTexel(vec3 at) {
 	vec4 dirtyA = dirty0 * scale0 + offset0;
 	float lit = vDirt * mix(1.0, dirty1.w, furWetness);
 	texel.low = mix(texel.low, dirtyA.xyz, lit);
-	texel.high = mix(texel.high, vec3(dirty1.xy * scale1 + offset1, dirtyA.w), lit);
+	texel.high = mix(texel.high, vec3(dirty1.xy * scale1.xy + offset1.xy, dirtyA.w), lit);
 	texel.alpha = muddy(texel.alpha, dirty1.w, denser(dirty1.z));
 #elif defined(DIRTY)
 	mudShare = MUD_SHARE * vDirt;

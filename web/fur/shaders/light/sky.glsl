@@ -7,9 +7,9 @@ Quadratic seenByEye(FurPoint point, Eye from) {
 	vec3 level = from.level, leaning = leanTS(), upright = vec3(0.0);
 	upright.UP = 1.0;
 	float q = from.q, p = from.p, s = point.s / furTrim;
-	int own = 9 * furRegion;
-	vec4 first = eye[own] + s * (eye[own + 3] + s * eye[own + 6]), second = eye[own + 1] + s * (eye[own + 4] + s * eye[own + 7]);
-	vec4 third = eye[own + 2] + s * (eye[own + 5] + s * eye[own + 8]);
+	vec4 first = ofFur(eye, 9, 0) + s * (ofFur(eye, 9, 3) + s * ofFur(eye, 9, 6));
+	vec4 second = ofFur(eye, 9, 1) + s * (ofFur(eye, 9, 4) + s * ofFur(eye, 9, 7));
+	vec4 third = ofFur(eye, 9, 2) + s * (ofFur(eye, 9, 5) + s * ofFur(eye, 9, 8));
 	seen.even += first.x * q + second.z * p;
 	seen.gradient = first.y * level + (first.z * q + first.w * p) * leaning + second.x * q * upright;
 	seen.form = outerProduct(second.w * level + (third.x * p + third.w * q) * leaning + third.y * upright, level);

@@ -2,8 +2,14 @@
 // surface in which the hair has its root, so that it is the same from root to tip, and in all furs.
 
 #ifdef PARTED
-in vec2 vBounds; // bounds of the numbers of this fur's hairs at the root
+in float vLowest; // bounds of the numbers of this fur's hairs at the root
+in float vHighest;
+#ifdef TIGHT
+uniform float furCells; // see shell.glsl
+#define vRoot (rootTiles(furAt) * (furWidth * furCells))
+#else
 in vec2 vRoot; // root of the hairs, cells
+#endif
 
 // Number of a cell, 0..1: PCG (M. E. O'Neill 2014) of its two places.
 float numberOf(ivec2 cell) {
@@ -16,11 +22,11 @@ float numberOf(ivec2 cell) {
 
 // Share of this fur in the hairs of a fragment: 0 or 1, and where cells are smaller than pixels their mean.
 float furShare() {
-	vec2 size = fwidth(vRoot);
-	if (vBounds.x <= 0.0 && vBounds.y >= 1.0) return 1.0;
+	vec2 apart = fwidth(vRoot);
+	if (vLowest <= 0.0 && vHighest >= 1.0) return 1.0;
 	float number = numberOf(ivec2(floor(vRoot)));
-	float one = step(vBounds.x, number) * step(number, vBounds.y), mean = clamp(vBounds.y, 0.0, 1.0) - clamp(vBounds.x, 0.0, 1.0);
-	return mix(one, mean, smoothstep(0.5, 1.5, max(size.x, size.y)));
+	float one = step(vLowest, number) * step(number, vHighest), mean = clamp(vHighest, 0.0, 1.0) - clamp(vLowest, 0.0, 1.0);
+	return mix(one, mean, smoothstep(0.5, 1.5, max(apart.x, apart.y)));
 }
 #else
 #define furShare() 1.0

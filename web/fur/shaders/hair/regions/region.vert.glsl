@@ -2,6 +2,7 @@
 
 #ifdef REGIONS
 int furRegion = 0;
+float furSecond = 0.0; // 1 in the fur after the coat
 #define furTiles (tiles / furWidth)
 #else
 #define furTiles tiles
@@ -19,5 +20,6 @@ in vec3 _region; // XY = bounds of the numbers of this fur's hairs, 0..1; Z = nu
 void takeFur() {
 #ifdef PARTED
 	furRegion = int(_region.z * 255.0 + 0.5);
+	furSecond = step(0.5 / 255.0, _region.z);
 #endif
 }

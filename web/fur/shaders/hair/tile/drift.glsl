@@ -7,6 +7,11 @@ vec2 driftKnot(int k) {
 	return (k & 1) == 0 ? two.xy : two.zw;
 }
 
+// Tiles of the roots of a shell's hairs, which stand aside of them by the drift of their slab. at: tiles and slab, fur after fur
+vec2 rootTiles(vec3 at) {
+	return at.xy - driftKnot(int(at.z + 0.5) - furRegion * LAYERS + 1);
+}
+
 // Mean displacement of the hairs: 0 at the root, linear between slab middles and on beyond the last.
 vec2 driftAt(float s) {
 	float x = s * float(LAYERS) + 0.5;
