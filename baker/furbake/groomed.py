@@ -25,7 +25,7 @@ from furbake.surface.mesh import Surface
 
 Floats = NDArray[np.float64]
 
-HAIRS = 900
+HAIRS = 300
 """Hairs of a tile, about, where its width is not given."""
 
 WIDTHS = (0.03, 0.2)
