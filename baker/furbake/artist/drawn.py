@@ -19,8 +19,8 @@ PER_NEIGHBOURHOOD = 40
 
 MOST_NEIGHBOURHOODS = 49
 
-DRAWS = 24
-"""Tiles that are drawn; the one whose strands are most like the whole groom, and stand most evenly, is taken."""
+DRAWS, BEST = 48, 8
+"""Tiles that are drawn, and how many are kept: those whose strands are most like the groom and stand most evenly."""
 
 SEEDS = 6
 """Neighbourhoods that are tried at each place of a tile; the one that fills it with as many strands as belong there."""
@@ -60,25 +60,23 @@ class Source:
     density: float
 
 
-def draw(source: Source, seed: int) -> tuple[Strands, Ints]:
-    """Strands of the tile, z up to the tile's height where the fur ends, and which of the groom's each is."""
+def draw(source: Source, seed: int) -> list[tuple[Strands, Ints]]:
+    """Tiles of strands, the best first: z up to the tile's height where the fur ends; which of the groom's each is."""
     rng = np.random.default_rng([seed, 4])
     traits = _traits(source)
     typical = _typical(source)
     tree = cKDTree(_feet(source, np.arange(source.bound.count)))
-    best: tuple[float, Ints, Floats] | None = None
+    found = list[tuple[float, Ints, Floats]]()
     for _ in range(DRAWS):
         which, roots = _neighbourhoods(source, typical, tree, rng)
-        if not len(which):
-            continue
-        off = max(distance(trait[which], trait) for trait in traits) + uneven(roots)
-        if best is None or off < best[0]:
-            best = off, which, roots
-    if best is None:
+        if len(which):
+            off = max(distance(trait[which], trait) for trait in traits) + uneven(roots)
+            found.append((off, which, roots))
+    if not found:
         which = rng.choice(source.bound.count, max(1, round(source.density * source.tile**2)))
-        best = 1.0, which, scattered_points(len(which), rng)
-    _, which, roots = best
-    return _in_tile(source, which, roots), which
+        found.append((1.0, which, scattered_points(len(which), rng)))
+    found.sort(key=lambda one: one[0])
+    return [(_in_tile(source, which, roots), which) for _, which, roots in found[:BEST]]
 
 
 def uneven(roots: Floats) -> float:
