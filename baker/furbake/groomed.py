@@ -26,7 +26,7 @@ from furbake.surface.mesh import Surface
 Floats = NDArray[np.float64]
 
 HAIRS = 300
-"""Hairs of a tile, about, where its width is not given."""
+"""Hairs of a tile, about, where its width is not given: of more each is thinner than a texel."""
 
 WIDTHS = (0.03, 0.2)
 """Least and greatest width of such a tile, shares of the body's largest side."""

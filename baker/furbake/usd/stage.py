@@ -136,7 +136,7 @@ def stage_of(path: str) -> Stage:
     places = geometry.XformCache(time)
     metres = geometry.GetStageMetersPerUnit(stage) if geometry.StageHasAuthoredMetersPerUnit(stage) else None
     found = Stage("Z" if geometry.GetStageUpAxis(stage) == geometry.Tokens.z else "Y", metres)
-    hidden = []
+    hidden = list[UsdCurves]()
     for prim in stage.Traverse(usd.TraverseInstanceProxies()):
         if prim.IsA(geometry.BasisCurves):
             imageable = geometry.Imageable(prim)
