@@ -59,7 +59,7 @@ def compared(source: Source, strands: Strands, seed: int) -> dict[str, Any]:
 
 
 def likest(source: Source, drawn: list[tuple[Strands, Ints]], seed: int) -> tuple[Strands, Ints]:
-    """Of some tiles the one that is most like the groom where it stands on the body."""
+    """The tile that is, of some, most like the groom where it stands on the body."""
     rng = np.random.default_rng([seed, 7])
     groom = of_groom(source, rng)
 

@@ -1,12 +1,11 @@
 """Runs in Blender's Python, which needs no furbake: pictures of hairs on a body by Cycles.
 
-PYTHON render.py FOLDER, with `job.npz` in it; writes `NUMBER-HALF.npy`, (height, width, 4) rows from below.
+PYTHON render.py in a folder with `job.npz`; writes `NUMBER-HALF.npy`, (height, width, 4) rows from below.
 """
 
 from __future__ import annotations
 
 import importlib
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -80,7 +79,7 @@ def turned(matrix_type: Any, back: Any, place: Any) -> Any:
 def main() -> None:
     """All cells, either half of the paths with a seed of its own."""
     bpy, matrix_type = importlib.import_module("bpy"), importlib.import_module("mathutils").Matrix
-    folder = Path(sys.argv[1])
+    folder = Path.cwd()
     job = np.load(folder / "job.npz", allow_pickle=False)
     bpy.ops.wm.read_factory_settings(use_empty=True)
     shapes(bpy, job)

@@ -48,12 +48,19 @@ def trace(
             eyes=[cell.eye for cell in cells], lamps=[cell.to_lamp for cell in cells], spp=half,
         )  # fmt: skip
         try:
-            subprocess.run([python, str(RENDER), scratch], check=True, capture_output=True, text=True)  # noqa: S603
+            subprocess.run(  # noqa: S603
+                [_absolute(python), str(RENDER)], check=True, capture_output=True, text=True, cwd=scratch
+            )
         except subprocess.CalledProcessError as error:
             last = (error.stderr.strip() or error.stdout.strip() or "no word").splitlines()[-1]
             raise VerifyError(f"cycles: {last}, expected pictures of {len(cells)} cells") from None
         step(1.0)
         return [_traced(folder, number) for number in range(len(cells))]
+
+
+def _absolute(python: str) -> str:
+    """Path of a program that holds in other folders, too; a name alone is looked up as before."""
+    return str(Path(python).absolute()) if Path(python).name != python else python
 
 
 def _check(python: str) -> None:
