@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,7 @@ from furbake.usd.stage import UsdError, read_stage
 from helpers.grooms import strands
 
 pytest.importorskip("pxr", reason="usd-core reads USD")
+Gf, Sdf, Usd, UsdGeom, Vt = (import_module(f"pxr.{name}") for name in ("Gf", "Sdf", "Usd", "UsdGeom", "Vt"))
 
 POINTS = strands(20)
 
@@ -28,8 +30,6 @@ INPUTS = 10_000 if os.environ.get("FURBAKE_TEST_ALL") else 300
 
 def curves(stage: Any, path: str, points: np.ndarray, basis: str = "bspline", wrap: str = "pinned") -> Any:
     """Cubic curves (S, P, 3) on a stage."""
-    from pxr import UsdGeom, Vt
-
     made = UsdGeom.BasisCurves.Define(stage, path)
     made.CreateTypeAttr("cubic")
     made.CreateBasisAttr(basis)
@@ -41,8 +41,6 @@ def curves(stage: Any, path: str, points: np.ndarray, basis: str = "bspline", wr
 
 def houdini(path: Path, *, instanceable: bool) -> np.ndarray:
     """A SOP's export in centimetres, z up, beside guides; the strands' control points, y up, metres."""
-    from pxr import Sdf, Usd, UsdGeom, Vt
-
     stage = Usd.Stage.CreateNew(str(path))
     UsdGeom.SetStageUpAxis(stage, "Z")
     UsdGeom.SetStageMetersPerUnit(stage, 0.01)
@@ -70,8 +68,6 @@ def houdini(path: Path, *, instanceable: bool) -> np.ndarray:
 
 def xgen(path: Path) -> np.ndarray:
     """Maya's export of many descriptions, each moved, in centimetres; the control points in metres."""
-    from pxr import Gf, Usd, UsdGeom
-
     stage = Usd.Stage.CreateNew(str(path))
     UsdGeom.SetStageUpAxis(stage, "Y")
     UsdGeom.SetStageMetersPerUnit(stage, 0.01)
