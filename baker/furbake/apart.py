@@ -91,6 +91,13 @@ def ending(status: int) -> str:
     return f"exit status {status}"
 
 
+def _said(value: Any) -> str:
+    """Name and message of an exception, or its name alone where the message is no text."""
+    with suppress(Exception):
+        return f"{type(value).__name__}: {value}"
+    return type(value).__name__
+
+
 def serve() -> None:
     """Answer requests until the pipe closes; then the process ends at once, whatever it does."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # it is for the command, which ends this process
@@ -111,8 +118,8 @@ def serve() -> None:
     def answer(kind: str, value: Any) -> None:
         try:
             text = pickle.dumps((kind, value))
-        except (pickle.PicklingError, TypeError, AttributeError):  # an exception that holds what is no data
-            text = pickle.dumps(("error", RuntimeError(f"{type(value).__name__}: {value}")))
+        except Exception:  # noqa: BLE001 — what libraries raise may refuse to be data by any exception
+            text = pickle.dumps(("error", RuntimeError(_said(value))))
         answers.write(text)
         answers.flush()
 

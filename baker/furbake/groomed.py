@@ -16,7 +16,7 @@ from furbake.artist.fields import Fields, Standing, areas, direction_of, fields_
 from furbake.artist.follow import filled, followers
 from furbake.artist.laid import Laid, laid
 from furbake.artist.read.reading import read_curves
-from furbake.artist.traits import compared
+from furbake.artist.traits import compared, likest
 from furbake.options import BakeOptions
 from furbake.options.knobs import KNOBS
 from furbake.pelt.hairs.ramp import Ramp
@@ -25,8 +25,8 @@ from furbake.surface.mesh import Surface
 
 Floats = NDArray[np.float64]
 
-HAIRS = 900
-"""Hairs of a tile, about, where its width is not given."""
+HAIRS = 300
+"""Hairs of a tile, about, where its width is not given: of more each is thinner than a texel."""
 
 WIDTHS = (0.03, 0.2)
 """Least and greatest width of such a tile, shares of the body's largest side."""
@@ -87,7 +87,7 @@ def groomed(options: BakeOptions, skin: Surface, ground: Surface) -> Groomed:
     density = _quantile(fields.density, fields.area * ~fields.bald, DENSE)
     tile = options.tile or _width(skin, density, float(fur.reach.max()))
     source = Source(bound, stands, fields, fur, combed.direction, ground_of(skin), tile, density)
-    strands, which = draw(source, options.seed)
+    strands, which = likest(source, draw(source, options.seed), options.seed)
     colours = colours_of(bound, stands, fields, which)
     strands = _shaded(strands, colours, options)
     length = float(fur.reach.max())

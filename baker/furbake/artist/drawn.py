@@ -19,8 +19,14 @@ PER_NEIGHBOURHOOD = 40
 
 MOST_NEIGHBOURHOODS = 49
 
-DRAWS = 24
-"""Tiles that are drawn; the one whose strands are most like the whole groom is taken."""
+DRAWS, BEST = 48, 8
+"""Tiles that are drawn, and how many are kept: those whose strands are most like the groom and stand most evenly."""
+
+SEEDS = 6
+"""Neighbourhoods that are tried at each place of a tile; the one that fills it with as many strands as belong there."""
+
+CELLS = 6
+"""Cells along a tile in which strands are counted: gaps would be seen again at every repetition."""
 
 LIKE = 0.35
 """Difference of the logarithm of density and length up to which a place is typical."""
@@ -54,25 +60,33 @@ class Source:
     density: float
 
 
-def draw(source: Source, seed: int) -> tuple[Strands, Ints]:
-    """Strands of the tile, z up to the tile's height where the fur ends, and which of the groom's each is."""
+def draw(source: Source, seed: int) -> list[tuple[Strands, Ints]]:
+    """Tiles of strands, the best first: z up to the tile's height where the fur ends; which of the groom's each is."""
     rng = np.random.default_rng([seed, 4])
     traits = _traits(source)
     typical = _typical(source)
     tree = cKDTree(_feet(source, np.arange(source.bound.count)))
-    best: tuple[float, Ints, Floats] | None = None
+    found = list[tuple[float, Ints, Floats]]()
     for _ in range(DRAWS):
         which, roots = _neighbourhoods(source, typical, tree, rng)
-        if not len(which):
-            continue
-        off = max(distance(trait[which], trait) for trait in traits)
-        if best is None or off < best[0]:
-            best = off, which, roots
-    if best is None:
+        if len(which):
+            off = max(distance(trait[which], trait) for trait in traits) + uneven(roots)
+            found.append((off, which, roots))
+    if not found:
         which = rng.choice(source.bound.count, max(1, round(source.density * source.tile**2)))
-        best = 1.0, which, scattered_points(len(which), rng)
-    _, which, roots = best
-    return _in_tile(source, which, roots), which
+        found.append((1.0, which, scattered_points(len(which), rng)))
+    found.sort(key=lambda one: one[0])
+    return [(_in_tile(source, which, roots), which) for _, which, roots in found[:BEST]]
+
+
+def uneven(roots: Floats) -> float:
+    """Share of the tile by which cells have fewer strands than they should, 0..1. roots : (n, 2) tile widths, periodic
+
+    By chance alone n strands leave about .4·CELLS/√n.
+    """
+    at = np.minimum((roots % 1.0 * CELLS).astype(np.int64), CELLS - 1)
+    counted = np.bincount(at[:, 0] * CELLS + at[:, 1], minlength=CELLS**2) * CELLS**2 / len(roots)
+    return float(np.maximum(1.0 - counted, 0.0).mean())
 
 
 def distance(some: Floats, others: Floats) -> float:
@@ -118,22 +132,47 @@ def _neighbourhoods(source: Source, typical: Ints, tree: cKDTree, rng: np.random
     """
     whole = source.density * source.tile**2
     sites = scattered_points(int(np.clip(round(whole / PER_NEIGHBOURHOOD), 1, MOST_NEIGHBOURHOODS)), rng)
-    seeds = rng.choice(typical, len(sites))
-    feet = np.asarray(tree.data)
-    dense = source.stands.at(source.fields.density)[seeds]
-    grown = np.sqrt(dense / source.density) / source.tile  # so that as many strands stand in a tile's area
     far = 1.5 / np.sqrt(len(sites))
+    expected = whole * _cells_of(sites)
     found, places = list[Ints](), list[Floats]()
-    across, along, normal = frames(source, seeds)
-    for i, seed in enumerate(seeds):
-        near = np.asarray(tree.query_ball_point(feet[seed], far / grown[i]), np.int64)
-        near = near[source.bound.normal[near] @ normal[i] > 0.3]
-        way = (feet[near] - feet[seed]) * grown[i]
-        at = sites[i] + np.stack([way @ across[i], way @ along[i]], axis=1)
-        own = (nearest(at, sites)[0] == i) & (np.abs(at - sites[i]).max(axis=1, initial=0.0) < 0.5)
-        found.append(near[own])
-        places.append(at[own])
+    for i, site in enumerate(sites):
+        best: tuple[float, Ints, Floats] | None = None
+        seeds = rng.choice(typical, SEEDS)
+        for seed, *axes in zip(seeds, *frames(source, seeds), strict=True):
+            near, at = _around(source, seed, axes, tree, far)
+            at = site + at
+            own = (nearest(at, sites)[0] == i) & (np.abs(at - site).max(axis=1, initial=0.0) < 0.5)
+            off = abs(int(own.sum()) - expected[i])
+            if best is None or off < best[0]:
+                best = off, near[own], at[own]
+        if best is not None:
+            found.append(best[1])
+            places.append(best[2])
     return np.concatenate(found), np.concatenate(places)
+
+
+def _around(source: Source, seed: int, axes: list[Floats], tree: cKDTree, far: float) -> tuple[Ints, Floats]:
+    """Strands around one, (n,), and where their roots are from its own in a tile, (n, 2).
+
+    axes : across the fur there, along it, and the normal, (3,) each; far : how far they may be, tile widths
+    """
+    across, along, normal = axes
+    feet = np.asarray(tree.data)
+    dense = source.stands.ground.at(
+        source.fields.density, source.stands.face[seed : seed + 1], source.stands.shares[seed : seed + 1]
+    )
+    grown = float(np.sqrt(dense[0] / source.density)) / source.tile  # so that as many strands stand in a tile's area
+    near = np.asarray(tree.query_ball_point(feet[seed], far / grown), np.int64)
+    near = near[source.bound.normal[near] @ normal > 0.3]
+    way = (feet[near] - feet[seed]) * grown
+    return near, np.stack([way @ across, way @ along], axis=1)
+
+
+def _cells_of(sites: Floats) -> Floats:
+    """(n,) share of the periodic tile that is nearest to each site."""
+    steps = (np.arange(64) + 0.5) / 64
+    every = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
+    return np.bincount(nearest(every, sites)[0], minlength=len(sites)) / len(every)
 
 
 def _feet(source: Source, which: Ints) -> Floats:
@@ -153,11 +192,11 @@ def _in_tile(source: Source, which: Ints, roots: Floats) -> Strands:
     rise = (reach * np.sqrt(1 - comb * comb))[:, None]
     s = np.clip(above / np.maximum(rise, 1e-12), 0.0, 1.0)
     s[:, 0] = 0.0
-    # Bends are as large as on strands of the usual length; the lean is the same on all.
+    # Bends are as large as on strands of the usual length; the lean is the same on all, also where a comb falls short.
     common = np.zeros_like(aside)
     common[..., 1] = laid.lean * laid.taller * s
     rest = aside - common
-    rest[..., 1] -= (reach * comb)[:, None] * s * s
+    rest[..., 1] -= (reach * comb)[:, None] * s * s + (laid.taller * stands.at(laid.short))[:, None] * s
     usual = float(np.median(source.stands.at(source.fields.length)))
     rest *= np.clip(usual / own, *STRETCH)[:, None, None]
     moved = (rest + common) / tile

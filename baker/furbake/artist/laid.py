@@ -34,6 +34,7 @@ class Laid:
     taller : height of the fur over the mean height of the strands
     reach : (V,) length of the fur; comb : (V,) displacement of its tips, share of that
     lean : displacement of a mean strand's tip inside the tile, model units
+    short : (V,) displacement of a mean strand's tip along the direction that is left, model units
     missed : mean distance by which tips along the surface are off, share of the strands' length
     """
 
@@ -41,6 +42,7 @@ class Laid:
     reach: Floats
     comb: Floats
     lean: float
+    short: Floats
     missed: float
 
 
@@ -65,8 +67,10 @@ def laid(surface: Surface, fields: Fields, direction: Floats, tall: Floats) -> L
         missed = np.abs(reach * comb / taller**2 + lean - along)
         off = float(np.average(missed / (fields.length + usual) + COMBED * comb * comb, weights=weight))
         if best is None or off < best[0] - 1e-4:
-            best = off, Laid(taller, reach, comb, float(lean), float(np.average(missed, weights=weight)) / usual)
+            mean = float(np.average(missed, weights=weight)) / usual
+            best = off, Laid(taller, reach, comb, float(lean), np.zeros_like(along), mean)
     assert best is not None  # noqa: S101 — for the types
     found, even = best[1], averaging(surface, ROUNDS)
     covered = np.maximum(even(weight), 1e-30)
-    return replace(found, reach=even(weight * found.reach) / covered, comb=even(weight * found.comb) / covered)
+    reach, comb = (even(weight * values) / covered for values in (found.reach, found.comb))
+    return replace(found, reach=reach, comb=comb, short=along - found.lean - reach * comb / taller**2)

@@ -12,11 +12,14 @@ from furbake.artist.drawn import Source, distance
 from furbake.pelt.hairs.strands import Strands
 from furbake.pelt.hairs.tiling import TILE
 
-SAMPLE = 4000
+SAMPLE = 8000
 """Strands that are looked at."""
 
-PLACES = 8
+PLACES = 24
 """Places of the body at which the whole tile is looked at."""
+
+JUDGED = ("length", "lean", "width")
+"""Traits by which the best of some tiles is chosen."""
 
 AROUND = 6
 """Neighbours of a strand whose tips are drawn together with its own, or not."""
@@ -53,6 +56,18 @@ def compared(source: Source, strands: Strands, seed: int) -> dict[str, Any]:
             "apart": round(distance(one, other), 4),
         }
     return found
+
+
+def likest(source: Source, drawn: list[tuple[Strands, Ints]], seed: int) -> tuple[Strands, Ints]:
+    """The tile that is, of some, most like the groom where it stands on the body."""
+    rng = np.random.default_rng([seed, 7])
+    groom = of_groom(source, rng)
+
+    def off(strands: Strands) -> float:
+        tile = of_tile(source, strands, rng)
+        return max(distance(groom[name], tile[name]) for name in JUDGED)
+
+    return min(drawn, key=lambda one: off(one[0]))
 
 
 def of_groom(source: Source, rng: np.random.Generator) -> dict[str, Floats]:

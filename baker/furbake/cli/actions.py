@@ -200,6 +200,7 @@ def _verify_body(args: SimpleNamespace, picture: Path | None) -> int:
         truth=Path(args.truth) if args.truth else None,
         groom=Path(args.groom) if args.groom else None,
         fast=not args.scalar,
+        cycles=args.cycles,
     )
     if args.colour:
         with shown(body.STAGES, args.quiet) as progress:

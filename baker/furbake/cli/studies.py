@@ -57,6 +57,10 @@ VERIFY = [
         help="fields of a baked groom beside strands they have not seen; with --body: the strands that are the truth",
     ),
     option("--truth", metavar="FILE.npz", type=PLACE, help="with --body: keeps what was traced for the next run"),
+    option(
+        "--cycles", metavar="PYTHON", type=PLACE,
+        help="with --body: truth by Blender's path tracer, of this Python (pip install bpy==4.5.*), not by Mitsuba",
+    ),
     switch("--scalar", "with --body: trace without LLVM: slow, but it bears any number of hairs"),
     switch("--json", "figures as one JSON object"),
     switch("--quiet", "no progress, no summary"),

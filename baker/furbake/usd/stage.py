@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import importlib
-from dataclasses import dataclass, field
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -67,6 +68,7 @@ class Stage:
 
     up : axis, "Y" or "Z"; metres : per unit, None where the file does not say
     others : types of what else has a shape, as often as it occurs
+    hidden : number of curves that are invisible or guides and left out, as others are neither
     """
 
     up: str
@@ -74,6 +76,7 @@ class Stage:
     curves: list[UsdCurves] = field(default_factory=list)
     meshes: list[UsdMesh] = field(default_factory=list)
     others: dict[str, int] = field(default_factory=dict)
+    hidden: int = 0
 
     def placed(self, points: Array) -> Array:
         """(n, 3) points of the stage in metres, where it says how long its unit is, y up."""
@@ -90,12 +93,15 @@ def installed() -> str | None:
     return None
 
 
-def read_stage(path: Path) -> Stage:
-    """Meshes and curves of a stage. Raises UsdError where it is broken, or where `usd-core` is missing."""
+def read_stage(path: Path, kept: Apart | None = None) -> Stage:
+    """Meshes and curves of a stage. Raises UsdError where it is broken, or where `usd-core` is missing.
+
+    kept : process that reads, which may read others after it; None: one for this stage alone
+    """
     missing = installed()
     if missing is not None:
         raise UsdError(f"{path}: usd-core is missing ({missing}), expected the optional extra: {INSTALL}")
-    process = Apart()
+    process = kept or Apart()
     try:
         found: Stage = process.call(stage_of, str(path.absolute()))
     except CrashError as error:
@@ -103,15 +109,25 @@ def read_stage(path: Path) -> Stage:
     except UsdError as error:
         raise UsdError(f"{path}: {error}") from None
     except Exception as error:  # noqa: BLE001 — readers raise anything on a broken file
-        reason = " ".join(str(error).split())[:160] or type(error).__name__
+        first = " ".join(str(error).split()).split("' Error in '")[0]  # of a list, each with its place in the library
+        reason = first.rpartition(" : ")[2].strip("' ")[:160] or type(error).__name__
         raise UsdError(f"{path}: cannot be read as USD ({reason}), expected a valid file") from None
     finally:
-        process.end()
+        if kept is None:
+            process.end()
     return found
 
 
+ROOM, TIMES = 2 << 30, 64
+"""Bytes that reading may take, beside this many times the file's: a broken one asks for more than any machine has."""
+
+
 def stage_of(path: str) -> Stage:
-    """The stage of a file, at its first time. To be called in a process of its own."""
+    """The stage of a file, at its first time. To be called in a process of its own, whose memory it bounds."""
+    with suppress(ImportError, OSError, ValueError):  # where a system knows no bounds
+        resource: Any = importlib.import_module("resource")
+        most = resource.getrlimit(resource.RLIMIT_AS)[1]
+        resource.setrlimit(resource.RLIMIT_AS, (ROOM + TIMES * Path(path).stat().st_size, most))
     usd, geometry = (importlib.import_module(f"pxr.{name}") for name in ("Usd", "UsdGeom"))
     stage = usd.Stage.Open(path)
     if stage is None:
@@ -120,22 +136,28 @@ def stage_of(path: str) -> Stage:
     places = geometry.XformCache(time)
     metres = geometry.GetStageMetersPerUnit(stage) if geometry.StageHasAuthoredMetersPerUnit(stage) else None
     found = Stage("Z" if geometry.GetStageUpAxis(stage) == geometry.Tokens.z else "Y", metres)
-    for prim in stage.Traverse():
+    hidden = list[UsdCurves]()
+    for prim in stage.Traverse(usd.TraverseInstanceProxies()):
         if prim.IsA(geometry.BasisCurves):
-            found.curves.append(_curves(geometry, prim, time, places))
+            imageable = geometry.Imageable(prim)
+            guide = imageable.ComputePurpose() == geometry.Tokens.guide
+            unseen = guide or imageable.ComputeVisibility(time) == geometry.Tokens.invisible
+            (hidden if unseen else found.curves).append(_curves(geometry, prim, time, places))
         elif prim.IsA(geometry.Mesh):
             found.meshes.append(_mesh(geometry, prim, time, places))
         elif prim.IsA(geometry.Gprim):
             kind = str(prim.GetTypeName())
             found.others[kind] = found.others.get(kind, 0) + 1
-    return found
+    return replace(found, hidden=len(hidden)) if found.curves else replace(found, curves=hidden)
 
 
 def _curves(geometry: Any, prim: Any, time: Any, places: Any) -> UsdCurves:
     curves = geometry.BasisCurves(prim)
     matrix = np.array(places.GetLocalToWorldTransform(prim), np.float64)
     points = _points(curves, time, matrix)
-    widths = curves.GetWidthsAttr().Get(time)
+    widths = _primvar(geometry, prim, "widths", time)
+    if widths is None and curves.GetWidthsAttr().Get(time):
+        widths = np.asarray(curves.GetWidthsAttr().Get(time)), str(curves.GetWidthsInterpolation())
     scale = abs(float(np.linalg.det(matrix[:3, :3]))) ** (1 / 3)
     return UsdCurves(
         path=str(prim.GetPath()),
@@ -144,7 +166,7 @@ def _curves(geometry: Any, prim: Any, time: Any, places: Any) -> UsdCurves:
         kind=str(curves.GetTypeAttr().Get(time) or "cubic"),
         basis=str(curves.GetBasisAttr().Get(time) or "bezier"),
         wrap=str(curves.GetWrapAttr().Get(time) or "nonperiodic"),
-        widths=None if not widths else (_array(widths, np.float32, 1) * scale, str(curves.GetWidthsInterpolation())),
+        widths=None if widths is None else (_array(widths[0], np.float32, 1) * scale, widths[1]),
         colours=_primvar(geometry, prim, "displayColor", time),
     )
 

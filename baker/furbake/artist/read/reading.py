@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -50,9 +51,11 @@ def of_stage(name: str, stage: Stage) -> Curves:
             f"{count} {kind}" for kind, count in {"Mesh": len(stage.meshes), **stage.others}.items() if count
         )
         raise GroomError(f"{name}: no curves ({other or 'nothing with a shape'}), expected BasisCurves")
-    parts = [_part(name, stage, curves) for curves in stage.curves]
+    some = [curves for curves in stage.curves if len(curves.counts) or len(curves.points)]
+    parts = [_part(name, stage, curves) for curves in some or stage.curves]
+    hidden = (f"{name}: {stage.hidden} groups of curves are guides or invisible and left out",) if stage.hidden else ()
     if len(parts) == 1:
-        return parts[0]
+        return replace(parts[0], notices=(*hidden, *parts[0].notices))
     widths = [part.widths for part in parts if part.widths is not None]
     colours = [part.colours for part in parts if part.colours is not None]
     return Curves(
@@ -60,7 +63,7 @@ def of_stage(name: str, stage: Stage) -> Curves:
         np.concatenate([part.counts for part in parts]),
         np.concatenate(widths) if len(widths) == len(parts) else None,
         np.concatenate(colours) if len(colours) == len(parts) else None,
-        tuple(notice for part in parts for notice in part.notices),
+        (*hidden, *(notice for part in parts for notice in part.notices)),
     )
 
 

@@ -18,6 +18,7 @@ from furbake.asset.read import Asset, read_asset
 from furbake.groom.ground import Ints, read_skin
 from furbake.groom.strands import Groom, groom, recorded
 from furbake.pelt.hairs.strands import Coat
+from furbake.study.cycles import trace as cycles
 from furbake.study.grooms import artist_strands
 from furbake.study.verify.apart import trace
 from furbake.study.verify.ceiling import sampled_ceiling
@@ -56,6 +57,7 @@ class Options:
     truth : file that keeps what was traced, for the next time the same strands are seen
     groom : file of the strands of a baked groom, where its record's is no longer there
     fast : by LLVM, where its library is found
+    cycles : Python with Blender in it, whose path tracer then stands in for Mitsuba
     """
 
     plan: str | None = None
@@ -68,6 +70,7 @@ class Options:
     truth: Path | None = None
     groom: Path | None = None
     fast: bool = True
+    cycles: str | None = None
 
     def check(self) -> None:
         """Raise VerifyError for the first value that is out of range."""
@@ -157,7 +160,8 @@ class Case:
 def prepared(folder: Path, options: Options, progress: Progress, *, coloured: bool = False) -> Case:
     """Check the options, load Mitsuba, read a baked folder and grow its strands."""
     options.check()
-    load(options.fast, coloured)
+    if options.cycles is None:
+        load(options.fast, coloured)
     asset = read_asset(folder)
     coat = recorded(asset).coat
     vertices, faces = read_skin(asset)
@@ -200,13 +204,16 @@ def traced_pictures(
     scene: Scene, seen: Frame, wanted: list[Cell], options: Options, step: Callable[[float], None]
 ) -> list[Traced]:
     """Pictures of the tracer, or of the file that an earlier run of the same wrote."""
-    key = _key(scene, seen, wanted, options.spp)
+    key = _key(scene, seen, wanted, options.spp) + ("" if options.cycles is None else " cycles")
     if options.truth is not None and options.truth.exists():
         with np.load(options.truth, allow_pickle=False) as kept:
             if str(kept["key"]) == key:
                 step(1.0)
                 return [_whole(*parts) for parts in kept["pictures"].astype(float)]
-    traced = trace(scene, seen, wanted, options.spp, step, fast=options.fast)
+    if options.cycles is not None:
+        traced = cycles.trace(scene, seen, wanted, options.spp, step, python=options.cycles)
+    else:
+        traced = trace(scene, seen, wanted, options.spp, step, fast=options.fast)
     if options.truth is not None:
         pictures = np.stack([np.broadcast_arrays(*_parts(one)) for one in traced]).astype(np.float32)
         with options.truth.open("wb") as file:
