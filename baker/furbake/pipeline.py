@@ -12,14 +12,14 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from furbake.artist.stored import write_strands
 from furbake.asset.gltf import FurModel, write_gltf
 from furbake.asset.regions.parted import chosen_fins
 from furbake.asset.regions.record import RegionFur, Regions, shaped
 from furbake.asset.rig.motion import Motion
 from furbake.asset.store import atomic_file, atomic_folder
-from furbake.body import Body, prepare
+from furbake.body.body import Body, prepare
 from furbake.identity import bake_key, describe_input, library_versions
+from furbake.imported.stored import write_strands
 from furbake.options import BakeOptions, OptionError
 from furbake.pelt.hairs.strands import Strands
 from furbake.pelt.hairs.volume import Volume

@@ -1,11 +1,11 @@
 """Errors whose message is a sentence for the user."""
 
-from furbake.artist.curves import GroomError
 from furbake.asset.planes import PlaneError
 from furbake.asset.read import AssetError
 from furbake.asset.store import StoreError
 from furbake.batch.crew import MemoryShortError
 from furbake.cluster.versions import ClusterError
+from furbake.imported.curves import GroomError
 from furbake.options import OptionError
 from furbake.page import PageError
 from furbake.rti.relit import RtiError

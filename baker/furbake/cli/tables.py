@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 
-from furbake.body import patch_figures
+from furbake.body.body import patch_figures
 from furbake.cli.output import say
 from furbake.cli.progress import shown
 from furbake.options import BakeOptions, preset, preset_names

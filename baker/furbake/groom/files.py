@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from furbake.artist.curves import GroomError
 from furbake.asset.store import atomic_file
 from furbake.groom.strands import Groom
+from furbake.imported.curves import GroomError
 from furbake.usd.stage import INSTALL, installed
 
 ENDINGS = (".npz", ".usdc", ".usda", ".usd")

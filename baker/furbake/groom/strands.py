@@ -10,7 +10,6 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.artist.stored import tile_strands
 from furbake.asset.read import Asset, AssetError, read_asset
 from furbake.asset.regions.alone import alone, furs
 from furbake.asset.stored import read_pelt, skin_colour
@@ -18,6 +17,7 @@ from furbake.groom.ground import Floats, Ground, Ints, read_ground
 from furbake.groom.roots import Roots, barycentric, place_roots
 from furbake.groom.several import own_ground, own_roots
 from furbake.groom.walk import walk
+from furbake.imported.stored import tile_strands
 from furbake.options import BakeOptions, OptionError
 from furbake.pelt.hairs.ramp import Ramp
 from furbake.pelt.hairs.strands import Strands, grow

@@ -9,15 +9,15 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import cKDTree
 
-from furbake.artist.bind import Bound, bind, ground_of
-from furbake.artist.curves import Floats, GroomError
-from furbake.artist.fields import Standing, areas, direction_of, fields_of, standing
-from furbake.artist.read.reading import read_curves
 from furbake.asset.read import Asset, read_asset
-from furbake.body import grounded
+from furbake.body.body import grounded
+from furbake.body.groomed import combed_by
 from furbake.groom.ground import read_skin
 from furbake.groom.strands import Groom, recorded
-from furbake.groomed import combed_by
+from furbake.imported.bind import Bound, bind, ground_of
+from furbake.imported.curves import Floats, GroomError
+from furbake.imported.fields import Standing, areas, direction_of, fields_of, standing
+from furbake.imported.read.reading import read_curves
 from furbake.options import BakeOptions
 from furbake.surface.mesh import Surface, clean
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from html import escape
 from typing import Any
 
-from furbake.artist.traits import NAMES
+from furbake.imported.traits import NAMES
 from furbake.show.report.section import figure, section
 from furbake.show.report.svg import Axis, Series, axis, plot
 

@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.artist.stored import tile_strands
 from furbake.asset.inspect import summary
 from furbake.asset.read import Asset, AssetError, read_asset
 from furbake.asset.stored import read_pelt
+from furbake.imported.stored import tile_strands
 from furbake.options import BakeOptions, OptionError
 from furbake.pelt.hairs.volume import Volume, coarsen, fine_shape, voxelise
 from furbake.pelt.pelt import Pelt

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from furbake.artist.bind import Bound, Ground
-from furbake.artist.curves import Floats, Ints
-from furbake.artist.fields import Fields, Standing
-from furbake.artist.laid import Laid
+from furbake.imported.bind import Bound, Ground
+from furbake.imported.curves import Floats, Ints
+from furbake.imported.fields import Fields, Standing
+from furbake.imported.laid import Laid
 from furbake.pelt.hairs.strands import MAX_POINTS, POINTS, Strands
 from furbake.pelt.hairs.tiling import nearest, scattered_points
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.artist.curves import Floats, GroomError, Ints
+from furbake.imported.curves import Floats, GroomError, Ints
 
 BASES = {
     "bspline": np.array([[1, 4, 1, 0], [-3, 0, 3, 0], [3, -6, 3, 0], [-1, 3, -3, 1]]) / 6.0,

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from furbake.artist.curves import Curves, GroomError, checked
-from furbake.artist.read.arrays import read_arrays
-from furbake.artist.read.binary import read_hair, read_tfx
-from furbake.artist.read.splines import least, lines
+from furbake.imported.curves import Curves, GroomError, checked
+from furbake.imported.read.arrays import read_arrays
+from furbake.imported.read.binary import read_hair, read_tfx
+from furbake.imported.read.splines import least, lines
 from furbake.surface.files import check_regular, read_regular
 from furbake.surface.limits import Budget
 from furbake.surface.soup import MeshError

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from scipy.interpolate import BSpline, CubicHermiteSpline, CubicSpline
 
-from furbake.artist.curves import GroomError
-from furbake.artist.read.reading import read_curves
-from furbake.artist.read.splines import weights
 from furbake.groom.files import write_groom
 from furbake.groom.strands import Groom
+from furbake.imported.curves import GroomError
+from furbake.imported.read.reading import read_curves
+from furbake.imported.read.splines import weights
 from helpers.grooms import hair, strands, tfx, usda
 
 POINTS = strands(20)

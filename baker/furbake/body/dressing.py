@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from furbake.body.painted import painted
+from furbake.body.size import Size, questions, sized
 from furbake.options import BakeOptions, OptionError
 from furbake.options.regions import COAT, Region, read_regions
-from furbake.painted import painted
-from furbake.size import Size, questions, sized
 from furbake.surface.mesh import Floats, MeshError, Surface
 from furbake.surface.place.shares import STEPS, bounds, in_balls, on_material, soften, vertex_areas
 

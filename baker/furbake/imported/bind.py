@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.artist.curves import Curves, Floats, GroomError, Ints
+from furbake.imported.curves import Curves, Floats, GroomError, Ints
 from furbake.surface.mesh import Surface
 from furbake.surface.repair.near import candidates, closest, nearest, sampled
 

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
-from furbake.artist.curves import Floats, Ints
-from furbake.artist.drawn import Source, distance
+from furbake.imported.curves import Floats, Ints
+from furbake.imported.drawn import Source, distance
 from furbake.pelt.hairs.strands import Strands
 from furbake.pelt.hairs.tiling import TILE
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import coo_array
 
-from furbake.artist.bind import Bound, Ground
-from furbake.artist.curves import Floats, Ints
+from furbake.imported.bind import Bound, Ground
+from furbake.imported.curves import Floats, Ints
 from furbake.surface.lay.field import comb_field
 from furbake.surface.lay.guide import Guide
 from furbake.surface.mesh import Surface

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from furbake.artist.curves import Floats
-from furbake.artist.fields import Fields, averaging
+from furbake.imported.curves import Floats
+from furbake.imported.fields import Fields, averaging
 from furbake.surface.mesh import Surface
 from furbake.surface.place.vertex_fur import FARTHEST
 

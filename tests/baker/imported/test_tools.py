@@ -13,8 +13,8 @@ import pytest
 from scipy.interpolate import BSpline
 
 from furbake.apart import Apart
-from furbake.artist.curves import GroomError
-from furbake.artist.read.reading import of_stage, read_curves
+from furbake.imported.curves import GroomError
+from furbake.imported.read.reading import of_stage, read_curves
 from furbake.surface.mesh import MeshError, load_mesh
 from furbake.usd.stage import UsdError, read_stage
 from helpers.grooms import strands

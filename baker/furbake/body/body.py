@@ -10,13 +10,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.dressing import Part, dressing
-from furbake.groomed import Groomed, groomed
+from furbake.body.dressing import Part, dressing
+from furbake.body.groomed import Groomed, groomed
+from furbake.body.painted import painted
+from furbake.body.size import Size, questions, sized
 from furbake.options import BakeOptions
 from furbake.options.bake_options import clip_at
-from furbake.painted import painted
 from furbake.pelt.hairs.strands import Strands
-from furbake.size import Size, questions, sized
 from furbake.surface.charts import Charts, laid
 from furbake.surface.files import read_text
 from furbake.surface.lay.field import Stroke, comb_field

@@ -13,14 +13,14 @@ import pytest
 import trimesh
 from scipy.stats import ks_2samp
 
-from furbake.artist.bind import bind, ground_of
-from furbake.artist.curves import Curves, GroomError
-from furbake.artist.drawn import distance
-from furbake.artist.fields import direction_of, fields_of, standing
-from furbake.artist.follow import cover, filled, followers
 from furbake.asset.read import read_asset
 from furbake.asset.validate import validate
 from furbake.groom.strands import groom
+from furbake.imported.bind import bind, ground_of
+from furbake.imported.curves import Curves, GroomError
+from furbake.imported.drawn import distance
+from furbake.imported.fields import direction_of, fields_of, standing
+from furbake.imported.follow import cover, filled, followers
 from furbake.options import BakeOptions, OptionError
 from furbake.pipeline import bake
 from furbake.show.report.groom import groom_section

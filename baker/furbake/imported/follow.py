@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 from scipy.spatial import cKDTree
 
-from furbake.artist.bind import Bound
-from furbake.artist.curves import Curves, Floats, Ints, Single
+from furbake.imported.bind import Bound
+from furbake.imported.curves import Curves, Floats, Ints, Single
 
 AROUND = 6
 """Neighbours of a guide, between two of which and itself its followers grow."""

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 import trimesh
 
+from furbake.body.size import Size, questions, sized
 from furbake.options import BakeOptions
-from furbake.size import Size, questions, sized
 from furbake.surface.mesh import Surface, clean
 from furbake.surface.place.thickness import march
 from helpers.command import TINY

@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.artist.bind import Bound, bind, ground_of
-from furbake.artist.colours import Colours, colours_of
-from furbake.artist.drawn import Source, draw
-from furbake.artist.fields import Fields, Standing, areas, direction_of, fields_of, standing
-from furbake.artist.follow import filled, followers
-from furbake.artist.laid import Laid, laid
-from furbake.artist.read.reading import read_curves
-from furbake.artist.traits import compared, likest
+from furbake.imported.bind import Bound, bind, ground_of
+from furbake.imported.colours import Colours, colours_of
+from furbake.imported.drawn import Source, draw
+from furbake.imported.fields import Fields, Standing, areas, direction_of, fields_of, standing
+from furbake.imported.follow import filled, followers
+from furbake.imported.laid import Laid, laid
+from furbake.imported.read.reading import read_curves
+from furbake.imported.traits import compared, likest
 from furbake.options import BakeOptions
 from furbake.options.knobs import KNOBS
 from furbake.pelt.hairs.ramp import Ramp

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from furbake.body import prepare, read_strokes
+from furbake.body.body import prepare, read_strokes
 from furbake.options import BakeOptions
 from furbake.surface.mesh import MeshError
 from furbake.surface.place.occlusion import openness

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from furbake.artist.bind import Bound
-from furbake.artist.curves import Floats, Ints
-from furbake.artist.fields import Fields, Standing
+from furbake.imported.bind import Bound
+from furbake.imported.curves import Floats, Ints
+from furbake.imported.fields import Fields, Standing
 from furbake.pelt.hairs.ramp import Ramp
 
 BRIGHT = 0.95

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.artist.curves import Curves, GroomError, checked
+from furbake.imported.curves import Curves, GroomError, checked
 
 Array = NDArray[Any]
 

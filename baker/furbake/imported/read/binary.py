@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.artist.curves import Curves, GroomError, checked
+from furbake.imported.curves import Curves, GroomError, checked
 
 HAIR, HAIR_HEADER = struct.Struct("<4s4I f f 3f"), 128
 """Magic word, strands, points, bits of the arrays, segments of a strand, thickness, transparency, colour."""
