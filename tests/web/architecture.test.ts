@@ -158,8 +158,9 @@ describe('the demo web/demo', () => {
 describe('the pages', () => {
 	const modules = [...pages, ...shared].flatMap(below);
 
-	it.each(modules)('%s takes the library by its two entry points', (path) => {
-		const entries = ['fur/index.ts', 'fur/reference.ts'];
+	it.each(modules)('%s takes the library by its entry points', (path) => {
+		// The checks come beside a model's file, not after it.
+		const entries = ['fur/index.ts', 'fur/reference.ts', ...(path === 'scene/load.ts' ? ['fur/checks.ts'] : [])];
 		for (const name of imports(path).filter((other) => other.startsWith('fur/'))) expect(entries).toContain(name);
 	});
 
@@ -187,7 +188,7 @@ describe('the pages', () => {
 		'%s shows furry models on any page: it takes packages, its own room, `page/` and the library',
 		(path) => {
 			for (const name of imports(path))
-				expect(name).toMatch(/^(three(\/addons\/.*)?$|@pmndrs\/|(scene|page)\/|fur\/(index|reference)\.ts$)/);
+				expect(name).toMatch(/^(three(\/addons\/.*)?$|@pmndrs\/|(scene|page)\/|fur\/(index|reference|checks)\.ts$)/);
 		},
 	);
 
