@@ -62,3 +62,31 @@ test('furs dissolve at their border: all of the light, by the shares that the fi
 	expect(off.thin?.light).toBeGreaterThan(0.05);
 	expect(off.double?.light).toBeGreaterThan(0.02);
 });
+
+/** Mean share of the far side in the quarters of a square, across or up; 256 cells of a quarter scatter by 0.03. */
+const [NEAR, FAR] = [0.25, 0.75];
+
+for (const [name, furs] of [
+	['regions-3', ['left', 'right below', 'right above']],
+	['regions-4', ['left below', 'right below', 'left above', 'right above']],
+] as const)
+	test(`${furs.length} furs at once everywhere are one, and each has its share and its own colours`, async ({
+		page,
+	}) => {
+		await openInPage(page, 'regions');
+		const urls = [name, 'regions-whole'].map((golden) => served(`tests/golden/${golden}/model.gltf`));
+		const { alike, shares, error } = await page.evaluate(
+			([several, whole]) => loaded.quarters(several as string, whole as string),
+			urls,
+		);
+		expect(error).toBe(0);
+		for (const decibels of alike) expect(decibels, 'the same fur in several regions and in one').toBeGreaterThan(50);
+		expect(shares.length).toBe(furs.length);
+		for (const [i, where] of furs.entries())
+			for (let at = 0; at < 4; at++) {
+				const [across, up] = [at % 2 ? FAR : NEAR, at > 1 ? FAR : NEAR];
+				const x = where.includes('right') ? across : 1 - across;
+				const y = where.includes('above') ? up : where.includes('below') ? 1 - up : 1;
+				expect(Math.abs((shares[i]?.[at] as number) - x * y), `${where}, quarter ${at}`).toBeLessThan(0.1);
+			}
+	});
