@@ -10,6 +10,7 @@ import pytest
 
 from furbake.asset.planes import Planes, read_png, unpack
 from furbake.asset.read import read_asset
+from furbake.asset.roots.read import read_roots
 from furbake.asset.stored import read_pelt
 from furbake.asset.validate import validate
 from furbake.pelt.fin import polynomial, row_means
@@ -18,11 +19,17 @@ from furbake.pelt.texels.basis import PTM, Basis
 from furbake.pelt.texels.fit import relight
 from furbake.pelt.texels.quantise import dequantise
 from furbake.study.bend import law, relit
+from furbake.surface.colours import LINEAR, sample_picture
+from furbake.surface.material import CLAMP
 from helpers.moving import Moving
 
 GOLDEN = Path(__file__).parents[1] / "golden"
+STRIPES = 8
+"""Stripes of the picture of `roots`, the first one black."""
+
 CURVED = GOLDEN / "ptm-6-curves"
 NAMES = ("ptm-6", "eigen-6", "eigen-3")
+SEVERAL = ("regions", "regions-3", "regions-4")
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -44,7 +51,7 @@ def test_stored_bytes_give_the_expected_light(name: str) -> None:
     assert expected.max() > 1
 
 
-@pytest.mark.parametrize("name", [*NAMES, "ptm-6-curves", "states", "character"])
+@pytest.mark.parametrize("name", [*NAMES, "ptm-6-curves", "states", "character", *SEVERAL, "roots"])
 def test_golden_assets_are_valid_but_for_the_record_of_a_bake(name: str) -> None:
     problems = validate(GOLDEN / name)
     assert [problem for problem in problems if not problem.startswith("bake.json")] == []
@@ -137,3 +144,22 @@ def test_the_golden_character_is_posed_as_expected() -> None:
             nearest = np.linalg.norm(still[:, None] - rest[0][None], axis=2).argmin(axis=1)
             np.testing.assert_allclose(part["POSITION"], parts[0]["POSITION"][nearest], atol=1e-6)
     assert np.abs(expected[2] - expected[0]).max() > 0.3
+
+
+def test_hairs_have_the_colours_of_the_stripes_on_which_they_stand() -> None:
+    """Also those of fins, by places of their own."""
+    asset = read_asset(GOLDEN / "roots")
+    stored = read_roots(asset)
+    assert stored is not None
+    for name, unit in (("shells", asset.fur["tiles"] * stored.scale), ("fins", np.ones(2))):
+        primitive = asset.primitive(asset.fur[name])
+        values = {key: asset.accessor(index) for key, index in primitive["attributes"].items()}
+        faces = asset.accessor(primitive["indices"]).reshape(-1, 3)
+        uv = values["TEXCOORD_0" if name == "shells" else "TEXCOORD_1"][faces].mean(axis=1) / 65535 * unit
+        across = (values["POSITION"][faces, 0].mean(axis=1) - values["POSITION"][:, 0].min()) / 65535 * STRIPES
+        inside = np.abs(across - np.rint(across)) > 0.2
+        assert inside.mean() > 0.3
+        pixels = sample_picture(stored.pixels, uv[inside], (CLAMP, CLAMP), LINEAR)
+        white = np.floor(across[inside]) % 2
+        assert 0.3 < white.mean() < 0.7
+        np.testing.assert_allclose(pixels, np.repeat(white[:, None], 3, axis=1), atol=0.05)

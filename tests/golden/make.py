@@ -27,7 +27,10 @@ with seconds in it for each pose; `posed.f32` what plain sums make of the file t
 skin, shells and fins one after the other the places of all vertices, their normals, and, but for the skin, tangents.
 
 `regions` is of version 2.3: a square of 4 × 4 tiles with hairs one texel thick, the same fur on both sides of a border
-that is half of its width. `regions-whole` is the same square in one fur.
+that is half of its width. `regions-whole` is the same square in one fur. `regions-3` and `regions-4` have the fur three
+and four times, all of them at once over all of the square: the coat is alone at the left, or at one corner.
+
+`roots` is of version 2.3: the same square in one fur with fins, over a skin with a picture of black and white stripes.
 """
 
 from __future__ import annotations
@@ -36,6 +39,7 @@ import json
 import shutil
 import sys
 from dataclasses import replace
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
@@ -55,6 +59,7 @@ from expected import (
     expected_fin,
     expected_weather,
 )
+from PIL import Image
 
 from furbake.asset.gltf import FurModel, write_gltf
 from furbake.asset.regions.record import RegionFur, Regions
@@ -64,11 +69,14 @@ from furbake.pelt.hairs.ramp import Ramp
 from furbake.pelt.hairs.states import PeltState
 from furbake.pelt.pelt import FinPelt, Pelt
 from furbake.pelt.texels.basis import Basis
-from furbake.surface.charts import laid
+from furbake.surface.charts import Charts, laid
+from furbake.surface.material import CLAMP, Material, Picture, Skin
+from furbake.surface.mesh import Surface
 from furbake.surface.place.fins import build_fins
 from furbake.surface.place.shares import bounds
 from furbake.surface.place.vertex_fur import VertexFur
 from furbake.surface.rig.follow import follow
+from furbake.surface.roots.picture import picture_of_roots
 from furbake.surface.shapes import builtin
 
 HERE = Path(__file__).parent
@@ -78,6 +86,9 @@ from helpers.moving import Moving  # noqa: E402
 
 BORDER = (0.25, 0.75)
 """Share of the width of `regions` at which its second fur begins, and from which it is alone."""
+
+STRIPES = 8
+"""Number of stripes across the picture of `roots`."""
 
 POSES = ((0, 0.0), (0, 0.2), (0, 0.5), (0, 0.8))
 
@@ -198,24 +209,56 @@ def golden_character() -> None:
     (folder / "poses.json").write_text(json.dumps(told) + "\n", "utf-8")
 
 
-def golden_regions() -> None:
-    """Write a square of two furs, and the same in one."""
+def square() -> tuple[Surface, Charts, Pelt]:
+    """A square of 4 × 4 tiles, and fur for it with hairs one texel thick."""
     surface = builtin("plane:16x16")
     charts = surface.natural.charts(0.25)
     pelt = golden_curves(golden_pelt("ptm", 6))
     grown = np.random.default_rng(9).random((SIZE, SIZE)) < 0.7
     steps = np.rint(pelt.drift * SIZE).astype(int)
     alpha = np.stack([np.roll(grown, (v, u), (0, 1)) for u, v in steps]) * np.uint8(230)
-    pelt = replace(pelt, alpha=alpha)
-    across = (surface.vertices[:, 0] - surface.vertices[:, 0].min()) / np.ptp(surface.vertices[:, 0])
-    share = bounds([np.clip((across - BORDER[0]) / (BORDER[1] - BORDER[0]), 0, 1)])
+    return surface, charts, replace(pelt, alpha=alpha)
+
+
+def golden_regions() -> None:
+    """Write a square of two, three and four furs, and the same in one."""
+    surface, charts, pelt = square()
+    x, y = (surface.vertices - surface.vertices.min(axis=0))[:, [0, 2]].T / np.ptp(surface.vertices[:, 0])
+    furs = {
+        "regions-whole": [],
+        "regions": [np.clip((x - BORDER[0]) / (BORDER[1] - BORDER[0]), 0, 1)],
+        "regions-3": [x * y, x * (1 - y)],
+        "regions-4": [x * y, (1 - x) * (1 - y), x * (1 - y)],
+    }
     fur = VertexFur.even(len(surface.vertices))
-    regions = Regions(share, 0.25, (RegionFur("right", 1.0, (pelt,)),))
-    for name, several in (("regions", regions), ("regions-whole", None)):
+    for name, shares in furs.items():
         folder = HERE / name
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
-        write_gltf(folder, FurModel(surface, charts, fur, (pelt,), 0.125, regions=several))
+        beside = tuple(RegionFur(name, 1.0, (pelt,)) for name in ("right", "far", "corner")[: len(shares)])
+        regions = Regions(bounds(shares), 0.25, beside) if shares else None
+        write_gltf(folder, FurModel(surface, charts, fur, (pelt,), 0.125, regions=regions))
+
+
+def golden_roots() -> None:
+    """Write a square whose skin has a picture of upright stripes, black and white, `STRIPES` in all."""
+    surface, charts, pelt = square()
+    pelt = replace(pelt, fin=golden_fin())
+    stripes = np.repeat(np.tile(np.array([[[0], [255]]], np.uint8), (4, STRIPES // 2, 3)), 8, axis=1)
+    stream = BytesIO()
+    Image.fromarray(stripes).save(stream, "PNG")
+    x = (surface.vertices[:, 0] - surface.vertices[:, 0].min()) / np.ptp(surface.vertices[:, 0])
+    uv = np.stack([x, np.full(len(x), 0.5)], axis=-1)
+    material = Material(picture=Picture(stream.getvalue(), "image/png"), wrap=(CLAMP, CLAMP))
+    every = np.arange(len(surface.vertices))
+    surface = replace(surface, skin=(Skin(material, every, surface.faces, uv),))
+    roots = picture_of_roots(surface, surface, charts, pelt.drift[-1], SIZE)
+    fins = build_fins(surface, laid(charts, surface.normals), 0.25, 0.2)
+    folder = HERE / "roots"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    fur = replace(VertexFur.even(len(every)), colour=np.full((len(every), 3), 0.5))
+    write_gltf(folder, FurModel(surface, charts, fur, (pelt,), 0.125, fins, roots=roots))
 
 
 def main() -> None:
@@ -269,6 +312,7 @@ def main() -> None:
     np.stack(radiance).astype("<f4").tofile(folder / "weather.f32")
     golden_character()
     golden_regions()
+    golden_roots()
 
 
 if __name__ == "__main__":

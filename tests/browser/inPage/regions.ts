@@ -158,3 +158,46 @@ export async function border(several: string, whole: string) {
 	}
 	return { alike, shining, calls, rivals, worn, found, error: gl.getError() };
 }
+
+/**
+ * A body of several furs of the same hairs and its picture beside that of one; each fur in white and the rest in black.
+ *
+ * @returns psnr from above and askew; per fur its light over all light, in the four quarters: left and right below, then above
+ */
+export async function quarters(several: string, whole: string) {
+	const [many, one] = await Promise.all([several, whole].map(async (url) => new Square(await loadFur(url))));
+	if (!many || !one) throw new Error('nothing to compare');
+	const light = (backlight: number) => {
+		for (const { fur } of [many, one]) Object.assign(fur.material, { backlight });
+	};
+	const alike = [0, 40].flatMap((backlight) => {
+		light(backlight);
+		return [0, 0.8].map((slant) => psnr(many.look(slant).draw(), one.look(slant).draw()));
+	});
+	light(0);
+	for (const square of [one, many])
+		square.fur.skin.traverse((part) => {
+			part.visible = false;
+		});
+	const quarter = (pixels: Float32Array) => {
+		const sums = [0, 0, 0, 0];
+		for (let i = 0; i < SIZE * SIZE; i++) {
+			const at = Number(i % SIZE >= SIZE / 2) + 2 * Number(i >= (SIZE * SIZE) / 2);
+			sums[at] = (sums[at] as number) + (pixels[4 * i] as number);
+		}
+		return sums;
+	};
+	const white = quarter(one.look(0).draw());
+	many.look(0);
+	const { material } = many.fur.shells;
+	const colours: Color[] = material.uniforms.regionRamps?.value;
+	const furs = Array.from({ length: colours.length / 3 }, (_, fur) =>
+		fur ? colours.slice(3 * fur, 3 * fur + 3) : [material.root, material.tip, material.tip2],
+	);
+	const shares = furs.map((mine) => {
+		paint(furs.flat(), [0, 0, 0]);
+		paint(mine, [1, 1, 1]);
+		return quarter(many.draw()).map((sum, i) => sum / (white[i] as number));
+	});
+	return { alike, shares, error: gl.getError() };
+}

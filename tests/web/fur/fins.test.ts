@@ -124,11 +124,18 @@ describe('varyings', () => {
 			.join('\n');
 	}
 
+	/** A herd's fragments read either of them, by `ALPHA_TO_COVERAGE`, which three gives fragments alone. */
+	const EITHER = ['vShells', 'vFacing'];
+
 	/** Rows of the packing that GLSL ES fixes: a vec4, a vec3 and each column of a matrix take a row, the rest fits beside. */
 	function rows(material: PeltMaterial): number {
-		const found = [...compiled(material).matchAll(/^(?:flat )?out (\w+) (\w+);/gm)].map(([, type = '']) =>
-			type === 'Strength' ? ('ONE_HUE' in material.defines ? 'float' : 'vec3') : type,
-		);
+		const all = [...compiled(material).matchAll(/^(?:flat )?out (\w+) (\w+);/gm)];
+		const either = EITHER.every((wanted) => all.some(([, , name]) => name === wanted));
+		const found = all
+			.filter(([, , name]) => !(either && name === EITHER[0]))
+			.map(([, type = '']) =>
+				type === 'Strength' ? ('ONE_HUE' in material.defines ? 'float' : 'vec3') : type === 'uint' ? 'float' : type,
+			);
 		const count = (type: string) => found.filter((name) => name === type).length;
 		const three = 3 * count('mat3') + count('vec3');
 		const four = count('vec4');
@@ -154,12 +161,18 @@ describe('varyings', () => {
 			SHADOW_SHARE: '',
 		});
 		expect(rows(shells.material)).toBeLessThanOrEqual(15);
+		shells.material.defines.BODIES = '';
+		expect(rows(shells.material), 'in a herd').toBeLessThanOrEqual(15);
+		delete shells.material.defines.BODIES;
 		Object.assign(shells.material.defines, { REGIONS: 2, PARTED: '', TIGHT: '' });
 		expect(rows(shells.material)).toBe(15);
 		delete shells.material.defines.TIGHT;
 		expect(rows(shells.material)).toBe(16);
 		shells.material.backlight = 0;
 		expect(rows(shells.material)).toBe(15);
+		Object.assign(shells.material.defines, { BODIES: '', TIGHT: '' });
+		expect(rows(shells.material), 'in a herd').toBeLessThanOrEqual(15);
+		for (const name of ['BODIES', 'TIGHT']) delete shells.material.defines[name];
 		shells.material.backlight = 6;
 		for (const name of [
 			'ROOTS',

@@ -2,11 +2,10 @@
 
 #ifdef BODIES
 in float vShells; // shells of this body
-in float vCut;
-in vec2 vCrispness;
+flat in uint vDetail; // see shell.glsl
 #define shellCount vShells
-#define alphaCut vCut
-#define crispness vCrispness
+#define alphaCut unpackHalf2x16(vDetail).x
+#define crispness unpackHalf2x16(vDetail).yx
 #else
 uniform float alphaCut; // coverage below which a fragment is dropped
 uniform vec2 crispness; // X = contrast of coverage over the texels'

@@ -7,8 +7,7 @@ in vec4 bodyDetail; // per instance: X = shells of this body, no more than shell
 #define crispness bodyDetail.zw
 
 out float vShells;
-out float vCut;
-out vec2 vCrispness;
+flat out uint vDetail; // two halves: alphaCut, X of crispness
 #endif
 
 uniform float tiles; // texture coordinates → tiles
@@ -101,8 +100,7 @@ ShellPoint shellPoint() {
 #ifdef BODIES
 	float i = float(firstShell + gl_InstanceID % int(ceil(shellCount))), count = bodyDetail.x;
 	vShells = bodyDetail.x;
-	vCut = bodyDetail.y;
-	vCrispness = bodyDetail.zw;
+	vDetail = packHalf2x16(bodyDetail.yz);
 #else
 	float i = float(firstShell + gl_InstanceID), count = shellCount;
 #endif

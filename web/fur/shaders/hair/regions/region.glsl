@@ -18,7 +18,7 @@ uniform float tileWidths[REGIONS]; // widths of a tile over the coat's
 
 #if defined(REGIONS) && !defined(ONE_FUR)
 #define PARTED // furs share the surface
-#ifdef BACKLIGHT
+#if defined(BACKLIGHT) || defined(BODIES)
 #define TIGHT // no varyings are left for places that a fragment can find by itself
 #define RAMP_SHARE 0.5
 #endif
