@@ -14,7 +14,7 @@ from furbake.cli.parsing import FULL, Entry, Group, UsageError, sentence
 INVALID, BAD_INPUT = 1, 2
 
 COMMANDS = {
-    "bake": Entry("arguments", "bake a mesh into a folder: 20 s to 2 min on two cores, by --layers and --size"),
+    "bake": Entry("arguments", "bake a mesh into a folder: 10 s to 1 min on two cores, by --layers and --size"),
     "batch": Entry("batch.arguments", "bake many meshes, several at a time, and a contact sheet of them"),
     "inspect": Entry("arguments", "say what is in a baked folder"),
     "validate": Entry("arguments", "check a baked folder: exit 1 and a list if it is bad"),
