@@ -20,6 +20,9 @@ ColourKind = Literal["texture", "vertex"]
 
 COLOURS = ("texture", "vertex")
 
+OF_GROOM = ("auto", "1", "2", "3", "4")
+"""Values of `regions` that leave it to a groom where its regions are, and how many there are."""
+
 FILES = ("length_map", "mask", "comb", "features", "rig", "swatch", "regions", "groom")
 """Options that name files."""
 
@@ -110,7 +113,7 @@ class BakeOptions:
     swatch: str | None = None
     """`.lp`, `.ptm` or `info.json` of real fur or cloth under many lamps, from which the tile is made, not grown."""
     regions: str | None = None
-    """TOML file of parts of the body with a fur of their own."""
+    """TOML file of parts of the body with a fur of their own; of a groom their number, or auto: as plainly differ."""
     groom: str | None = None
     """`.usd`, `.hair`, `.tfx` or `.npz` with the strands of an artist, of which fur and tile are made."""
     follow: int | None = None
@@ -176,12 +179,11 @@ class BakeOptions:
         """Raise `OptionError` for what cannot stand beside regions."""
         if self.regions is None:
             return
-        for name, got in (
-            ("swatch", self.swatch),
-            ("groom", self.groom),
-            ("basis", self.basis),
-            ("curves", self.curves),
-        ):
+        if self.groom is None and self.regions in OF_GROOM:
+            raise OptionError(f"regions: got {self.regions} without a groom, expected a .toml file of them")
+        if self.groom is not None and self.regions not in OF_GROOM:
+            raise OptionError(f"regions: got {self.regions} beside a groom, expected auto or 1 to 4 of its own")
+        for name, got in (("swatch", self.swatch), ("basis", self.basis), ("curves", self.curves)):
             if got not in (None, "ptm", "slab"):
                 raise OptionError(f"regions: got {name} {got} beside them, expected grown fur, ptm and slab")
 
@@ -203,6 +205,16 @@ class BakeOptions:
     def of_tile(self) -> BakeOptions:
         """The same with the body's own options at their defaults: equal for two bodies in the same fur."""
         return replace(self, **{name: getattr(BakeOptions, name) for name in OF_BODY})
+
+    @property
+    def region_file(self) -> str | None:
+        """The file of regions; None where there is none, or a groom says where they are."""
+        return None if self.groom is not None else self.regions
+
+    @property
+    def groom_regions(self) -> int | None:
+        """Number of furs of a groom; None: as many as plainly differ."""
+        return None if self.regions == "auto" else int(self.regions or 1)
 
     @property
     def length_given(self) -> bool:
@@ -250,6 +262,12 @@ class BakeOptions:
                 f"options: got a record that is not understood ({error}), expected one of bake.json"
             ) from None
         return options
+
+
+def named_files(options: BakeOptions) -> dict[str, str]:
+    """Files that the options name, by option."""
+    named = {name: getattr(options, name) for name in FILES} | {"regions": options.region_file}
+    return {name: file for name, file in named.items() if file is not None and not file.startswith(OF_VERTICES)}
 
 
 def clip_at(pose: str) -> tuple[str, float]:
