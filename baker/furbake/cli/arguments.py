@@ -82,7 +82,7 @@ BAKE = [
     option("--mask", metavar="FILE.png|vertex:red", type=PLACE, help="black is bare skin"),
     option(
         "--regions", metavar="FILE.toml|auto|1..4", type=PLACE,
-        help="parts of the body with a fur of their own; of a groom how many (default: 1), or as many as plainly differ",
+        help="parts of the body with a fur of their own; of a groom their number (1), or as many as plainly differ",
     ),
     option("--features", metavar="FILE.json", type=PLACE, help="eyes, a nose and the like"),
     option("--rig", metavar="FILE.json", type=PLACE, help="joints and clips for a model that stands still"),
