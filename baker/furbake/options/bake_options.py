@@ -29,10 +29,8 @@ FILES = ("length_map", "mask", "comb", "features", "rig", "swatch", "regions", "
 OF_VERTICES = "vertex:"
 """Prefix of a `length_map` or `mask` that names a channel of the vertex colours, or an attribute, not a file."""
 
-
 THIN: dict[str, Any] = {"layers": 1, "height_share": 0.05}
 """Options of fur that is photographed, where the command is not given others: photographs show the top alone."""
-
 
 LATER = (
     "directions", "states", "dirt", "auto_length", "pose", "swatch", "colour", "regions", "rig", "groom", "follow",
@@ -179,10 +177,10 @@ class BakeOptions:
         """Raise `OptionError` for what cannot stand beside regions."""
         if self.regions is None:
             return
-        if self.groom is None and self.regions in OF_GROOM:
-            raise OptionError(f"regions: got {self.regions} without a groom, expected a .toml file of them")
-        if self.groom is not None and self.regions not in OF_GROOM:
-            raise OptionError(f"regions: got {self.regions} beside a groom, expected auto or 1 to 4 of its own")
+        alone = self.groom is None
+        if alone == (self.regions in OF_GROOM):
+            beside, expected = ("without", "a .toml file of them") if alone else ("beside", "auto or 1 to 4 of its own")
+            raise OptionError(f"regions: got {self.regions} {beside} a groom, expected {expected}")
         for name, got in (("swatch", self.swatch), ("basis", self.basis), ("curves", self.curves)):
             if got not in (None, "ptm", "slab"):
                 raise OptionError(f"regions: got {name} {got} beside them, expected grown fur, ptm and slab")
@@ -196,9 +194,8 @@ class BakeOptions:
         if self.follow is not None:
             knobs.within("follow", self.follow, FOLLOW.low, FOLLOW.high)
         for name in ("length", "height", "comb", "swatch"):
-            if getattr(self, name) is not None:
-                got = knobs.show(getattr(self, name))
-                raise OptionError(f"{name}: got {got} beside a groom, expected the strands' own")
+            if (given := getattr(self, name)) is not None:
+                raise OptionError(f"{name}: got {knobs.show(given)} beside a groom, expected the strands' own")
         if self.uv != "lapped" or self.flat:
             raise OptionError("groom: got it with --uv own or --flat, expected lapped patches on a round body")
 

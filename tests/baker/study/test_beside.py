@@ -57,7 +57,7 @@ def test_longer_fur_is_told_from_shorter_and_from_itself(tmp_path: Path, tiny: B
 def test_another_body_is_refused(tmp_path: Path, tiny: BakeOptions) -> None:
     for name in ("sphere", "torus"):
         bake(name, tmp_path / name, tiny)
-    with pytest.raises(VerifyError, match="has another body than .*, expected two bakes of one body"):
+    with pytest.raises(VerifyError, match="has another body than"):
         beside.beside(tmp_path / "sphere", tmp_path / "torus")
 
 
