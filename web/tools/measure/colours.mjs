@@ -55,7 +55,10 @@ await command(async () => {
 				const view = `${server.url}?model=${body}&preset=${preset}&still=1&ui=0`;
 				const picture = await shown(page, view);
 				const fur = litFur(picture, await shown(page, `${view}&colour=${OTHER}`));
-				const swatch = body === 'sphere' ? await toSwatch(page, server.url, join(models, `pelt-${preset}`), preset, folder) : undefined;
+				const swatch =
+					body === 'sphere'
+						? await toSwatch(page, server.url, join(models, `pelt-${preset}`), preset, folder)
+						: undefined;
 				const mean = hueOf(meanColour(picture, fur));
 				figures.push({ preset, body, ...mean, clipped: clipped(picture, fur), swatch });
 			}
