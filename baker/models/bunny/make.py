@@ -1,5 +1,5 @@
-"""Writes the rabbit: the bunny of @pmndrs/assets (CC0), its ears thinned to leaves and divided finer, its face, ears and
-paws marked for shorter fur.
+"""Writes the rabbit: the bunny of @pmndrs/assets (CC0), its ears thinned to leaves and divided finer, its face, ears
+and paws marked for shorter fur.
 
 baker/.venv/bin/python baker/models/bunny/make.py bunny.glb baker/models/bunny/bunny.glb
 """
@@ -68,7 +68,7 @@ EARS = (
 
 @dataclass(frozen=True)
 class Short:
-    """A ball with shorter fur: `share` of the length up to half of `radius`, all of it from `radius` on, model units."""
+    """A ball with shorter fur: `share` of the length within half of `radius`, all beyond `radius`, model units."""
 
     centre: tuple[float, float, float]
     radius: float
@@ -167,7 +167,7 @@ def smoothed(vertices: Floats, faces: Ints, chosen: Mask) -> Floats:
 
 
 def fur_length(vertices: Floats) -> Floats:
-    """(V,) 0..1, length of the fur over the longest: short on face, ears and paws, so that long fur leaves them free."""
+    """(V,) 0..1, length of the fur over the longest: short on face, ears and paws, which long fur would hide."""
     share = np.ones(len(vertices))
     for one in SHORT:
         far = np.linalg.norm(vertices - one.centre, axis=1) / one.radius
