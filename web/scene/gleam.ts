@@ -6,7 +6,7 @@
  * through the fur around such a part is dark, and a rough part such as a lid's rim has no highlights, as skin below fur has none.
  */
 
-import { type Material, type Mesh, MeshStandardMaterial, ShaderChunk } from 'three';
+import { type Material, type Mesh, MeshStandardMaterial, type WebGLProgramParametersWithUniforms } from 'three';
 
 /** Height, sine, of the mirrored horizon's middle, and half its width where the part is smooth. */
 const HORIZON = { middle: 0.1, width: 0.2 };
@@ -14,22 +14,17 @@ const HORIZON = { middle: 0.1, width: 0.2 };
 const FUR = { from: -0.6, to: 0.3 };
 
 const VARYING = /* glsl */ `
-#ifdef GLEAM
-varying vec3 vFront;
-#endif`;
+varying vec3 vFront;`;
 
 // Merged parts of a crowd have no front of their own.
 const FRONT = /* glsl */ `
-#ifdef GLEAM
 #ifdef USE_INSTANCING
 vFront = vec3(0.0);
 #else
 vFront = normalize(normalMatrix * vec3(0.0, 0.0, 1.0));
-#endif
 #endif`;
 
 const MIRROR = /* glsl */ `
-#ifdef GLEAM
 vec3 mirrored = reflect(-geometryViewDir, geometryNormal);
 vec3 mirroredLight = ambientLightColor;
 float blur = ${HORIZON.width} + material.roughness;
@@ -48,30 +43,35 @@ float throughFur = dot(vFront, vFront) > 0.5 ? smoothstep(${FUR.from}, ${FUR.to}
 float shine = throughFur * (1.0 - pow4(material.roughness));
 radiance += RECIPROCAL_PI * mirroredLight * shine;
 reflectedLight.directSpecular *= shine;
-#endif
 `;
 
-let known = false;
+const after = (source: string, chunk: string, more: string) =>
+	source.replace(`#include <${chunk}>`, (include) => include + more);
 
-/** Teach three's standard material the define `GLEAM`; materials without it stay as they are. */
-function teach(): void {
-	if (known) return;
-	known = true;
-	ShaderChunk.normal_pars_vertex += VARYING;
-	ShaderChunk.normal_pars_fragment += VARYING;
-	ShaderChunk.normal_vertex += FRONT;
-	ShaderChunk.lights_fragment_end = MIRROR + ShaderChunk.lights_fragment_end;
+/** A standard material that mirrors the sky. A class, not a hook per material: copies, and merged parts of a herd, keep it. */
+export class GleamMaterial extends MeshStandardMaterial {
+	override onBeforeCompile(shader: WebGLProgramParametersWithUniforms): void {
+		shader.vertexShader = after(shader.vertexShader, 'normal_pars_vertex', VARYING);
+		shader.vertexShader = after(shader.vertexShader, 'normal_vertex', FRONT);
+		shader.fragmentShader = after(shader.fragmentShader, 'normal_pars_fragment', VARYING);
+		shader.fragmentShader = after(shader.fragmentShader, 'lights_fragment_maps', MIRROR);
+	}
 }
 
 const mirrors = (material: Material | Material[]): material is MeshStandardMaterial =>
-	material instanceof MeshStandardMaterial && !material.envMap && !material.flatShading;
+	material instanceof MeshStandardMaterial &&
+	Object.getPrototypeOf(material) === MeshStandardMaterial.prototype &&
+	!material.envMap &&
+	!material.flatShading;
 
 /** Lets parts beside skin and fur reflect the sky. @param parts whose front is +z, as those of `--features` */
 export function gleam(parts: readonly Mesh[]): void {
-	for (const { material } of parts) {
-		if (!mirrors(material) || material.defines?.GLEAM !== undefined) continue;
-		teach();
-		material.defines = { ...material.defines, GLEAM: '' };
-		material.needsUpdate = true;
+	const materials = new Map<MeshStandardMaterial, GleamMaterial>();
+	for (const part of parts) {
+		const { material } = part;
+		if (!mirrors(material)) continue;
+		const gleaming = materials.get(material) ?? new GleamMaterial().copy(material);
+		materials.set(material, gleaming);
+		part.material = gleaming;
 	}
 }

@@ -1,4 +1,5 @@
-"""Writes the rabbit: the bunny of @pmndrs/assets (CC0), its ears thinned to leaves and divided finer.
+"""Writes the rabbit: the bunny of @pmndrs/assets (CC0), its ears thinned to leaves and divided finer, its face, ears
+and paws marked for shorter fur.
 
 baker/.venv/bin/python baker/models/bunny/make.py bunny.glb baker/models/bunny/bunny.glb
 """
@@ -63,6 +64,29 @@ EARS = (
     Ear((-0.41, 0.52, 0.1), (0.04, 0.87, -0.23), (0.48, 0.2, 0.85)),
     Ear((-0.63, 0.52, -0.06), (-0.6, 0.84, -0.64), (0.87, 0.42, 0.28)),
 )
+
+
+@dataclass(frozen=True)
+class Short:
+    """A ball with shorter fur: `share` of the length within half of `radius`, all beyond `radius`, model units."""
+
+    centre: tuple[float, float, float]
+    radius: float
+    share: float
+
+
+SHORT = (
+    Short((-0.854, 0.412, 0.385), 0.34, 0.3),
+    Short((-0.541, 0.436, 0.513), 0.34, 0.3),
+    Short((-0.702, 0.25, 0.668), 0.5, 0.5),
+)
+"""Fur around both eyes and the nose."""
+
+EAR_SHARE = 0.7
+"""Length of the fur on ears."""
+
+PAW_SHARE = 0.25
+"""Length of the fur on paws."""
 
 
 def step(x: Floats, low: float, high: float) -> Floats:
@@ -142,6 +166,21 @@ def smoothed(vertices: Floats, faces: Ints, chosen: Mask) -> Floats:
     return np.where(chosen[:, None], mesh.vertices, vertices)
 
 
+def fur_length(vertices: Floats) -> Floats:
+    """(V,) 0..1, length of the fur over the longest: short on face, ears and paws, which long fur would hide."""
+    share = np.ones(len(vertices))
+    for one in SHORT:
+        far = np.linalg.norm(vertices - one.centre, axis=1) / one.radius
+        share = np.minimum(share, one.share + (1.0 - one.share) * step(far, 0.5, 1.0))
+    for ear in EARS:
+        t = ear.place(vertices)[:, 0]
+        on = np.where(ear.holds(vertices, 0.0), step(t, 0.0, 0.25), 0.0)
+        share = np.minimum(share, 1.0 - (1.0 - EAR_SHARE) * on)
+    x, y, z = vertices.T
+    paw = step(-y, 0.42, 0.6) * np.maximum(step(z, 0.15, 0.35), step(-x, 0.3, 0.5) * step(z, -0.35, -0.15))
+    return np.asarray(np.minimum(share, 1.0 - (1.0 - PAW_SHARE) * paw))
+
+
 def rabbit(source: Path) -> tuple[Floats, Ints]:
     """Vertices (V, 3) and faces (F, 3) of the rabbit."""
     body = load_mesh(source)
@@ -159,7 +198,8 @@ def main(source: Path, out: Path) -> None:
     """Write the model into a file."""
     vertices, faces = rabbit(source)
     # Without a material: bare skin has the colour of the roots.
-    mesh = trimesh.Trimesh(vertices, faces, process=False)
+    attributes = {"_FUR_LENGTH": fur_length(vertices).astype(np.float32)[:, None]}
+    mesh = trimesh.Trimesh(vertices, faces, vertex_attributes=attributes, process=False)
     out.write_bytes(mesh.export(file_type="glb"))
     print(out, len(vertices), "vertices", len(faces), "faces", out.stat().st_size, "bytes", mesh.is_watertight)
 

@@ -1,5 +1,7 @@
 /** Fur is seen in the colours that were picked, by the page's light and tone mapping. */
 
+import { mkdirSync } from 'node:fs';
+import { join } from 'node:path';
 import { decode } from 'fast-png';
 import {
 	clipped,
@@ -10,7 +12,9 @@ import {
 	meanColour,
 	middleDisc,
 } from '../../../web/tools/measure/colour.mjs';
-import { expect, open, test } from '../harness.ts';
+import { toSwatch } from '../../../web/tools/measure/swatch.mjs';
+import { root } from '../../../web/tools/process.mjs';
+import { expect, open, site, test } from '../harness.ts';
 
 const BALL = '?model=sphere&camera=0,0,1&light=0,.6,.8&still=1&ui=0';
 
@@ -42,4 +46,14 @@ test('fur that faces the lamp is seen in the picked colour', async ({ page }) =>
 		test.info().annotations.push({ type: picked, description: `${apart}` });
 		expect(apart).toBeLessThan(8);
 	}
+});
+
+test('fox on the page is the fox of its swatch', async ({ page }) => {
+	test.slow(); // four swatches, four pages
+	const pelt = join(root, 'public', 'models', 'pelt-fox');
+	const folder = test.info().outputPath();
+	mkdirSync(folder, { recursive: true });
+	const apart = await toSwatch(page, site, pelt, 'fox', folder);
+	test.info().annotations.push({ type: 'fox', description: `${apart}` });
+	expect(apart).toBeLessThan(5);
 });
