@@ -4,7 +4,7 @@ import { defineConfig } from 'vite';
 import { guidePlugin } from './tools/site/guide.mjs';
 import { lesson } from './tools/site/lesson.mjs';
 import { licencesPlugin } from './tools/site/licences.mjs';
-import { fontsPlugin, headersPlugin, shaderPlugin, sharePlugin } from './tools/site/plugins.mjs';
+import { barePlugin, fontsPlugin, headersPlugin, sharePlugin, wholePlugin } from './tools/site/plugins.mjs';
 import { viewPlugin } from './tools/site/view.mjs';
 
 const at = (path: string) => fileURLToPath(new URL(path, import.meta.url));
@@ -22,7 +22,8 @@ export default defineConfig({
 	plugins: [
 		lesson(),
 		guidePlugin(),
-		shaderPlugin(),
+		wholePlugin(/checks/),
+		barePlugin(),
 		fontsPlugin(),
 		licencesPlugin(),
 		viewPlugin(),

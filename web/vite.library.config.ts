@@ -2,15 +2,19 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
 import { licencesPlugin } from './tools/site/licences.mjs';
-import { shaderPlugin } from './tools/site/plugins.mjs';
+import { barePlugin } from './tools/site/plugins.mjs';
 
 const at = (path: string) => fileURLToPath(new URL(path, import.meta.url));
+
+/** What the plugin needs before it has seen any fur. */
+const LOADER =
+	/fur\/(FurLoaderPlugin|format|load\/options|planes\/(GltfFiles|download|furLimits|meshopt)|shells\/parts\/parts)\.ts$/;
 
 export default defineConfig({
 	root: at('.'),
 	publicDir: false,
 	cacheDir: at('../node_modules/.vite'),
-	plugins: [shaderPlugin(), licencesPlugin()],
+	plugins: [barePlugin(), licencesPlugin()],
 	build: {
 		outDir: at('../lib'),
 		emptyOutDir: true,
@@ -20,7 +24,12 @@ export default defineConfig({
 		lib: { entry: { index: at('fur/index.ts'), reference: at('fur/reference.ts') }, formats: ['es'] },
 		rolldownOptions: {
 			external: /^three(\/|$)/,
-			output: { chunkFileNames: ({ name, isDynamicEntry }) => (isDynamicEntry ? `${name}.js` : 'shared.js') },
+			output: {
+				chunkFileNames: ({ name, isDynamicEntry }) =>
+					isDynamicEntry || name === 'loader' ? `${name}.js` : 'shared.js',
+				// Apart from what the plugin fetches only where there is fur: bundlers of apps leave a file whole.
+				codeSplitting: { groups: [{ name: 'loader', test: LOADER }] },
+			},
 		},
 	},
 });

@@ -2,7 +2,7 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
 import { licencesPlugin } from './tools/site/licences.mjs';
-import { shaderPlugin } from './tools/site/plugins.mjs';
+import { barePlugin, wholePlugin } from './tools/site/plugins.mjs';
 import { decoderPlugin } from './tools/site/view.mjs';
 
 const at = (path: string) => fileURLToPath(new URL(path, import.meta.url));
@@ -11,7 +11,7 @@ export default defineConfig({
 	root: at('.'),
 	publicDir: false,
 	cacheDir: at('../node_modules/.vite'),
-	plugins: [shaderPlugin(), decoderPlugin(), licencesPlugin('fur-view.licenses.md')],
+	plugins: [wholePlugin(), barePlugin(), decoderPlugin(), licencesPlugin('fur-view.licenses.md')],
 	build: {
 		outDir: at('../lib'),
 		emptyOutDir: false,

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from furbake.options import BakeOptions
-from furbake.options.bake_options import FILES, OF_VERTICES
+from furbake.options.bake_options import named_files
 from furbake.options.regions import region_files
 from furbake.rti.files import members
 from furbake.surface.files import read_regular
@@ -64,12 +64,11 @@ def input_hash(model: str) -> str:
 
 def bake_key(model: str, options: BakeOptions) -> str:
     """SHA-256 of everything that decides the result: version, options, input. A differing key means a stale asset."""
-    named = [getattr(options, name) for name in FILES]
-    files = [name for name in named if name is not None and not name.startswith(OF_VERTICES)]
+    files = list(named_files(options).values())
     if options.swatch is not None:
         files += [str(path) for path in members(Path(options.swatch))]
-    if options.regions is not None:
-        files += region_files(options.regions)
+    if options.region_file is not None:
+        files += region_files(options.region_file)
     parts = {
         "furbake": version("furbake"),
         "options": options.as_record(),

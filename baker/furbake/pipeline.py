@@ -104,7 +104,9 @@ def bake(
         coat = body.regions[0] if body.regions else None
         height = body.length / body.tile if coat is None else coat.height
         pelts = _Pelts(clock, options.of_tile(), height, cache, spread, body.strands)
-        others = [_Pelts(clock, part.options.of_tile(), part.height, cache, spread) for part in body.regions[1:]]
+        others = [
+            _Pelts(clock, part.options.of_tile(), part.height, cache, spread, part.strands) for part in body.regions[1:]
+        ]
         fitted = pelts.fitted(anew=samples is not None)
         worn = [each.fitted(anew=False) for each in others]
         for notice in pelts.notices:
@@ -120,8 +122,9 @@ def bake(
                 _furry(model, options, body, fitted, fins), regions=_regions(body, fitted[0][0], worn, quads)
             )
             record["asset"] = write_gltf(folder, furry, options.meshopt)
-            if body.strands is not None:
-                record["asset"]["bytes"] |= write_strands(folder, body.strands)
+            for number, strands in enumerate((body.strands, *(part.strands for part in body.regions[1:]))):
+                if strands is not None:
+                    record["asset"]["bytes"] |= write_strands(folder, strands, number)
             (folder / "bake.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
             if archive is not None:
                 write_samples(archive, pelts.sampled[0], pelts.tile.strands)
@@ -247,7 +250,7 @@ def _worn(body: Body, worn: Sequence[Fitted]) -> dict[str, Any]:
         return {}
     furs = [
         {"name": part.name, "covers": part.covers, "length": part.length, "options": part.options.as_record()}
-        | {"fit": fitted[0][1]}
+        | {"fit": fitted[0][1], **part.record}
         for part, fitted in zip(body.regions[1:], worn, strict=True)
     ]
     return {"regions": furs}

@@ -3,7 +3,7 @@ import { tmpdir } from 'node:os';
 import { basename, extname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { build, type Plugin } from 'vite';
-import { shaderPlugin } from '../../web/tools/site/plugins.mjs';
+import { barePlugin, wholePlugin } from '../../web/tools/site/plugins.mjs';
 import { serve as serveSite } from '../../web/tools/site/vite.mjs';
 
 const TYPES: Record<string, string> = {
@@ -22,7 +22,7 @@ async function buildModules(dist: string): Promise<void> {
 		configFile: false,
 		root: folder,
 		logLevel: 'error',
-		plugins: [shaderPlugin()],
+		plugins: [wholePlugin(), barePlugin()],
 		build: {
 			outDir: join(dist, 'inPage'),
 			minify: false,

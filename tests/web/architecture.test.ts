@@ -17,6 +17,7 @@ const floors = [
 	['shells'],
 	['baselines', 'updateFurs', 'checks'],
 	['Fur'],
+	['load'],
 	['dressFur', 'FurLoaderPlugin', 'picture', 'herd'],
 	['index', 'reference'],
 ];

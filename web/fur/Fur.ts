@@ -3,9 +3,8 @@ import type { FurMethod } from './baselines/furMethod.ts';
 import { Bending } from './body/Bending.ts';
 import { FurFollicles } from './body/FurFollicles.ts';
 import { FurParts } from './body/FurParts.ts';
-import { type FurPose, restPoint } from './body/FurPose.ts';
-import type { Ground } from './body/Ground.ts';
-import { Morphs } from './body/Morphs.ts';
+import type { FurPose } from './body/FurPose.ts';
+import { restPoint } from './body/joints/restPoint.ts';
 import { type Owned, Sharers } from './body/Sharers.ts';
 import { shareGeometry } from './body/shareGeometry.ts';
 import type { FurAsset, Pelt } from './format.ts';
@@ -13,12 +12,12 @@ import type { FurTextures } from './light/texels.ts';
 import type { FurMotion } from './motion/FurMotion.ts';
 import type { PeltStates } from './planes/PeltStates.ts';
 import type { FurColumns } from './shells/clip.ts';
-import { FurFinMaterial } from './shells/FurFinMaterial.ts';
-import { FurFins } from './shells/FurFins.ts';
+import type { FurFins } from './shells/FurFins.ts';
 import { FurMaterial } from './shells/FurMaterial.ts';
 import { FurShells } from './shells/FurShells.ts';
+import type { Ground } from './shells/Ground.ts';
 import { copyLook } from './shells/look.ts';
-import { setMorphs, writeMorphs } from './shells/morphs.ts';
+import { setMorphs, writeMorphs } from './shells/parts/morphs.ts';
 import { type FurStates, Staining } from './shells/Staining.ts';
 import { updateFurs } from './updateFurs.ts';
 import type { FurWeather } from './weather/FurWeather.ts';
@@ -66,9 +65,9 @@ export class Fur {
 	constructor(asset: FurAsset, pelt: PeltStates, ground: Ground, owned: Owned, copied?: { of: Fur; parts: FurParts }) {
 		const [{ textures }, fins] = pelt.cuts;
 		const finTextures = fins?.textures;
-		const { skin, surface, placement, quads, quadPlacement, colour, finHeights } = ground;
+		const { skin, surface, placement, quads, quadPlacement, colour } = ground;
 		// Joints of a pelt's own body move no other surface.
-		const pose = surface.hasAttribute('skinIndex') || Morphs.of(surface) ? skin.pose : undefined;
+		const pose = surface.hasAttribute('skinIndex') || skin.pose?.morphsOf(surface) ? skin.pose : undefined;
 		this.#pose = pose;
 		const { fin } = asset.pelts[0] as Pelt;
 		this.asset = asset;
@@ -79,10 +78,8 @@ export class Fur {
 		this.skin = skin.object;
 		this.material = new FurMaterial(asset, textures, { skinColor: colour.clone() }, ground.roots);
 		setMorphs(this.material, surface, pose);
-		this.fins =
-			fin && quads && finTextures
-				? new FurFins(quads, new FurFinMaterial(fin, finTextures, this.material, { finHeights }), pose)
-				: undefined;
+		if (fin && quads && finTextures)
+			this.fins = ground.growFins?.({ ...ground, quads }, fin, finTextures, this.material, pose);
 		this.shells = new FurShells(surface, placement, asset, this.material, pose);
 		this.fins?.join(this.shells, quadPlacement ?? this.shells);
 		if (this.fins) setMorphs(this.fins.material, this.fins.geometry, pose);

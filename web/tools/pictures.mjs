@@ -42,7 +42,7 @@ const PATIENCE = 300_000;
  */
 async function view(browser, site, what, viewport) {
 	const page = await browser.newPage({ viewport, deviceScaleFactor: FINER });
-	await page.goto(`${site}?${what}&still=1&ui=0`);
+	await page.goto(`${site}?${what}&still=1&ui=0`, { timeout: PATIENCE });
 	await page.waitForFunction("document.documentElement.dataset.state !== 'loading'", null, { timeout: PATIENCE });
 	const bytes = await page.screenshot({ timeout: PATIENCE });
 	await page.close();

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.asset.gltf import STATE
-from furbake.asset.planes import PlaneError, Planes, unpack, unpack_fin
+from furbake.asset.planes import PlaneError, Planes, Texels, unpack, unpack_fin
 from furbake.asset.read import Asset, AssetError
 from furbake.pelt.curves import KNOTS, RADII, Curves, lean_direction
 from furbake.pelt.hairs.ramp import Ramp
@@ -83,12 +83,7 @@ def _pelt(fur: dict[str, Any], asset: Asset, index: int) -> Pelt:
         even, along = (_array(fur["curves"][name], *many) for name in ("even", "along"))
         curves = Curves(even, along, lean_direction(drift[-1]))
     return Pelt(
-        codes=texels.codes,
-        alpha=texels.alpha,
-        tint=texels.tint,
-        colour=texels.colour,
-        scale=_array(stored["scale"], count),
-        bias=_array(stored["bias"], count),
+        **_of_texels(texels, stored),
         basis=_basis(fur["basis"], count),
         drift=drift,
         height=float(fur["height"]) * state.length,
@@ -140,15 +135,14 @@ def _fin(stored: dict[str, Any], asset: Asset) -> FinPelt:
     if texels.alpha.shape != (stored["height"], stored["width"]):
         got = " x ".join(str(side) for side in texels.alpha.shape[::-1])
         raise AssetError(f"{asset.folder}: a fin is {got}, expected {stored['width']} x {stored['height']}")
+    return FinPelt(**_of_texels(texels, stored))
+
+
+def _of_texels(texels: Texels, stored: dict[str, Any]) -> dict[str, Any]:
+    """Fields that a pelt and a fin have alike."""
     count = texels.codes.shape[-1]
-    return FinPelt(
-        codes=texels.codes,
-        alpha=texels.alpha,
-        tint=texels.tint,
-        colour=texels.colour,
-        scale=_array(stored["scale"], count),
-        bias=_array(stored["bias"], count),
-    )
+    named = {name: getattr(texels, name) for name in ("codes", "alpha", "tint", "colour")}
+    return named | {name: _array(stored[name], count) for name in ("scale", "bias")}
 
 
 def _images(stored: dict[str, Any], asset: Asset) -> Planes:

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.body.dressing import Part, dressing
+from furbake.body.dressing import Part, dressing, groom_parts
 from furbake.body.groomed import Groomed, groomed
 from furbake.body.painted import painted
 from furbake.body.size import Size, questions, sized
@@ -76,12 +76,12 @@ class Body:
 
     @property
     def strands(self) -> Strands | None:
-        """Strands of the tile that no options grow; None: they are grown."""
-        return None if self.groom is None else self.groom.strands
+        """Strands of the coat's tile that no options grow; None: they are grown."""
+        return None if self.groom is None else self.groom.furs[0].strands
 
     def dressed(self, options: BakeOptions) -> BakeOptions:
         """The options with what a groom has in place of the preset's."""
-        return options if self.groom is None else replace(options, coat=self.groom.coat, ramp=self.groom.ramp)
+        return options if self.groom is None else self.groom.dressed(options)
 
 
 def load_surface(model: str, max_faces: int | None = None, pose: tuple[str, float] | None = None) -> Surface:
@@ -174,15 +174,18 @@ def wearing(model: str, options: BakeOptions, skin: Surface, ground: Surface) ->
     maps = painted_maps(ground, options)
     mask = np.where(groom.bald, 0.0, maps.get("mask", 1.0))
     direction, comb, density, colour = groom.direction, groom.comb, groom.density, groom.colour
+    cut, tile = groom.bounds, groom.furs[0].tile
+    parts = groom_parts(groom, options, ground) if len(groom.furs) > 1 else ()
     lengths = groom.lengths * maps.get("length", 1.0) * mask
     if (mask < 0.5 / 255).any():
         ground, kept = uncover(ground, mask, model)
         lengths, direction, comb, density = lengths[kept], direction[kept], comb[kept], density[kept]
+        cut = cut[:, kept]
         colour = None if colour is None else colour[kept]
     features = () if options.features is None else _features(Path(options.features), skin)
     if features:
         lengths = lengths * clearing(ground, features)
-    charts = lap(ground, direction, groom.tile, options.seed)
+    charts = lap(ground, direction, tile, options.seed)
     charts = replace(charts, weights=charts.weights * density[charts.source])
     fur = VertexFur(
         lengths=lengths,
@@ -198,9 +201,11 @@ def wearing(model: str, options: BakeOptions, skin: Surface, ground: Surface) ->
         charts=charts,
         fur=fur,
         direction=direction,
-        tile=groom.tile,
+        tile=tile,
         length=groom.length,
         features=features,
+        regions=parts,
+        bounds=cut if parts else None,
         notices=groom.notices,
         groom=groom,
     )

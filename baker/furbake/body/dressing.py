@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from furbake.body.groomed import Groomed
 from furbake.body.painted import painted
 from furbake.body.size import Size, questions, sized
 from furbake.options import BakeOptions, OptionError
 from furbake.options.regions import COAT, Region, read_regions
+from furbake.pelt.hairs.strands import Strands
 from furbake.surface.mesh import Floats, MeshError, Surface
 from furbake.surface.place.shares import STEPS, bounds, in_balls, on_material, soften, vertex_areas
 
@@ -26,6 +30,7 @@ class Part:
 
     options : of its fur; tile, length : width of its tile and its longest hair, model units
     covers : share of the surface
+    strands : of its tile, where no options grow them; record : further figures for `bake.json`
     """
 
     name: str
@@ -33,6 +38,8 @@ class Part:
     tile: float
     length: float
     covers: float
+    strands: Strands | None = None
+    record: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def height(self) -> float:
@@ -69,9 +76,9 @@ def dressing(ground: Surface, skin: Surface, options: BakeOptions, coat: Size) -
 
     ground : the surface under the fur; skin : that of the model, with its materials; coat : size of the coat
     """
-    if options.regions is None:
+    if options.region_file is None:
         return None
-    regions = read_regions(options.regions, options)
+    regions = read_regions(options.region_file, options)
     cut = bounds([_mask(region, ground, skin, coat.tile) for region in regions])
     sizes = [coat] + [sized(ground, skin.extent, region.options) for region in regions]
     shares = np.diff(cut.astype(np.int64), axis=0)
@@ -97,6 +104,17 @@ def dressing(ground: Surface, skin: Surface, options: BakeOptions, coat: Size) -
     ]
     told = ", ".join(f"{part.name} {100 * part.covers:.3g} % ({part.length:.3g} long)" for part in parts)
     return Dressing(parts, cut, tuple(sizes), (f"regions: {told}", *doubts))
+
+
+def groom_parts(groom: Groomed, options: BakeOptions, ground: Surface) -> tuple[Part, ...]:
+    """The furs of a groom as the coat and its regions."""
+    areas = vertex_areas(ground)
+    covers = np.diff(groom.bounds.astype(np.float64), axis=0) @ areas / areas.sum() / STEPS
+    furs = zip(groom.names, groom.furs, map(float, covers), strict=True)
+    return tuple(
+        Part(name, groom.dressed(options, i), fur.tile, fur.laid.longest, share, fur.strands, {"groom": fur.record})
+        for i, (name, fur, share) in enumerate(furs)
+    )
 
 
 def _mask(region: Region, ground: Surface, skin: Surface, tile: float) -> Floats:

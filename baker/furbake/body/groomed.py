@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -15,13 +16,16 @@ from furbake.imported.drawn import Source, draw
 from furbake.imported.fields import Fields, Standing, areas, direction_of, fields_of, standing
 from furbake.imported.follow import filled, followers
 from furbake.imported.laid import Laid, laid
+from furbake.imported.parts import CLEAR, LEAST, Parts, parts_of
 from furbake.imported.read.reading import read_curves
 from furbake.imported.traits import compared, likest
 from furbake.options import BakeOptions
 from furbake.options.knobs import KNOBS
+from furbake.options.regions import COAT
 from furbake.pelt.hairs.ramp import Ramp
 from furbake.pelt.hairs.strands import Coat, Strands
 from furbake.surface.mesh import Surface
+from furbake.surface.place.shares import STEPS, bounds, soften
 
 Floats = NDArray[np.float64]
 
@@ -34,8 +38,28 @@ WIDTHS = (0.03, 0.2)
 DENSE = 0.9
 """Share of the body that is no denser than the tile."""
 
+BORDER = 0.02
+"""Width of the border between regions, share of the body's largest side."""
+
 PER_CLUMP = 16
 """Hairs of a clump of wet fur."""
+
+
+@dataclass(frozen=True)
+class Fur:
+    """Strands of one tile, and how they stand on the V vertices of the ground.
+
+    part : (V,) where the tile is that of most hairs; tile : model units; density : strands per area that it shows
+    coat : what the options have in place of the preset's; record : figures for `bake.json`
+    """
+
+    part: NDArray[np.bool_]
+    laid: Laid
+    tile: float
+    density: float
+    strands: Strands
+    coat: Coat
+    record: dict[str, Any]
 
 
 @dataclass(frozen=True)
@@ -44,7 +68,8 @@ class Groomed:
 
     direction : (V, 3) unit tangents; lengths : (V,) 0..1, shares of `length`; comb : (V, 3), share of the own length
     density : (V,) 0..1, share of the tile's hairs; bald : (V,) where none grow; colour : (V, 3) 0..1, or None
-    tile, length : model units; strands : of the tile; coat, ramp : what the options have in place of the preset's
+    length : model units; furs : the coat and its regions; bounds : as of `surface.place.shares.bounds`
+    ramp : what the options have in place of the preset's
     record : figures for `bake.json`; notices : one sentence each
     """
 
@@ -54,13 +79,21 @@ class Groomed:
     density: Floats
     bald: NDArray[np.bool_]
     colour: Floats | None
-    tile: float
     length: float
-    strands: Strands
-    coat: Coat
+    furs: tuple[Fur, ...]
+    bounds: NDArray[np.uint8]
     ramp: Ramp
     record: dict[str, Any]
     notices: tuple[str, ...]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the furs."""
+        return COAT, *(f"region{i}" for i in range(1, len(self.furs)))
+
+    def dressed(self, options: BakeOptions, fur: int = 0) -> BakeOptions:
+        """The options of one of the furs: with what the groom has in place of the preset's."""
+        return replace(options, coat=self.furs[fur].coat, ramp=self.ramp)
 
 
 @dataclass(frozen=True)
@@ -81,31 +114,55 @@ class Combed:
 def groomed(options: BakeOptions, skin: Surface, ground: Surface) -> Groomed:
     """The groom that the options name, on a body and the copy of it that carries the fur. Raises GroomError."""
     combed = combed_by(str(options.groom), options, skin, ground)
-    bound, stands, fields = combed.bound, combed.stands, combed.fields
-    tall = bound.height / np.maximum(stands.at(fields.height), 1e-3 * stands.at(fields.length))
-    fur = laid(ground, fields, combed.direction, tall)
-    density = _quantile(fields.density, fields.area * ~fields.bald, DENSE)
-    tile = options.tile or _width(skin, density, float(fur.reach.max()))
-    source = Source(bound, stands, fields, fur, combed.direction, ground_of(skin), tile, density)
-    strands, which = likest(source, draw(source, options.seed), options.seed)
-    colours = colours_of(bound, stands, fields, which)
-    strands = _shaded(strands, colours, options)
-    length = float(fur.reach.max())
+    fields = combed.fields
+    parts = parts_of(ground, fields, options.groom_regions, options.seed)
+    colours = colours_of(combed.bound, combed.stands, fields)
+    furs = tuple(_fur(options, combed, skin, parts.of == part, colours) for part in range(parts.count))
+    border = BORDER * skin.extent
+    masks = [soften(ground, (parts.of == part).astype(np.float64), border) for part in range(1, parts.count)]
+    cut = bounds(np.reshape(masks, (-1, len(ground.vertices))))
+    shares = np.diff(cut.astype(np.float64), axis=0) / STEPS
+    lengths, comb, density = (
+        np.asarray(sum(share * each for share, each in zip(shares, some, strict=True)))
+        for some in (
+            [fur.laid.reach for fur in furs],
+            [fur.laid.comb for fur in furs],
+            [np.clip(fields.density / fur.density, 0.0, 1.0) for fur in furs],
+        )
+    )
+    length = max(fur.laid.longest for fur in furs)
+    told = () if options.groom_regions == 1 else (_chosen(parts, options, furs, shares, fields),)
     return Groomed(
         direction=combed.direction,
-        lengths=fur.reach / length,
-        comb=fur.comb[:, None] * combed.direction,
-        density=np.clip(fields.density / density, 0.0, 1.0),
+        lengths=np.clip(lengths / length, 0.0, 1.0),
+        comb=comb[:, None] * combed.direction,
+        density=density,
         bald=fields.bald,
         colour=None if colours is None else colours.places,
-        tile=tile,
         length=length,
-        strands=strands,
-        coat=_coat(options.coat, strands, length / tile, fur.lean / tile),
+        furs=furs,
+        bounds=cut,
         ramp=options.ramp if colours is None else colours.ramp,
-        record=_record(combed, fur, density, len(which)) | {"traits": compared(source, strands, options.seed)},
-        notices=(*combed.notices, _told(combed, fur, tile, len(which))),
+        record=_record(combed) | furs[0].record,
+        notices=(*combed.notices, *told, *(_told(combed, fur) for fur in furs)),
     )
+
+
+def _fur(options: BakeOptions, combed: Combed, skin: Surface, part: NDArray[np.bool_], colours: Colours | None) -> Fur:
+    """The tile of a part of the vertices, of the strands there, and how it stands."""
+    ground, fields = combed.stands.ground, combed.fields
+    here = part[ground.surface.faces[combed.stands.face, combed.stands.shares.argmax(axis=1)]]
+    bound, stands = combed.bound.some(here), combed.stands.some(here)
+    tall = bound.height / np.maximum(stands.at(fields.height), 1e-3 * stands.at(fields.length))
+    fur = laid(ground.surface, fields, combed.direction, tall, part)
+    density = _quantile(fields.density, fields.area * (part & ~fields.bald), DENSE)
+    tile = options.tile or _width(skin, density, fur.longest)
+    source = Source(bound, stands, fields, fur, combed.direction, ground_of(skin), tile, density)
+    strands, which = likest(source, draw(source, options.seed), options.seed)
+    strands = _shaded(strands, None if colours is None else colours.tint[here][which], options)
+    coat = _coat(options.coat, strands, fur.longest / tile, fur.lean / tile)
+    figures = {"drawn": len(which), "density": density, "taller": fur.taller, "lean": fur.lean, "missed": fur.missed}
+    return Fur(part, fur, tile, density, strands, coat, figures | {"traits": compared(source, strands, options.seed)})
 
 
 def combed_by(name: str, options: BakeOptions, skin: Surface, ground: Surface) -> Combed:
@@ -140,10 +197,10 @@ def _quantile(values: Floats, weights: Floats, share: float) -> float:
     return float(values[order][min(np.searchsorted(total, share * total[-1]), len(values) - 1)])
 
 
-def _shaded(strands: Strands, colours: Colours | None, options: BakeOptions) -> Strands:
-    """The strands in their own brightness, or in the preset's where the groom has no colours."""
-    if colours is not None:
-        return replace(strands, tint=colours.tint[:, None] * np.ones(strands.radius.shape))
+def _shaded(strands: Strands, tint: Floats | None, options: BakeOptions) -> Strands:
+    """The strands in their own brightness (n,), or in the preset's where the groom has no colours."""
+    if tint is not None:
+        return replace(strands, tint=tint[:, None] * np.ones(strands.radius.shape))
     coat, rng = options.coat, np.random.default_rng([options.seed, 5])
     spread = coat.guard.tint + coat.shade * rng.normal(0.0, 1.0, (len(strands.points), 1))
     tint = np.clip(spread, 0.35 * coat.guard.tint, 1.0) * np.ones(strands.radius.shape)
@@ -169,22 +226,26 @@ def _coat(coat: Coat, strands: Strands, height: float, lean: float) -> Coat:
     )
 
 
-def _record(combed: Combed, fur: Laid, density: float, drawn: int) -> dict[str, Any]:
-    bound = combed.bound
-    return {
-        "strands": bound.count // (1 + combed.follow),
-        "follow": combed.follow,
-        "drawn": drawn,
-        "density": density,
-        "taller": fur.taller,
-        "lean": fur.lean,
-        "missed": fur.missed,
-    }
+def _record(combed: Combed) -> dict[str, Any]:
+    return {"strands": combed.bound.count // (1 + combed.follow), "follow": combed.follow}
 
 
-def _told(combed: Combed, fur: Laid, tile: float, drawn: int) -> str:
+def _chosen(parts: Parts, options: BakeOptions, furs: Sequence[Fur], shares: Floats, fields: Fields) -> str:
+    """Sentence on the regions of a groom, and on how much they differ."""
+    why = f"places differ by {parts.rms:.2g} steps"
+    if parts.rms >= LEAST:
+        left = ", ".join(f"{100 * share:.0f} % in {count}" for count, share in enumerate(parts.left[1:], 2))
+        why += f", of whose square one tile leaves all, {left}"
+    if options.groom_regions is None:
+        why += f"; a region more is taken where less than {CLEAR:g} / n² is left in n"
+    covers = shares @ (fields.area * ~fields.bald)
+    each = ", ".join(f"{share:.0f} %" for share in 100 * covers / covers.sum())
+    return f"groom: {len(furs)} region{'s' if len(furs) > 1 else ''} ({each} of the fur): {why}"
+
+
+def _told(combed: Combed, fur: Fur) -> str:
     low, high = (float(np.quantile(combed.bound.length, share)) for share in (0.05, 0.95))
     return (
-        f"groom: strands {low:.2g} to {high:.2g} long, {drawn} of them in a tile {tile:.2g} wide, "
-        f"tips {100 * fur.missed:.0f} % of a length off"
+        f"groom: strands {low:.2g} to {high:.2g} long, {fur.record['drawn']} of them in a tile {fur.tile:.2g} wide, "
+        f"tips {100 * fur.laid.missed:.0f} % of a length off"
     )

@@ -15,7 +15,7 @@ from furbake.asset.validate import check, validate
 from furbake.cli.baking import pelt_cache
 from furbake.cli.chosen import chosen
 from furbake.cli.command import INVALID
-from furbake.cli.output import say
+from furbake.cli.output import complain, say
 from furbake.cli.progress import shown
 from furbake.groom.files import write_groom
 from furbake.groom.strands import STAGES as GROOM_STAGES
@@ -28,7 +28,7 @@ from furbake.show.lesson import write as write_lesson
 from furbake.show.report import STAGES as REPORT_STAGES
 from furbake.show.report import write as write_report
 from furbake.show.swatch import save
-from furbake.study import grooms
+from furbake.study import beside, grooms
 from furbake.study.verify import body
 from furbake.study.verify.colour import colour_lines, verify_colour
 from furbake.study.verify.tables import lines as body_lines
@@ -151,10 +151,13 @@ def run_groom(args: SimpleNamespace) -> int:
     """Write the strands of a baked fur on its body."""
     out = Path(args.out)
     check(Path(args.folder))
+    joints = len(read_asset(Path(args.folder)).document.get("skins", []))
     with shown(GROOM_STAGES, args.quiet) as progress:
         strands = groom(Path(args.folder), progress)
         write_groom(out, strands)
     count, points = strands.points.shape[:2]
+    if joints and not args.quiet:
+        complain("furbake: joints move the body: strands stand on it in its rest pose and follow none of them")
     if args.json:
         say(json.dumps({"file": str(out), "hairs": count, "points": points, "bytes": out.stat().st_size}))
     elif not args.quiet:
@@ -167,6 +170,8 @@ def run_verify(args: SimpleNamespace) -> int:
     picture = Path(args.out) if args.out else None
     if args.body:
         return _verify_body(args, picture)
+    if args.beside:
+        return _verify_beside(args, picture)
     if args.groom:
         return _verify_groom(args)
     with shown(VERIFY_STAGES, args.quiet) as progress:
@@ -185,6 +190,17 @@ def _verify_groom(args: SimpleNamespace) -> int:
         say(json.dumps(asdict(figures)))
     elif not args.quiet:
         say("\n".join(grooms.lines(figures)))
+    return 0
+
+
+def _verify_beside(args: SimpleNamespace, picture: Path | None) -> int:
+    options = body.Options(plan=args.plan, size=args.size, distance=args.distance)
+    with shown(beside.STAGES, args.quiet) as progress:
+        figures = beside.beside(Path(args.folder), Path(args.beside), options, picture=picture, progress=progress)
+    if args.json:
+        say(json.dumps(figures))
+    elif not args.quiet:
+        say("\n".join(beside.lines(figures)))
     return 0
 
 

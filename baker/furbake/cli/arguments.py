@@ -80,7 +80,10 @@ BAKE = [
     option("--pose", metavar="CLIP@SECONDS", help="lay the fur in a pose of the model, not in the one it is bound in"),
     option("--length-map", metavar="FILE.png|vertex:red", type=PLACE, help="black is no length"),
     option("--mask", metavar="FILE.png|vertex:red", type=PLACE, help="black is bare skin"),
-    option("--regions", metavar="FILE.toml", type=PLACE, help="parts of the body with a fur of their own"),
+    option(
+        "--regions", metavar="FILE.toml|auto|1..4", type=PLACE,
+        help="parts of the body with a fur of their own; of a groom their number (1), or as many as plainly differ",
+    ),
     option("--features", metavar="FILE.json", type=PLACE, help="eyes, a nose and the like"),
     option("--rig", metavar="FILE.json", type=PLACE, help="joints and clips for a model that stands still"),
     unset_switch(

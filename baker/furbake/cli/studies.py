@@ -61,6 +61,10 @@ VERIFY = [
         "--cycles", metavar="PYTHON", type=PLACE,
         help="with --body: truth by Blender's path tracer, of this Python (pip install bpy==4.5.*), not by Mitsuba",
     ),
+    option(
+        "--beside", metavar="DIR", type=PLACE,
+        help="another bake of the same body: the page's pictures of both (needs Node), and how far strands differ",
+    ),
     switch("--scalar", "with --body: trace without LLVM: slow, but it bears any number of hairs"),
     switch("--json", "figures as one JSON object"),
     switch("--quiet", "no progress, no summary"),

@@ -14,7 +14,7 @@ from typing import Any
 from furbake.asset.store import atomic_folder
 from furbake.batch.job import Job
 from furbake.identity import bake_key
-from furbake.options.bake_options import FILES, OF_VERTICES
+from furbake.options.bake_options import named_files
 from furbake.options.regions import region_files
 from furbake.rti.files import members
 from furbake.rti.relit import RtiError
@@ -46,14 +46,12 @@ def packed(job: Job) -> Parcel:
         model = Path(job.model)
         for file in (model, *companions(model)):
             add(f"model/{Path(os.path.relpath(file, model.parent)).as_posix()}", file)
-    for name in FILES:
-        value = getattr(job.options, name)
-        if value is not None and not value.startswith(OF_VERTICES):
-            places[name] = f"{name}/{Path(value).name}"
-            add(places[name], Path(value))
-    if job.options.regions is not None:
-        home = Path(job.options.regions).parent
-        for named in map(Path, region_files(job.options.regions)):
+    for name, value in named_files(job.options).items():
+        places[name] = f"{name}/{Path(value).name}"
+        add(places[name], Path(value))
+    if job.options.region_file is not None:
+        home = Path(job.options.region_file).parent
+        for named in map(Path, region_files(job.options.region_file)):
             if named.is_relative_to(home):
                 add(f"regions/{named.relative_to(home).as_posix()}", named)
     if job.options.swatch is not None:

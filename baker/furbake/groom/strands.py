@@ -20,7 +20,7 @@ from furbake.groom.walk import walk
 from furbake.imported.stored import tile_strands
 from furbake.options import BakeOptions, OptionError
 from furbake.pelt.hairs.ramp import Ramp
-from furbake.pelt.hairs.strands import Strands, grow
+from furbake.pelt.hairs.strands import Strands
 
 Single = NDArray[np.float32]
 Progress = Callable[[str, float], None]
@@ -75,7 +75,7 @@ def _several(asset: Asset, progress: Progress) -> Groom:
     for fur in range(count):
         options, one = recorded(asset, fur), alone(asset, fur)
         height = float(one.fur["height"])
-        strands = grow(options.coat, height, options.seed)
+        strands = tile_strands(asset, options.coat, height, options.seed, fur)
         ground = own_ground(asset, skin_colour(asset), fur)
         kinds = (np.arange(len(strands.points)) >= options.coat.guard.count).astype(np.int64)
         chosen = partial(own_roots, asset, ground, fur=fur)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,6 +93,17 @@ class Bound:
     def count(self) -> int:
         """Number of strands."""
         return len(self.face)
+
+    def some(self, which: NDArray[np.bool_]) -> Bound:
+        """Some of the strands, (S,)."""
+        parts = ("face", "shares", "normal", "way", "firm", "length", "height", "reach", "width")
+        return replace(
+            self,
+            curves=self.curves.some(which),
+            root=None if self.root is None else self.root[which],
+            tip=None if self.tip is None else self.tip[which],
+            **{name: getattr(self, name)[which] for name in parts},
+        )
 
 
 def bind(name: str, curves: Curves, surface: Surface) -> Bound:

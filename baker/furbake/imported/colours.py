@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from furbake.imported.bind import Bound
-from furbake.imported.curves import Floats, Ints
+from furbake.imported.curves import Floats
 from furbake.imported.fields import Fields, Standing
 from furbake.pelt.hairs.ramp import Ramp
 
@@ -22,15 +22,15 @@ LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 @dataclass(frozen=True)
 class Colours:
-    """ramp : of the whole groom; places : (V, 3) 0..1, factors of it; tint : (n,) 0..1 of some hairs."""
+    """ramp : of the whole groom; places : (V, 3) 0..1, factors of it; tint : (S,) 0..1 of the strands."""
 
     ramp: Ramp
     places: Floats
     tint: Floats
 
 
-def colours_of(bound: Bound, stands: Standing, fields: Fields, which: Ints) -> Colours | None:
-    """Colours of a groom and the tints of some of its strands; None where it brings none."""
+def colours_of(bound: Bound, stands: Standing, fields: Fields) -> Colours | None:
+    """Colours of a groom; None where it brings none."""
     if bound.root is None or bound.tip is None or fields.root is None or fields.tip is None:
         return None
     here = (fields.root + fields.tip) / 2
@@ -39,7 +39,7 @@ def colours_of(bound: Bound, stands: Standing, fields: Fields, which: Ints) -> C
     mean = np.maximum(stands.at(here) @ LUMINANCE, 1e-6)
     brightness = ((bound.root + bound.tip) / 2 @ LUMINANCE) / mean
     brightest = float(np.quantile(brightness, BRIGHT)) if brightness.std() > EVEN else 1.0
-    tint = np.clip(brightness[which] / brightest, 0.0, 1.0)
+    tint = np.clip(brightness / brightest, 0.0, 1.0)
     weight = (fields.area * fields.density * ~fields.bald)[:, None]
     ends = [
         np.clip(brightest * (end * weight).sum(0) / (places * weight).sum(0), 0.0, 1.0)

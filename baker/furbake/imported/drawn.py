@@ -201,7 +201,7 @@ def _in_tile(source: Source, which: Ints, roots: Floats) -> Strands:
     rest *= np.clip(usual / own, *STRETCH)[:, None, None]
     moved = (rest + common) / tile
     moved -= moved[:, :1]
-    height = float(laid.reach.max()) / tile
+    height = laid.longest / tile
     radius = bound.width[which, None] / 2 / tile * np.ones(points.shape[1]) if widths is None else widths / 2 / tile
     flat = np.ones(radius.shape)
     found = np.concatenate([roots[:, None] + moved, (height * s)[..., None]], axis=-1)

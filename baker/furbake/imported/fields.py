@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import coo_array
 
 from furbake.imported.bind import Bound, Ground
@@ -35,6 +36,8 @@ class Fields:
 
     length : (V,) along the strands; height : (V,) of the tips; reach : (V, 3) of the tips along the surface, a vector
     way : (V, 3) mean direction from root to tip, tangent; its length is how far strands agree
+    firm : (V,) 0..1, share of the way from root to tip along the surface; curl : (V,) length over that way, less 1
+    width : (V,) of the strands
     density : (V,) strands per area; bald : (V,) where there are none
     root, tip : (V, 3) linear colours, or None
     area : (V,) of the surface around the vertex
@@ -44,8 +47,11 @@ class Fields:
     height: Floats
     reach: Floats
     way: Floats
+    firm: Floats
+    curl: Floats
+    width: Floats
     density: Floats
-    bald: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+    bald: NDArray[np.bool_]
     root: Floats | None
     tip: Floats | None
     area: Floats
@@ -62,6 +68,10 @@ class Standing:
     def at(self, values: Floats) -> Floats:
         """Values of the vertices (V, ...) at the strands, (S, ...)."""
         return self.ground.at(values, self.face, self.shares)
+
+    def some(self, which: NDArray[np.bool_]) -> Standing:
+        """Some of the strands, (S,)."""
+        return Standing(self.ground, self.face[which], self.shares[which])
 
 
 def standing(ground: Ground, bound: Bound, skin: Ground) -> Standing:
@@ -105,6 +115,9 @@ def fields_of(stands: Standing, bound: Bound) -> Fields:
         height=mean(bound.height),
         reach=_tangent(mean(bound.reach[:, None] * bound.way), normals),
         way=_tangent(mean(bound.firm[:, None] * bound.way), normals),
+        firm=mean(bound.firm),
+        curl=mean(bound.length / np.maximum(np.hypot(bound.height, bound.reach), 1e-30) - 1),
+        width=mean(bound.width),
         density=density,
         bald=bald,
         root=None if bound.root is None else mean(bound.root),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from furbake.imported.curves import Floats
 from furbake.imported.fields import Fields, averaging
@@ -31,7 +32,7 @@ LEANS = 33
 class Laid:
     """Fur on V vertices whose tips stand where those of the strands do.
 
-    taller : height of the fur over the mean height of the strands
+    taller : height of the fur over the mean height of the strands; longest : fur of the part that it is for
     reach : (V,) length of the fur; comb : (V,) displacement of its tips, share of that
     lean : displacement of a mean strand's tip inside the tile, model units
     short : (V,) displacement of a mean strand's tip along the direction that is left, model units
@@ -39,6 +40,7 @@ class Laid:
     """
 
     taller: float
+    longest: float
     reach: Floats
     comb: Floats
     lean: float
@@ -46,8 +48,8 @@ class Laid:
     missed: float
 
 
-def laid(surface: Surface, fields: Fields, direction: Floats, tall: Floats) -> Laid:
-    """Fur of these fields along a direction (V, 3).
+def laid(surface: Surface, fields: Fields, direction: Floats, tall: Floats, part: NDArray[np.bool_]) -> Laid:
+    """Fur of these fields along a direction (V, 3), for a part of the vertices (V,).
 
     tall : (S,) height of each strand's tip over that of the field at its root
 
@@ -57,7 +59,7 @@ def laid(surface: Surface, fields: Fields, direction: Floats, tall: Floats) -> L
     taller = max(1.0, float(np.quantile(tall, TALL)))
     height = np.maximum(fields.height, FLAT * fields.length)
     along = np.einsum("ij,ij->i", fields.reach, direction)
-    weight = np.maximum(fields.area * fields.density * ~fields.bald, 1e-12 * fields.area)
+    weight = np.maximum(fields.area * fields.density * (part & ~fields.bald), 1e-12 * fields.area)
     usual = float(np.average(fields.length, weights=weight))
     best: tuple[float, Laid] | None = None
     for lean in np.linspace(0.0, 1.5 * max(0.0, float(np.average(along, weights=weight))), LEANS):
@@ -68,9 +70,10 @@ def laid(surface: Surface, fields: Fields, direction: Floats, tall: Floats) -> L
         off = float(np.average(missed / (fields.length + usual) + COMBED * comb * comb, weights=weight))
         if best is None or off < best[0] - 1e-4:
             mean = float(np.average(missed, weights=weight)) / usual
-            best = off, Laid(taller, reach, comb, float(lean), np.zeros_like(along), mean)
+            best = off, Laid(taller, 0.0, reach, comb, float(lean), np.zeros_like(along), mean)
     assert best is not None  # noqa: S101 — for the types
     found, even = best[1], averaging(surface, ROUNDS)
     covered = np.maximum(even(weight), 1e-30)
     reach, comb = (even(weight * values) / covered for values in (found.reach, found.comb))
-    return replace(found, reach=reach, comb=comb, short=along - found.lean - reach * comb / taller**2)
+    short = along - found.lean - reach * comb / taller**2
+    return replace(found, longest=float(reach[part].max()), reach=reach, comb=comb, short=short)

@@ -90,7 +90,7 @@ def of_groom(source: Source, rng: np.random.Generator) -> dict[str, Floats]:
 
 def of_tile(source: Source, strands: Strands, rng: np.random.Generator) -> dict[str, Floats]:
     """Traits of the tile's strands as they stand on the body, at places where the groom has strands."""
-    tile, height = source.tile, float(source.laid.reach.max()) / source.tile
+    tile, height = source.tile, source.laid.longest / source.tile
     places = rng.choice(source.bound.count, PLACES * len(strands.points))
     hair = np.tile(np.arange(len(strands.points)), PLACES)
     points = _standing(source, strands, hair, places, height)

@@ -20,16 +20,17 @@ ColourKind = Literal["texture", "vertex"]
 
 COLOURS = ("texture", "vertex")
 
+OF_GROOM = ("auto", "1", "2", "3", "4")
+"""Values of `regions` that leave it to a groom where its regions are, and how many there are."""
+
 FILES = ("length_map", "mask", "comb", "features", "rig", "swatch", "regions", "groom")
 """Options that name files."""
 
 OF_VERTICES = "vertex:"
 """Prefix of a `length_map` or `mask` that names a channel of the vertex colours, or an attribute, not a file."""
 
-
 THIN: dict[str, Any] = {"layers": 1, "height_share": 0.05}
 """Options of fur that is photographed, where the command is not given others: photographs show the top alone."""
-
 
 LATER = (
     "directions", "states", "dirt", "auto_length", "pose", "swatch", "colour", "regions", "rig", "groom", "follow",
@@ -110,7 +111,7 @@ class BakeOptions:
     swatch: str | None = None
     """`.lp`, `.ptm` or `info.json` of real fur or cloth under many lamps, from which the tile is made, not grown."""
     regions: str | None = None
-    """TOML file of parts of the body with a fur of their own."""
+    """TOML file of parts of the body with a fur of their own; of a groom their number, or auto: as plainly differ."""
     groom: str | None = None
     """`.usd`, `.hair`, `.tfx` or `.npz` with the strands of an artist, of which fur and tile are made."""
     follow: int | None = None
@@ -176,12 +177,11 @@ class BakeOptions:
         """Raise `OptionError` for what cannot stand beside regions."""
         if self.regions is None:
             return
-        for name, got in (
-            ("swatch", self.swatch),
-            ("groom", self.groom),
-            ("basis", self.basis),
-            ("curves", self.curves),
-        ):
+        alone = self.groom is None
+        if alone == (self.regions in OF_GROOM):
+            beside, expected = ("without", "a .toml file of them") if alone else ("beside", "auto or 1 to 4 of its own")
+            raise OptionError(f"regions: got {self.regions} {beside} a groom, expected {expected}")
+        for name, got in (("swatch", self.swatch), ("basis", self.basis), ("curves", self.curves)):
             if got not in (None, "ptm", "slab"):
                 raise OptionError(f"regions: got {name} {got} beside them, expected grown fur, ptm and slab")
 
@@ -194,15 +194,24 @@ class BakeOptions:
         if self.follow is not None:
             knobs.within("follow", self.follow, FOLLOW.low, FOLLOW.high)
         for name in ("length", "height", "comb", "swatch"):
-            if getattr(self, name) is not None:
-                got = knobs.show(getattr(self, name))
-                raise OptionError(f"{name}: got {got} beside a groom, expected the strands' own")
+            if (given := getattr(self, name)) is not None:
+                raise OptionError(f"{name}: got {knobs.show(given)} beside a groom, expected the strands' own")
         if self.uv != "lapped" or self.flat:
             raise OptionError("groom: got it with --uv own or --flat, expected lapped patches on a round body")
 
     def of_tile(self) -> BakeOptions:
         """The same with the body's own options at their defaults: equal for two bodies in the same fur."""
         return replace(self, **{name: getattr(BakeOptions, name) for name in OF_BODY})
+
+    @property
+    def region_file(self) -> str | None:
+        """The file of regions; None where there is none, or a groom says where they are."""
+        return None if self.groom is not None else self.regions
+
+    @property
+    def groom_regions(self) -> int | None:
+        """Number of furs of a groom; None: as many as plainly differ."""
+        return None if self.regions == "auto" else int(self.regions or 1)
 
     @property
     def length_given(self) -> bool:
@@ -250,6 +259,12 @@ class BakeOptions:
                 f"options: got a record that is not understood ({error}), expected one of bake.json"
             ) from None
         return options
+
+
+def named_files(options: BakeOptions) -> dict[str, str]:
+    """Files that the options name, by option."""
+    named = {name: getattr(options, name) for name in FILES} | {"regions": options.region_file}
+    return {name: file for name, file in named.items() if file is not None and not file.startswith(OF_VERTICES)}
 
 
 def clip_at(pose: str) -> tuple[str, float]:

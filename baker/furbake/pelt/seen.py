@@ -151,7 +151,7 @@ def shared_depth(depth: Single, cos_phi: Single, filled: Single) -> Single:
     most *= np.float32(np.pi)
     np.divide(filled[:, None, None], most, out=most)
     held_depth = np.minimum(depth, 2 * most)
-    return np.asarray(held_depth * (1 - held_depth / (4 * most)), np.float32)
+    return np.asarray(held_depth * (1 - held_depth / np.maximum(4 * most, np.float32(1e-30))), np.float32)
 
 
 def _sums(voxels: Single, layers: int) -> Array:

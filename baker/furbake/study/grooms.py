@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -71,12 +71,12 @@ def held_out(
     progress("read", 0.0)
     asset = read_asset(folder)
     options, name = recorded(asset), groom_file(asset, file)
-    surface = _skin(asset)
+    surface = baked_skin(asset)
     bound = bind(str(name), read_curves(name), surface)
     progress("read", 1.0)
     held = _every(bound, ground_of(surface).corners)
     ground = grounded(surface)
-    seen, unseen = _some(bound, ~held), _some(bound, held)
+    seen, unseen = bound.some(~held), bound.some(held)
     stands = standing(ground_of(ground), seen, ground_of(surface))
     fields = fields_of(stands, seen)
     direction = direction_of(ground, fields, options.guide)
@@ -115,7 +115,7 @@ def groom_file(asset: Asset, file: Path | None) -> Path:
 
 def artist_strands(asset: Asset, options: BakeOptions, file: Path | None = None) -> Groom:
     """The strands of a baked groom as the artist left them, followers among them, on the baked body."""
-    surface = _skin(asset)
+    surface = baked_skin(asset)
     combed = combed_by(str(groom_file(asset, file)), options, surface, surface)
     curves = combed.bound.curves
     points, widths, _ = curves.evened(np.arange(curves.count), int(min(curves.counts.max(), POINTS)))
@@ -144,21 +144,10 @@ def lines(figures: HeldOut) -> list[str]:
     ]
 
 
-def _skin(asset: Asset) -> Surface:
+def baked_skin(asset: Asset) -> Surface:
+    """The body of a baked folder. Raises AssetError where it is broken."""
     vertices, faces = read_skin(asset)
     return clean(str(asset.folder), vertices, faces, max_faces=len(faces))
-
-
-def _some(bound: Bound, which: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]) -> Bound:
-    """Some of the strands."""
-    parts = ("face", "shares", "normal", "way", "firm", "length", "height", "reach", "width")
-    return replace(
-        bound,
-        curves=bound.curves.some(which),
-        root=None if bound.root is None else bound.root[which],
-        tip=None if bound.tip is None else bound.tip[which],
-        **{name: getattr(bound, name)[which] for name in parts},
-    )
 
 
 def _every(bound: Bound, corners: Floats) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:

@@ -15,17 +15,12 @@ import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
+sys.path.append(str(Path(__file__).parents[3] / "web" / "tools" / "site"))
+from monkey import choose, nodding
+
 EXTENSION = "bl_ext.user_default.furbake"
 TINY = "--layers 4 --size 8 --lights 8 --no-cache"
 PLAIN = "--no-length-by-thickness --set length_noise=0"
-
-
-def choose(thing: bpy.types.Object) -> None:
-    """Select one object."""
-    for each in bpy.context.selected_objects:
-        each.select_set(False)
-    thing.select_set(True)
-    bpy.context.view_layer.objects.active = thing
 
 
 def grown_long(z: float) -> float:
@@ -40,24 +35,7 @@ def monkey() -> bpy.types.Object:
     group = thing.vertex_groups.new(name="long")
     for vertex in thing.data.vertices:
         group.add([vertex.index], grown_long(vertex.co.z), "REPLACE")
-    bpy.ops.object.armature_add(enter_editmode=True, location=(0, 0, -1))
-    rig = bpy.context.object
-    root = rig.data.edit_bones[0]
-    root.name, root.head, root.tail = "root", (0, 0, 0), (0, 0, 0.8)
-    head = rig.data.edit_bones.new("head")
-    head.head, head.tail, head.parent = (0, 0, 0.8), (0, 0, 2), root
-    bpy.ops.object.mode_set(mode="OBJECT")
-    choose(thing)
-    rig.select_set(True)
-    bpy.context.view_layer.objects.active = rig
-    bpy.ops.object.parent_set(type="ARMATURE_AUTO")
-    rig.animation_data_create().action = bpy.data.actions.new("nod")
-    bone = rig.pose.bones["head"]
-    bone.rotation_mode = "XYZ"
-    for frame, angle in ((1, 0.0), (12, 0.6), (24, 0.0)):
-        bone.rotation_euler = (angle, 0, 0)
-        bone.keyframe_insert("rotation_euler", frame=frame)
-    choose(thing)
+    nodding(thing, 0.8, (0.6, 0, 0))
     bpy.ops.object.quick_fur(density="LOW", use_noise=True, use_frizz=True)
     choose(thing)
     bpy.context.scene.frame_set(12)

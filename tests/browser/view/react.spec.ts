@@ -4,7 +4,7 @@ import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'nod
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { build } from 'vite';
-import { shaderPlugin } from '../../../web/tools/site/plugins.mjs';
+import { barePlugin } from '../../../web/tools/site/plugins.mjs';
 import { difference, expect, picture, test } from '../harness.ts';
 import { type Host, serveFolder } from '../host.ts';
 
@@ -51,7 +51,7 @@ test.beforeAll(async () => {
 		configFile: false,
 		logLevel: 'error',
 		publicDir: join(root, 'public'),
-		plugins: [shaderPlugin()],
+		plugins: [barePlugin()],
 		oxc: { jsx: { runtime: 'automatic' } },
 		resolve: { alias: { furbake: join(root, 'web', 'fur', 'index.ts') }, dedupe: ['three', 'react'] },
 		build: {

@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { bareShader, fontsPlugin, sharePlugin, siteAddress } from '../../../web/tools/site/plugins.mjs';
+import { bareSchema, bareShader, fontsPlugin, sharePlugin, siteAddress } from '../../../web/tools/site/plugins.mjs';
 
 const page = `<html><head><title>furbake · learn</title>
 	<meta name="description" content="Strands &amp; slices." /></head></html>`;
@@ -27,6 +27,14 @@ describe('siteAddress', () => {
 
 	it.each(['example.org', 'ftp://example.org/', '/furbake/'])('refuses %s', (site) => {
 		expect(() => siteAddress(site)).toThrow(`SITE_URL: got ${site}, expected the address of the site`);
+	});
+});
+
+describe('bareSchema', () => {
+	it('drops words for readers, no property of that name', () => {
+		const properties = { title: { type: 'string', description: 'A name.' } };
+		const bare = bareSchema(JSON.stringify({ title: 'A thing', properties, required: ['title'] }));
+		expect(JSON.parse(bare)).toEqual({ properties: { title: { type: 'string' } }, required: ['title'] });
 	});
 });
 

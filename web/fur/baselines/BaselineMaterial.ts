@@ -14,12 +14,12 @@ import frame from '../shaders/hair/frame.glsl?raw';
 import hairIn from '../shaders/hair/hair.frag.glsl?raw';
 import hairOut from '../shaders/hair/hair.vert.glsl?raw';
 import opacity from '../shaders/hair/opacity.glsl?raw';
-import dissolve from '../shaders/hair/regions/dissolve.glsl?raw';
 import shell from '../shaders/hair/shell.glsl?raw';
 import drift from '../shaders/hair/tile/drift.glsl?raw';
 import view from '../shaders/light/view.glsl?raw';
-import { hairChunks, texelChunks } from '../shells/chunks.ts';
 import type { FurMaterial } from '../shells/FurMaterial.ts';
+import { hairChunks, texelChunks } from '../shells/parts/chunks.ts';
+import { parts } from '../shells/parts/parts.ts';
 import { followParts, SHAPE } from '../shells/switches.ts';
 import coverage from './shaders/coverage.glsl?raw';
 
@@ -39,20 +39,28 @@ export class BaselineMaterial extends ShaderMaterial {
 		{ uniforms, defines, vertexShader, fragmentShader, ...parameters }: ShaderMaterialParameters,
 	) {
 		// Nothing here depends on the comb.
-		const { STRAIGHT: _, ...parts } = shells.defines;
+		const { STRAIGHT: _, ...own } = shells.defines;
 		super({
 			glslVersion: shells.glslVersion,
 			uniforms: { ...shells.uniforms, ...UniformsUtils.clone(UniformsLib.lights), ...uniforms },
-			defines: { ...parts, ...defines },
-			vertexShader: ['#include <common>', view, ...hairChunks, frame, drift, shell, colour, hairOut, vertexShader].join(
-				'\n',
-			),
+			defines: { ...own, ...defines },
+			vertexShader: [
+				'#include <common>',
+				view,
+				...hairChunks(),
+				frame,
+				drift,
+				shell,
+				colour,
+				hairOut,
+				vertexShader,
+			].join('\n'),
 			fragmentShader: [
 				'#include <common>',
 				...texelChunks,
 				coverage,
 				...('ROOTS' in shells.defines || 'REGIONS' in shells.defines ? [drift] : []),
-				dissolve,
+				parts.regions?.dissolve ?? '',
 				opacity,
 				colour,
 				hairIn,

@@ -3,16 +3,15 @@
 import {
 	type BufferGeometry,
 	DetachedBindMode,
-	type Intersection,
 	Matrix4,
 	type Mesh,
 	type Object3D,
 	type Skeleton,
 	type SkinnedMesh,
 	Sphere,
-	Triangle,
 	Vector3,
 } from 'three';
+import { isSkinned } from './joints/restPoint.ts';
 import { Morphs, MorphWeights } from './Morphs.ts';
 import { type BoundedSurface, PosedBounds } from './PosedBounds.ts';
 
@@ -28,8 +27,6 @@ export interface Jointed extends Object3D {
 const NONE: readonly number[] = [];
 const inverse = new Matrix4();
 const point = new Vector3();
-const weights = new Vector3();
-const corners = [new Vector3(), new Vector3(), new Vector3()] as const;
 
 /**
  * Pose of a body: joints and influences are those of its skin, whoever moves them. Shells, fins, light and hull of all its
@@ -73,6 +70,16 @@ export class FurPose {
 	get #jointed(): SkinnedMesh | undefined {
 		for (const piece of this.#pieces) if (isSkinned(piece)) return piece;
 		return undefined;
+	}
+
+	/** Morph targets of a geometry on this body, if it has any. */
+	morphsOf(geometry: BufferGeometry): Morphs | undefined {
+		return Morphs.of(geometry);
+	}
+
+	/** Most targets in use at a time. */
+	get slots(): number {
+		return MorphWeights.slots(this.targets);
 	}
 
 	/** Lets an object be drawn by the skin's joints. */
@@ -151,34 +158,4 @@ export class FurPose {
 	release(): void {
 		for (const piece of this.#pieces) Object.assign(piece, { boundingSphere: isSkinned(piece) ? null : undefined });
 	}
-}
-
-/** Whether a mesh is moved by joints. */
-function isSkinned(mesh: Mesh): mesh is SkinnedMesh {
-	return (mesh as Partial<SkinnedMesh>).isSkinnedMesh === true;
-}
-
-/**
- * Place at rest of a point where a ray has met a posed skin: what is painted there stays there.
- *
- * @param hit from `Raycaster`
- * @param target takes the place, world, on the body at rest where its node stands
- */
-export function restPoint(hit: Intersection, target: Vector3): Vector3 {
-	const mesh = hit.object as Mesh;
-	const { face } = hit;
-	if (!face || !mesh.isMesh || !(isSkinned(mesh) || mesh.morphTargetInfluences?.some(Boolean)))
-		return target.copy(hit.point);
-	const [a, b, c] = corners;
-	mesh.getVertexPosition(face.a, a);
-	mesh.getVertexPosition(face.b, b);
-	mesh.getVertexPosition(face.c, c);
-	point.copy(hit.point).applyMatrix4(inverse.copy(mesh.matrixWorld).invert());
-	if (!Triangle.getBarycoord(point, a, b, c, weights)) return target.copy(hit.point);
-	const position = mesh.geometry.getAttribute('position');
-	target.set(0, 0, 0);
-	target.addScaledVector(a.fromBufferAttribute(position, face.a), weights.x);
-	target.addScaledVector(b.fromBufferAttribute(position, face.b), weights.y);
-	target.addScaledVector(c.fromBufferAttribute(position, face.c), weights.z);
-	return target.applyMatrix4(mesh.matrixWorld);
 }

@@ -1,5 +1,4 @@
 import type { BufferGeometry, Mesh } from 'three';
-import { Morphs } from './Morphs.ts';
 import type { Roots } from './roots/Roots.ts';
 import type { Skin } from './Skin.ts';
 import { unshareGeometry } from './shareGeometry.ts';
@@ -40,7 +39,7 @@ export class Sharers {
 		const { skin } = fur.ground;
 		const last = others.length === 0;
 		if (last && this.#owned !== 'nothing')
-			for (const geometry of geometriesOf(fur)) Morphs.of(geometry)?.texture.dispose();
+			for (const geometry of geometriesOf(fur)) skin.pose?.morphsOf(geometry)?.texture.dispose();
 		const keepers = this.#owned === 'nothing' ? undefined : others.flatMap(geometriesOf);
 		for (const geometry of geometriesOf(fur)) unshareGeometry(geometry, keepers);
 		if (this.#owned !== 'body') return;

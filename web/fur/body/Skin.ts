@@ -12,7 +12,7 @@ import {
 } from 'three';
 import type { FurAsset } from '../format.ts';
 import type { FurFollicles } from './FurFollicles.ts';
-import { FurPose } from './FurPose.ts';
+import type { FurPose } from './FurPose.ts';
 import { shareGeometry, unshareGeometry } from './shareGeometry.ts';
 
 /** Fur shorter than this share of the longest begins to let the skin's own colour through. */
@@ -165,6 +165,9 @@ export class ShadedPiece {
 	}
 }
 
+/** `FurPose.of`, which bodies without joints and targets need not fetch. */
+type PoseOf = typeof FurPose.of;
+
 /** Skins by their objects. */
 const known = new WeakMap<Object3D, Skin>();
 
@@ -180,19 +183,23 @@ export class Skin {
 	readonly #visible = new Map<FurAsset, { shade: Color; wetness: Wetness | undefined }>();
 	/** Geometry of the shells, if its axes are the skin's. */
 	readonly #surface: BufferGeometry | undefined;
+	readonly #poseOf: PoseOf | undefined;
 
 	/**
 	 * @param object a mesh, or a group of one for each material
 	 * @param surface geometry of the shells, if its axes are the skin's
+	 * @param poseOf undefined: nothing moves
 	 */
 	constructor(
 		readonly object: Object3D,
 		meshes: readonly Mesh[],
 		surface: BufferGeometry | undefined,
+		poseOf?: PoseOf,
 	) {
 		this.#meshes = meshes;
 		this.#surface = surface;
-		this.pose = FurPose.of(meshes);
+		this.#poseOf = poseOf;
+		this.pose = poseOf?.(meshes);
 		known.set(object, this);
 		this.#pieces = meshes.map((mesh) => new ShadedPiece(mesh, surface && furCover(mesh.geometry, surface)));
 		const box = new Box3();
@@ -250,7 +257,7 @@ export class Skin {
 		const meshes = (this.object === this.#meshes[0] ? [copy] : copy.children) as Mesh[];
 		if (!this.#meshes.every(({ geometry }, i) => meshes[i]?.geometry === geometry)) return undefined;
 		for (const [i, piece] of this.#pieces.entries()) piece.undress(meshes[i] as Mesh);
-		return new Skin(copy, meshes, this.#surface);
+		return new Skin(copy, meshes, this.#surface, this.#poseOf);
 	}
 
 	/** @param others geometries that keep attributes; undefined: all belong to this skin alone */

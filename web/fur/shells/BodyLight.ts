@@ -32,8 +32,8 @@ import bodyLight from '../shaders/draw/bodyLight.glsl?raw';
 import vertexMain from '../shaders/draw/bodyLight.vert.glsl?raw';
 import curvature from '../shaders/draw/curvature.glsl?raw';
 import frame from '../shaders/hair/frame.glsl?raw';
-import { arrivalChunks, hairChunks, skyChunks } from './chunks.ts';
 import type { FurMaterial } from './FurMaterial.ts';
+import { arrivalChunks, hairChunks, skyChunks } from './parts/chunks.ts';
 import { followComb, followParts, switchPart } from './switches.ts';
 
 /** Vertices in a row of texels. */
@@ -107,7 +107,7 @@ export class BodyLight extends Points<InstancedBufferGeometry, ShaderMaterial> i
 				},
 				defines: { MEAN_CURVES: '' },
 				vertexShader: [
-					...hairChunks,
+					...hairChunks(),
 					bodyLight,
 					...arrivalChunks(true),
 					...skyChunks(true),

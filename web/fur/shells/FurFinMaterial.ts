@@ -6,8 +6,8 @@ import ends from '../shaders/draw/fins.glsl?raw';
 import vertexMain from '../shaders/draw/fins.vert.glsl?raw';
 import drift from '../shaders/hair/tile/drift.glsl?raw';
 import type { FurMaterial } from './FurMaterial.ts';
-import { morphUniforms } from './morphs.ts';
 import { PeltMaterial } from './PeltMaterial.ts';
+import { morphUniforms } from './parts/morphs.ts';
 
 /** Properties that a FurFinMaterial has beside those of every material. */
 export interface FurFinMaterialParameters extends ShaderMaterialParameters {

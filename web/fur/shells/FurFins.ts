@@ -4,16 +4,16 @@ import {
 	type Camera,
 	type InterleavedBufferAttribute,
 	Matrix4,
-	Mesh,
+	type Mesh,
 	type Object3D,
 	type Scene,
-	type Skeleton,
 	Sphere,
 	Vector3,
 	type WebGLRenderer,
 } from 'three';
 import { BodyCurvature } from '../body/BodyCurvature.ts';
-import type { FurPose, Jointed } from '../body/FurPose.ts';
+import type { FurPose } from '../body/FurPose.ts';
+import { PosedMesh } from '../body/PosedMesh.ts';
 import { beginClip, endClip, type FurColumns } from './clip.ts';
 import type { FurFinMaterial } from './FurFinMaterial.ts';
 import type { FurMaterial } from './FurMaterial.ts';
@@ -30,20 +30,9 @@ const everywhere = new Sphere(new Vector3(), Number.POSITIVE_INFINITY);
  * The renderer sorts transparent objects by the distance of their bounding spheres, then by age. So fins are created before
  * their shells and share placement and sphere with them, to the bit.
  */
-export class FurFins extends Mesh<BufferGeometry, FurFinMaterial> implements Jointed {
-	/** True where joints move the body, as on three's SkinnedMesh. @internal */
-	declare isSkinnedMesh?: true;
-	/** Joints of the skin. @internal */
-	declare skeleton?: Skeleton;
-	/** The skin's. @internal */
-	declare bindMatrix?: Matrix4;
-	/** World → the mesh's own units. @internal */
-	declare bindMatrixInverse?: Matrix4;
-	/** For SkeletonUtils.clone. @internal */
-	declare bind?: Jointed['bind'];
+export class FurFins extends PosedMesh<BufferGeometry, FurFinMaterial> {
 	/** Columns of the picture to draw; undefined: all. */
 	clip: FurColumns | undefined;
-	readonly #pose: FurPose | undefined;
 	readonly #seen = new SeenFins();
 	/** Indices of all fins, which copies share, while only some are drawn. */
 	#all: BufferAttribute | null = null;
@@ -54,11 +43,9 @@ export class FurFins extends Mesh<BufferGeometry, FurFinMaterial> implements Joi
 	 * @param pose of the body, if it has any
 	 */
 	constructor(quads: BufferGeometry, material: FurFinMaterial, pose?: FurPose) {
-		super(material.means ? cutFins(quads, STRIPS) : quads, material);
+		super(material.means ? cutFins(quads, STRIPS) : quads, material, pose);
 		this.name = 'fins';
 		this.receiveShadow = true;
-		this.#pose = pose;
-		pose?.carry(this);
 	}
 
 	/**
@@ -85,12 +72,6 @@ export class FurFins extends Mesh<BufferGeometry, FurFinMaterial> implements Joi
 		this.fit(shells);
 	}
 
-	/** Takes the body's pose, too. @internal */
-	override updateMatrixWorld(force?: boolean): void {
-		super.updateMatrixWorld(force);
-		this.#pose?.follow(this);
-	}
-
 	/** Copies the shells' bounding sphere; call again when that changes. */
 	fit(shells: Mesh<BufferGeometry, FurMaterial>): void {
 		const longer = Math.max(this.material.finLength - 1, 0) * shells.material.furLength;
@@ -104,7 +85,7 @@ export class FurFins extends Mesh<BufferGeometry, FurFinMaterial> implements Joi
 		beginClip(renderer, this.clip);
 		const { geometry, material } = this;
 		// A pose turns normals on the GPU alone.
-		const seen = this.#pose ? undefined : this.#seen.choose(this, camera, STRIPS, Number(material.defines.FADE_TO));
+		const seen = this.pose ? undefined : this.#seen.choose(this, camera, STRIPS, Number(material.defines.FADE_TO));
 		if (!seen) return;
 		this.#all = geometry.index;
 		geometry.setIndex(seen.index).setDrawRange(0, seen.count);

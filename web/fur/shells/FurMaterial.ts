@@ -12,13 +12,12 @@ import frame from '../shaders/hair/frame.glsl?raw';
 import hairIn from '../shaders/hair/hair.frag.glsl?raw';
 import hairOut from '../shaders/hair/hair.vert.glsl?raw';
 import opacity from '../shaders/hair/opacity.glsl?raw';
-import dissolve from '../shaders/hair/regions/dissolve.glsl?raw';
 import shell from '../shaders/hair/shell.glsl?raw';
 import drift from '../shaders/hair/tile/drift.glsl?raw';
 import { ALPHA_CUT } from './lod.ts';
-import { morphUniforms, weightUniforms } from './morphs.ts';
 import { PeltMaterial } from './PeltMaterial.ts';
-import { regionUniforms } from './regions/regionUniforms.ts';
+import { morphUniforms, weightUniforms } from './parts/morphs.ts';
+import { parts } from './parts/parts.ts';
 
 /** Properties that a FurMaterial has beside those of every material. */
 export interface FurMaterialParameters extends ShaderMaterialParameters {
@@ -121,9 +120,14 @@ export class FurMaterial extends PeltMaterial {
 			{
 				name: 'FurMaterial',
 				vertexShader: [frame, drift, shell, hairOut, vertexMain, ends].join('\n'),
-				fragmentShader: [...(roots || regions ? [drift] : []), dissolve, opacity, hairIn, fragmentMain, ends].join(
-					'\n',
-				),
+				fragmentShader: [
+					...(roots || regions ? [drift] : []),
+					parts.regions?.dissolve ?? '',
+					opacity,
+					hairIn,
+					fragmentMain,
+					ends,
+				].join('\n'),
 				uniforms: {
 					tiles: { value: asset.tiles ?? 1 },
 					furLength: { value: asset.length },
@@ -134,7 +138,7 @@ export class FurMaterial extends PeltMaterial {
 					lean: { value: leanOf(asset) },
 					bent: { value: furs.flatMap(bentWeights) },
 					...eyeUniforms(furs),
-					...(regions && regionUniforms(regions, furs)),
+					...(regions && parts.regions?.regionUniforms(regions, furs)),
 					...morphUniforms(),
 					...weightUniforms(),
 					alphaCut: { value: ALPHA_CUT },

@@ -3,10 +3,8 @@ import {
 	type Camera,
 	InstancedBufferGeometry,
 	Matrix4,
-	Mesh,
 	type Object3D,
 	type Scene,
-	type Skeleton,
 	Sphere,
 	Vector3,
 	Vector4,
@@ -14,7 +12,8 @@ import {
 } from 'three';
 import { BodyCurvature } from '../body/BodyCurvature.ts';
 import { sharedComb } from '../body/comb.ts';
-import type { FurPose, Jointed } from '../body/FurPose.ts';
+import type { FurPose } from '../body/FurPose.ts';
+import { PosedMesh } from '../body/PosedMesh.ts';
 import { type FurAsset, tileOf } from '../format.ts';
 import { BodyLight } from './BodyLight.ts';
 import { beginClip, endClip, type FurColumns } from './clip.ts';
@@ -32,7 +31,7 @@ const viewport = new Vector4();
 const inverse = new Matrix4();
 
 /** Shells of a furry surface: one instanced draw, instance = shell, the innermost first. */
-export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> implements Jointed {
+export class FurShells extends PosedMesh<InstancedBufferGeometry, FurMaterial> {
 	/** Draws the hull into shadow maps. */
 	override readonly customDepthMaterial: HullMaterial;
 	/** Whether the picture determines the number of shells; setting `shellCount` turns it off. */
@@ -44,16 +43,6 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> implem
 	 * little, 0 draws all. In between it goes over without a step. Herds draw all.
 	 */
 	merging = 0;
-	/** True where joints move the body, as on three's SkinnedMesh. @internal */
-	declare isSkinnedMesh?: true;
-	/** Joints of the skin. @internal */
-	declare skeleton?: Skeleton;
-	/** The skin's. @internal */
-	declare bindMatrix?: Matrix4;
-	/** World → the mesh's own units. @internal */
-	declare bindMatrixInverse?: Matrix4;
-	/** For SkeletonUtils.clone. @internal */
-	declare bind?: Jointed['bind'];
 	/** Columns of the picture to draw; undefined: all. */
 	clip: FurColumns | undefined;
 	/** Width of a texel, model units. */
@@ -65,7 +54,6 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> implem
 	#radius: number;
 	/** Size in the pose over that at rest. */
 	#stretch = 1;
-	readonly #pose: FurPose | undefined;
 	/** The shells' own material, whatever method lights them. */
 	readonly #own: FurMaterial;
 
@@ -78,7 +66,7 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> implem
 		const geometry = new InstancedBufferGeometry();
 		geometry.setIndex(surface.index);
 		for (const [name, attribute] of Object.entries(surface.attributes)) geometry.setAttribute(name, attribute);
-		super(geometry, material);
+		super(geometry, material, pose);
 		const comb = surface instanceof InstancedBufferGeometry ? undefined : sharedComb(surface);
 		if (comb) geometry.setAttribute('_comb', comb);
 		this.#own = material;
@@ -108,8 +96,6 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> implem
 			this.add(this.#light);
 		}
 		this.furLength = length;
-		this.#pose = pose;
-		pose?.carry(this);
 	}
 
 	/** Longest hairs, model units; of a fur, set `Fur.length`. */
@@ -120,12 +106,6 @@ export class FurShells extends Mesh<InstancedBufferGeometry, FurMaterial> implem
 	set furLength(length: number) {
 		this.material.furLength = length / this.scale.x;
 		(this.geometry.boundingSphere as Sphere).radius = this.#radius + this.#stretch * this.material.furLength;
-	}
-
-	/** Takes the body's pose, too. @internal */
-	override updateMatrixWorld(force?: boolean): void {
-		super.updateMatrixWorld(force);
-		this.#pose?.follow(this);
 	}
 
 	/** Fits the bounding sphere to the body's pose. @internal */

@@ -1,8 +1,8 @@
 import { FrontSide, GLSL3, type IUniform, ShaderMaterial, type ShaderMaterialParameters } from 'three';
 import fragmentShader from '../shaders/draw/hull.frag.glsl?raw';
 import vertexShader from '../shaders/draw/hull.vert.glsl?raw';
-import { hairChunks } from './chunks.ts';
 import type { FurMaterial } from './FurMaterial.ts';
+import { hairChunks } from './parts/chunks.ts';
 import { followParts } from './switches.ts';
 
 /** Uniforms shared with the shells. */
@@ -28,7 +28,7 @@ export class HullMaterial extends ShaderMaterial {
 			fragmentShader,
 			...parameters,
 			uniforms: Object.fromEntries(SHARED.map((name) => [name, shells.uniforms[name] as IUniform])),
-			vertexShader: [...hairChunks, parameters.vertexShader ?? vertexShader].join('\n'),
+			vertexShader: [...hairChunks(), parameters.vertexShader ?? vertexShader].join('\n'),
 		});
 		this.#shells = shells;
 		Object.assign(this.defaultAttributeValues, shells.defaultAttributeValues);

@@ -1,34 +1,19 @@
 import {
 	type Camera,
-	Color,
-	CustomBlending,
-	GLSL3,
-	LessEqualDepth,
 	OneFactor,
 	OneMinusSrcAlphaFactor,
 	type Scene,
 	ShaderMaterial,
 	type ShaderMaterialParameters,
 	type Texture,
-	UniformsLib,
-	UniformsUtils,
-	Vector2,
 	type WebGLRenderer,
 	ZeroFactor,
 } from 'three';
-import { BODY_RADIUS } from '../light/moments.ts';
 import { PeltLight } from '../light/PeltLight.ts';
-import { basisDefines, decoder, type FurTextures, type SlabMeanCurves, type TexelCoding } from '../light/texels.ts';
-import bodyLight from '../shaders/draw/bodyLight.glsl?raw';
-import curvature from '../shaders/draw/curvature.glsl?raw';
-import lightIn from '../shaders/draw/light.frag.glsl?raw';
-import lightOut from '../shaders/draw/light.vert.glsl?raw';
-import output from '../shaders/draw/output.glsl?raw';
-import colour from '../shaders/hair/colour.glsl?raw';
-import ptm from '../shaders/light/ptm.glsl?raw';
-import { type Stained, stain, stainUniforms } from '../weather/stains.ts';
-import { hairChunks, lampChunks, skyChunks, texelChunks } from './chunks.ts';
+import type { FurTextures, SlabMeanCurves, TexelCoding } from '../light/texels.ts';
+import { type Stained, stain } from '../weather/stains.ts';
 import { followHue } from './hue.ts';
+import { peltParameters } from './parts/peltParameters.ts';
 import { mirrorUniforms, switchPart } from './switches.ts';
 
 /** Common base of the materials of shells and fins: texels of coefficients times light moments. */
@@ -45,87 +30,17 @@ export class PeltMaterial extends ShaderMaterial {
 	 * @param mirrored names of uniforms that become properties of the material
 	 * @param leader material whose switches this one follows
 	 */
-	// Long: one flat table of uniforms and defaults.
 	constructor(
 		furs: readonly TexelCoding[],
 		textures: FurTextures,
-		{ uniforms, defines, vertexShader, fragmentShader, ...parameters }: ShaderMaterialParameters,
+		parameters: ShaderMaterialParameters,
 		mirrored: readonly string[],
 		leader?: PeltMaterial,
 	) {
-		const texels = furs[0] as TexelCoding;
-		const { scale, offset } = decoder(texels.scale, texels.bias);
-		const { means, basis } = texels;
 		const planes = [textures.plane0, textures.plane1].filter((plane) => plane !== undefined);
-		const light = new PeltLight(
-			furs,
-			planes,
-			Number(defines?.LAYERS),
-			'FIN' in (defines ?? {}),
-			leader ? leader.#light : undefined,
-		);
-		super({
-			glslVersion: GLSL3,
-			lights: true,
-			uniforms: {
-				...UniformsUtils.clone(UniformsLib.lights),
-				plane0: { value: null },
-				plane1: { value: null },
-				colourPlane: { value: null },
-				scale0: { value: scale[0] },
-				offset0: { value: offset[0] },
-				scale1: { value: new Vector2(scale[1]?.x, scale[1]?.y) },
-				offset1: { value: new Vector2(offset[1]?.x, offset[1]?.y) },
-				codings: {
-					value: furs.flatMap((own) => {
-						const { scale, offset } = decoder(own.scale, own.bias);
-						return [scale[0], offset[0], scale[1], offset[1]];
-					}),
-				},
-				...light.uniforms,
-				bodyRadius: { value: BODY_RADIUS },
-				lean: { value: new Vector2() },
-				gloss: { value: 0 },
-				sharpness: { value: 60 },
-				backlight: { value: 0 },
-				lampHue: { value: new Color(1, 1, 1) },
-				density: { value: 1 },
-				swing: { value: null },
-				...stainUniforms(),
-				furTrim: { value: 1 },
-				...uniforms,
-			},
-			defines: {
-				...basisDefines(basis),
-				...(means && { MEAN_CURVES: '' }),
-				...(means?.multiple && { MULTIPLE: '' }),
-				...(texels.scale.length > 3 && { TWO_PLANES: '' }),
-				...(textures.colour && { COLOUR_PLANE: '' }),
-				SKY: '',
-				...(furs.length > 1 && { REGIONS: furs.length }),
-				...(furs.some((own) => String(own.scale) + own.bias !== String(texels.scale) + texels.bias) && { CODINGS: '' }),
-				...defines,
-			},
-			vertexShader: [
-				...hairChunks,
-				bodyLight,
-				...lampChunks(means !== undefined),
-				...skyChunks(means !== undefined),
-				...[curvature, lightOut, colour, vertexShader],
-			].join('\n'),
-			fragmentShader: [
-				...texelChunks,
-				...lampChunks(means !== undefined),
-				...[lightIn, ptm, colour, output, fragmentShader],
-			].join('\n'),
-			transparent: true,
-			blending: CustomBlending,
-			blendSrc: OneFactor,
-			blendDst: OneMinusSrcAlphaFactor,
-			premultipliedAlpha: true,
-			depthFunc: LessEqualDepth,
-			...parameters,
-		});
+		const { LAYERS, FIN } = parameters.defines ?? {};
+		const light = new PeltLight(furs, planes, Number(LAYERS), FIN !== undefined, leader ? leader.#light : undefined);
+		super(peltParameters(furs, textures, light.uniforms, parameters));
 		// Defaults of absent attributes: white, full weight, full length, open, first tip colour.
 		Object.assign(this.defaultAttributeValues, {
 			color: [1, 1, 1, 1],

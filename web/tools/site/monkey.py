@@ -37,6 +37,7 @@ def extension() -> types.ModuleType:
 
 
 def choose(thing: bpy.types.Object) -> None:
+    """Select one object."""
     for each in bpy.context.selected_objects:
         each.select_set(False)
     thing.select_set(True)
@@ -56,6 +57,31 @@ def material(name: str, kind: str, colour: tuple[float, ...]) -> bpy.types.Mater
     return made
 
 
+def nodding(thing: bpy.types.Object, neck: float, nod: tuple[float, float, float]) -> None:
+    """Give a monkey two bones and the clip “nod”, which turns the head until frame 12 and back until 24.
+
+    neck : height of the joint above the lower bone's end; nod : angles of the head in frame 12, radians
+    """
+    bpy.ops.object.armature_add(enter_editmode=True, location=(0, 0, -1))
+    rig = bpy.context.object
+    root = rig.data.edit_bones[0]
+    root.name, root.head, root.tail = "root", (0, 0, 0), (0, 0, neck)
+    head = rig.data.edit_bones.new("head")
+    head.head, head.tail, head.parent = (0, 0, neck), (0, 0, 2), root
+    bpy.ops.object.mode_set(mode="OBJECT")
+    choose(thing)
+    rig.select_set(True)
+    bpy.context.view_layer.objects.active = rig
+    bpy.ops.object.parent_set(type="ARMATURE_AUTO")
+    rig.animation_data_create().action = bpy.data.actions.new("nod")
+    bone = rig.pose.bones["head"]
+    bone.rotation_mode = "XYZ"
+    for frame, angles in ((1, (0, 0, 0)), (12, nod), (24, (0, 0, 0))):
+        bone.rotation_euler = angles
+        bone.keyframe_insert("rotation_euler", frame=frame)
+    choose(thing)
+
+
 def monkey() -> bpy.types.Object:
     """A smooth monkey with two bones that nods, bald around eyes and mouth, with Blender's quick fur."""
     bpy.ops.mesh.primitive_monkey_add()
@@ -70,25 +96,8 @@ def monkey() -> bpy.types.Object:
         x, y, z = vertex.co
         face = math.hypot(x / 0.52, (z - 0.05) / 0.62) if y < -0.35 else 2.0
         group.add([vertex.index], min(max((face - 0.75) / 0.5, 0.12), 1.0), "REPLACE")
-    bpy.ops.object.armature_add(enter_editmode=True, location=(0, 0, -1))
-    rig = bpy.context.object
-    root = rig.data.edit_bones[0]
-    root.name, root.tail = "root", (0, 0, 0.6)
-    head = rig.data.edit_bones.new("head")
-    head.head, head.tail, head.parent = (0, 0, 0.6), (0, 0, 2), root
-    bpy.ops.object.mode_set(mode="OBJECT")
-    choose(thing)
-    rig.select_set(True)
-    bpy.context.view_layer.objects.active = rig
-    bpy.ops.object.parent_set(type="ARMATURE_AUTO")
-    rig.animation_data_create().action = bpy.data.actions.new("nod")
-    bone = rig.pose.bones["head"]
-    bone.rotation_mode = "XYZ"
-    for frame, angle in ((1, 0.0), (12, 0.5), (24, 0.0)):
-        bone.rotation_euler = (angle, 0.4 * angle, 0)
-        bone.keyframe_insert("rotation_euler", frame=frame)
+    nodding(thing, 0.6, (0.5, 0.2, 0))
     bpy.context.scene.frame_set(1)
-    choose(thing)
     bpy.ops.object.quick_fur(density="MEDIUM", length=FUR_LENGTH, radius=0.004, use_noise=True, use_frizz=True)
     for each in bpy.data.objects:
         if each.type == "CURVES":

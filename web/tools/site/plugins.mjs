@@ -58,19 +58,58 @@ export function bareShader(source) {
 }
 
 /**
- * Strips comments from shaders, two fifths of their bytes.
+ * @param {string} source of a JSON schema
+ * @returns {string} the schema without words for readers
+ */
+export function bareSchema(source) {
+	/** @param {string} key; @param {unknown} value */
+	const keep = (key, value) =>
+		(key === 'description' || key === 'title') && typeof value === 'string' ? undefined : value;
+	return JSON.stringify(JSON.parse(source, keep));
+}
+
+/**
+ * Strips comments from shaders, two fifths of their bytes, and descriptions from schemas.
  *
  * @returns {Plugin}
  */
-export function shaderPlugin() {
+export function barePlugin() {
 	return {
-		name: 'furbake-shaders',
+		name: 'furbake-bare',
 		apply: 'build',
 		enforce: 'pre',
 		async load(id) {
-			if (!id.endsWith('.glsl?raw')) return undefined;
+			const [shader, schema] = [id.endsWith('.glsl?raw'), id.endsWith('.schema.json')];
+			if (!shader && !schema) return undefined;
 			const source = await readFile(id.replace(/\?raw$/, ''), 'utf8');
-			return { code: `export default ${JSON.stringify(bareShader(source))};`, moduleType: 'js' };
+			const code = shader ? JSON.stringify(bareShader(source)) : bareSchema(source);
+			return { code: `export default ${code};`, moduleType: 'js' };
+		},
+	};
+}
+
+/**
+ * Puts modules of the library that are fetched on demand into the file that asks for them: our pages show fur that has all
+ * of it, and as a file of its own, or wrapped as one, each costs a request or a kilobyte.
+ *
+ * @param {RegExp} [apart] modules that are left as they are
+ * @returns {Plugin}
+ */
+export function wholePlugin(apart) {
+	return {
+		name: 'furbake-whole',
+		apply: 'build',
+		enforce: 'pre',
+		transform(code, id) {
+			if (!/\/web\/fur\/.*\.ts$/.test(id)) return undefined;
+			/** @type {string[]} */
+			const paths = [];
+			const fetched = /(?<!typeof )\bimport\('(\.[^']+)'\)/g;
+			const whole = code.replace(fetched, (text, path) =>
+				apart?.test(path) ? text : `Promise.resolve(whole${paths.push(path) - 1})`,
+			);
+			const imports = paths.map((path, i) => `import * as whole${i} from '${path}';`);
+			return imports.length ? { code: [...imports, whole].join('\n'), map: null } : undefined;
 		},
 	};
 }

@@ -16,7 +16,7 @@ from furbake.batch.job import Job
 from furbake.cli.arguments import BAKE
 from furbake.cli.chosen import GIVEN, options_for
 from furbake.options import OptionError
-from furbake.options.bake_options import FILES, OF_VERTICES
+from furbake.options.bake_options import FILES, OF_GROOM, OF_VERTICES
 from furbake.options.knobs import flatten, show
 from furbake.surface.files import read_regular
 from furbake.surface.limits import Budget
@@ -135,7 +135,7 @@ def _options(table: Mapping[str, Any], where: str, folder: Path) -> dict[str, An
             raise OptionError(f"{where}: {key}: unknown, expected one of {known}")
         found[name] = _settings(value, where) if name == "set" else _value(PARAMETERS[name], value, where)
         file = name in FILES or (name in ("preset", "guide") and str(value).endswith((".toml", ".json")))
-        if file and not str(value).startswith(OF_VERTICES):
+        if file and not str(value).startswith(OF_VERTICES) and not (name == "regions" and str(value) in OF_GROOM):
             found[name] = str(folder / found[name])
     return found
 

@@ -19,18 +19,27 @@ def groom_section(record: dict[str, Any]) -> str:
     traits = groom.get("traits") if isinstance(groom, dict) else None
     if not isinstance(groom, dict) or not isinstance(traits, dict):
         return ""
+    beside = f", {groom['follow']} hairs beside each" if groom.get("follow") else ""
+    parts = [("coat", groom)] + [(fur["name"], fur["groom"]) for fur in record.get("regions", [])]
+    each = [f"<h3>{escape(name)}</h3>{_histograms(part['traits'])}" for name, part in parts]
+    drawn = ", ".join(f"{part['drawn']:,} of those of the {name} fill its tile" for name, part in parts)
+    one = f"{groom['drawn']:,} of them fill the tile"
+    return section(
+        "The groom and its tile",
+        f"{groom['strands']:,} strands of the artist{beside}; {one if len(parts) == 1 else drawn}. "
+        "Bars are the groom, the line is the fur on the body. <b>Look for</b> lines that leave the bars.",
+        _histograms(traits) if len(parts) == 1 else "".join(each),
+    )
+
+
+def _histograms(traits: dict[str, Any]) -> str:
+    """A histogram of each trait."""
     drawn = [
         figure(_histogram(name, traits[name]), f"<b>{escape(name)}</b>: {escape(text)}{_apart(traits[name])}")
         for name, text in NAMES.items()
         if name in traits
     ]
-    beside = f", {groom['follow']} hairs beside each" if groom.get("follow") else ""
-    return section(
-        "The groom and its tile",
-        f"{groom['strands']:,} strands of the artist{beside}; {groom['drawn']:,} of them fill the tile. "
-        "Bars are the groom, the line is the fur on the body. <b>Look for</b> lines that leave the bars.",
-        f'<div class="histograms">{"".join(drawn)}</div>',
-    )
+    return f'<div class="histograms">{"".join(drawn)}</div>'
 
 
 def _histogram(name: str, trait: dict[str, Any]) -> str:

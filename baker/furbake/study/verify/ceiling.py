@@ -23,7 +23,7 @@ from furbake.asset.read import Asset
 from furbake.asset.stored import read_pelt
 from furbake.groom.ground import Floats, Ground, read_ground, read_skin
 from furbake.groom.strands import recorded
-from furbake.pelt.hairs.strands import grow
+from furbake.imported.stored import tile_strands
 from furbake.pelt.hairs.volume import fine_shape, voxelise
 from furbake.pelt.light.transport import LOWEST_FLAT, hemisphere, lowest
 from furbake.pelt.texels.fill import fill
@@ -108,7 +108,7 @@ def sampled_ceiling(asset: Asset, cells: Sequence[Cell]) -> Ceiling:
     """The passes of a baked folder in some cells, its fur sampled anew."""
     options, pelt = recorded(asset), read_pelt(asset)
     options = replace(options, layers=pelt.layers, size=pelt.size)
-    strands = grow(options.coat, pelt.height, options.seed)
+    strands = tile_strands(asset, options.coat, pelt.height, options.seed)
     fine = voxelise(strands, pelt.height, *fine_shape(pelt.layers, pelt.size, pelt.height), options.coat.opacity)
     lights = directions(LOWEST_FLAT if options.flat else lowest())
     ground = read_ground(asset, (1.0, 1.0, 1.0))

@@ -102,23 +102,24 @@ def grey_copy(asset: Asset, folder: Path, albedo: float, skin: float) -> None:
             primitive["attributes"].pop("COLOR_0", None)
     for name in ("textures", "samplers"):
         document.pop(name, None)
-    pelt = fur["pelts"][0]
-    fur["pelts"] = [pelt]
-    if "multiple" in pelt:
-        pelt["multiple"]["tint"] = [1.0] * fur["layers"]
-        pelt["multiple"].pop("colour", None)
-    fur["ramp"] |= {name: [albedo] * 3 for name in ("root", "tip", "tip2")}
-    for part in (pelt, pelt.get("fin", {})):
-        part.pop("colour", None)
-        for number, image in enumerate(part.get("planes", [])):
-            uri = document["images"][image]["uri"]
-            pixels = read_png(inside(asset.folder, uri))
-            if number == 1:
-                pixels[..., TINT] = 255
-            write_png(folder / uri, pixels)
-    if "direction" in pelt:
-        uri = document["images"][pelt["direction"]]["uri"]
-        shutil.copyfile(inside(asset.folder, uri), folder / uri)
+    for own in (fur, *fur.get("regions", {"furs": []})["furs"]):
+        pelt = own["pelts"][0]
+        own["pelts"] = [pelt]
+        if "multiple" in pelt:
+            pelt["multiple"]["tint"] = [1.0] * fur["layers"]
+            pelt["multiple"].pop("colour", None)
+        own["ramp"] |= {name: [albedo] * 3 for name in ("root", "tip", "tip2")}
+        for part in (pelt, pelt.get("fin", {})):
+            part.pop("colour", None)
+            for number, image in enumerate(part.get("planes", [])):
+                uri = document["images"][image]["uri"]
+                pixels = read_png(inside(asset.folder, uri))
+                if number == 1:
+                    pixels[..., TINT] = 255
+                write_png(folder / uri, pixels)
+        if "direction" in pelt:
+            uri = document["images"][pelt["direction"]]["uri"]
+            shutil.copyfile(inside(asset.folder, uri), folder / uri)
     _plain(document, skin)
     (folder / document["buffers"][0]["uri"]).write_bytes(asset.data)
     (folder / "model.gltf").write_text(json.dumps(document), "utf-8")
@@ -128,10 +129,12 @@ def coloured_copy(asset: Asset, folder: Path) -> None:
     """The dry fur of a baked folder in its own colours and those of the skin below it, on a white skin."""
     document: dict[str, Any] = json.loads(json.dumps(asset.document))
     fur = next(iter(value for key, value in document["extensions"].items() if key == "FUR_ptm_shells"))
-    pelt = fur["pelts"][0]
-    fur["pelts"] = [pelt]
-    images = {*pelt["planes"], *pelt.get("fin", {}).get("planes", [])}
-    images |= {part[role] for part in (pelt, pelt.get("fin", {})) for role in ("colour", "direction") if role in part}
+    images: set[int] = set()
+    for own in (fur, *fur.get("regions", {"furs": []})["furs"]):
+        pelt = own["pelts"][0]
+        own["pelts"] = [pelt]
+        for part in (pelt, pelt.get("fin", {})):
+            images |= {*part.get("planes", []), *(part[role] for role in ("colour", "direction") if role in part)}
     if "roots" in fur:
         images.add(document["textures"][fur["roots"]["texture"]]["source"])
     for image in images:

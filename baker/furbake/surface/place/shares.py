@@ -83,7 +83,7 @@ def vertex_areas(surface: Surface) -> Floats:
     return np.asarray(np.bincount(surface.faces.reshape(-1), shares, len(surface.vertices)), dtype=np.float64)
 
 
-def bounds(masks: Sequence[Floats]) -> Bytes:
+def bounds(masks: Sequence[Floats] | Floats) -> Bytes:
     """(R + 2, V) rising bounds, 0 to 255: hairs whose number lies between bounds r and r + 1 belong to fur r.
 
     masks : (V,) 0..1 of each region; fur 0, the coat, has what they leave. Where they sum to more than 1 they share.

@@ -14,7 +14,7 @@ import {
 } from 'three';
 import { describe, expect, it } from 'vitest';
 import { Brush } from '../../../../web/demo/hands/brush.ts';
-import { restPoint } from '../../../../web/fur/body/FurPose.ts';
+import { restPoint } from '../../../../web/fur/body/joints/restPoint.ts';
 
 const camera = new PerspectiveCamera(40, 1);
 camera.position.z = 10;

@@ -17,6 +17,10 @@ uniform float shellCount;
 in float vWeight;
 in float vFacing;
 
+#ifndef PARTED
+#define furShare() 1.0
+#endif
+
 in float vKept; // coverage that crispness leaves alone
 
 // Coverage with the contrast of this picture, see crisp.ts.

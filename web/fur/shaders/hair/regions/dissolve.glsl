@@ -28,6 +28,4 @@ float furShare() {
 	float one = step(vLowest, number) * step(number, vHighest), mean = clamp(vHighest, 0.0, 1.0) - clamp(vLowest, 0.0, 1.0);
 	return mix(one, mean, smoothstep(0.5, 1.5, max(apart.x, apart.y)));
 }
-#else
-#define furShare() 1.0
 #endif

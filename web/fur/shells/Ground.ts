@@ -1,6 +1,7 @@
 import type { BufferGeometry, Color, Object3D } from 'three';
-import type { Roots } from './roots/Roots.ts';
-import type { Skin } from './Skin.ts';
+import type { Roots } from '../body/roots/Roots.ts';
+import type { Skin } from '../body/Skin.ts';
+import type { growFins } from './fins/growFins.ts';
 
 /** Surfaces of a body that fur is drawn on. */
 export interface Ground {
@@ -17,4 +18,6 @@ export interface Ground {
 	quadPlacement: Object3D | undefined;
 	/** Factor of the fins' second texture coordinate that makes it 1 at the tips. */
 	finHeights: number;
+	/** Code of the fins, for bodies that have some. */
+	growFins?: typeof growFins | undefined;
 }

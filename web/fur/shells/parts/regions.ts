@@ -1,0 +1,5 @@
+/** Several furs on one body. */
+
+export { default as dissolve } from '../../shaders/hair/regions/dissolve.glsl?raw';
+export { markFurs } from './markFurs.ts';
+export { regionUniforms } from './regionUniforms.ts';
