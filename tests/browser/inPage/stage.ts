@@ -132,7 +132,7 @@ const stage = {
 	/**
 	 * The same view of a model under its lamp and sky, once per setting.
 	 *
-	 * @returns pixels (rgba as floats, premultiplied, base64), and how many shells there were
+	 * @returns pixels (rgba as floats, premultiplied, base64), and how many shells there were, and were drawn
 	 */
 	async pictures(
 		url: string,
@@ -150,8 +150,9 @@ const stage = {
 			combed?: boolean;
 			/** Whether coefficients are a mixture of two mip levels. */
 			mixed?: boolean;
+			merging?: number;
 		}[],
-	): Promise<{ rgba: string; shells: number }[]> {
+	): Promise<{ rgba: string; shells: number; drawn: number }[]> {
 		const studio = new Studio(renderer, await loadFur(url), size, size);
 		const [points] = studio.fur.shells.children;
 		const pictures = settings.map((setting) => {
@@ -171,8 +172,9 @@ const stage = {
 			}
 			studio.fur.length = trim * studio.fur.asset.length;
 			studio.fur.shells.material.lampsPerFragment = lampsPerFragment;
+			studio.fur.shells.merging = setting.merging ?? 0;
 			const rgba = toBase64(new Uint8Array(studio.draw(samples).buffer));
-			return { rgba, shells: studio.fur.shells.shellCount };
+			return { rgba, shells: studio.fur.shells.shellCount, drawn: studio.fur.shells.drawnShells };
 		});
 		studio.dispose();
 		return pictures;

@@ -240,6 +240,11 @@ export class Looks {
 		updateFurs(furs, seconds);
 	}
 
+	/** Draws the hidden shells of all furs as one; see `FurShells.merging`. */
+	merge(share: number): void {
+		for (const { fur } of [...this.#looks, ...this.#leavingLooks]) fur.shells.merging = share;
+	}
+
 	/** Fetches the states of the furs on show. */
 	async loadStates(): Promise<void> {
 		await Promise.all(this.#looks.map(({ fur }) => fur.loadStates()));

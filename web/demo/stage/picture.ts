@@ -9,6 +9,7 @@ import type { Triple } from '../state/view.ts';
 import { OrbitCamera } from './camera.ts';
 import { Frames } from './frames.ts';
 import { textureBytes } from './memory.ts';
+import { Merging } from './merging.ts';
 import type { Overlay } from './overlay.ts';
 import { watchSight, watchSize } from './size.ts';
 import { Stage } from './stage.ts';
@@ -54,6 +55,8 @@ export class Picture {
 	 * @returns milliseconds until the next frame: 0 at once, Infinity none
 	 */
 	animate: (elapsed: number) => number = () => Number.POSITIVE_INFINITY;
+	/** Takes the share of merging of all furs; see `FurShells.merging`. */
+	merge: (share: number) => void = () => {};
 	/** Called when the room of the model has changed. */
 	framed: () => void = () => {};
 	/** Room that the model stands in, undefined for the whole picture; and the one that it is on the way to, if any. */
@@ -65,6 +68,7 @@ export class Picture {
 		rest: () => this.#rest(),
 	});
 	readonly #governor: FurGovernor;
+	readonly #merging = new Merging();
 	readonly #options: PictureOptions;
 	/** True while the canvas has another size than the picture. */
 	#stale = false;
@@ -95,7 +99,10 @@ export class Picture {
 		this.stage.scene.add(this.guides.add(this.lamp));
 		this.timer = new GpuTimer(this.stage.gl);
 		// In time at 60 Hz, with room for the browser's own work; intervals are 17 ms there at best.
-		this.#governor = new FurGovernor(this.timer.works ? { target: 14 } : { target: 20, capped: true });
+		this.#governor = new FurGovernor({
+			merges: true,
+			...(this.timer.works ? { target: 14 } : { target: 20, capped: true }),
+		});
 		watchSize(canvas, () => {
 			this.#stale = true;
 			this.request();
@@ -248,12 +255,14 @@ export class Picture {
 		const taken = timer.works ? time : this.#wait === 0 ? interval : Number.NaN;
 		if (!still) stage.scale = this.#governor.frame(alive ? ALIVE * taken : taken, now, this.#moving);
 		this.#moving = false;
+		const merging = this.#merging.glide(this.#governor.merging, elapsed);
+		this.merge(this.#merging.share);
 		if (this.#visible && !stage.gl.isContextLost()) {
 			if (this.overlay) this.overlay.frame(this.#render, interval);
 			else this.#render();
 		}
 		this.#answer();
-		const gliding = entering || turning || wandering;
+		const gliding = entering || turning || wandering || merging;
 		const moves = gliding || (glowing && !calm) || (!still && now - this.#moved < SETTLING_TIME);
 		this.#wait = moves ? 0 : wait;
 		return this.#wait;
@@ -275,6 +284,7 @@ export class Picture {
 		const room = this.#room;
 		this.#room = undefined;
 		this.stage.scale = 1;
+		this.merge(0);
 		this.guides.visible = false;
 		this.#frame();
 		this.animate(0);

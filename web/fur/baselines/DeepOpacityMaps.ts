@@ -62,7 +62,7 @@ export interface MappedFur {
 /** Largest opacity in a byte, e-foldings; more is invisible. */
 const BYTE_OPACITY = 8;
 /** Uniforms that the maps depend on, beside the light's direction and the fur's transform. */
-const WATCHED = ['furLength', 'furTrim', 'shellCount', 'firstShell', 'tiles', 'density'] as const;
+const WATCHED = ['furLength', 'furTrim', 'shellCount', 'firstShell', 'merged', 'tiles', 'density'] as const;
 const TEXTURES = ['plane0', 'plane1', 'swing', 'stains'] as const;
 const MOVING = ['position', '_fur', '_comb'] as const;
 
@@ -156,7 +156,7 @@ export class DeepOpacityMaps {
 			fur.shells.geometry.instanceCount = 1;
 		};
 		this.#double(fur.shells, layers, this.#opacityScene).onBeforeRender = () => {
-			fur.shells.geometry.instanceCount = Math.ceil(shells.shellCount);
+			fur.shells.geometry.instanceCount = fur.shells.drawnShells;
 		};
 	}
 

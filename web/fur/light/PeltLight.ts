@@ -58,6 +58,11 @@ export class PeltLight {
 		return this.#trim().places(share);
 	}
 
+	/** Share of cut fur's height that is hardly seen; see `hiddenShare`. @param share of the height that is left */
+	hidden(share: number): number {
+		return this.#trim().hidden(share);
+	}
+
 	/** Light slabs as at these places; undefined: at their own. */
 	cut(places: readonly Float64Array[] | undefined): void {
 		if (places) this.#trim().set(places);

@@ -1,5 +1,5 @@
 import { type CompressedArrayTexture, DataTexture, FloatType, RGBAFormat, type Texture } from 'three';
-import { SlabMeans, type Slabs, standIns } from './trim.ts';
+import { hiddenShare, SlabMeans, type Slabs, standIns } from './trim.ts';
 
 /** Lookup table for cut fur: change of the light moments per slab. */
 export class TrimLight {
@@ -7,6 +7,8 @@ export class TrimLight {
 	readonly texture: DataTexture;
 	readonly #slabs: readonly Slabs[];
 	#means: readonly SlabMeans[] | undefined;
+	/** Result of `hidden` for a share. */
+	#hidden = { share: 0, height: 0 };
 
 	/**
 	 * @param planes of coefficients, whose first levels hold `layers` slabs one after the other; of several states only the
@@ -36,6 +38,13 @@ export class TrimLight {
 	/** Places, of each fur, in whole fur with the light that the slabs of cut fur get; see `standIns`. */
 	places(share: number): Float64Array[] {
 		return this.#slabs.map((slabs) => standIns(slabs, share));
+	}
+
+	/** Share of the height below which every fur is hardly seen; see `hiddenShare`. */
+	hidden(share: number): number {
+		if (this.#hidden.share !== share)
+			this.#hidden = { share, height: Math.min(...this.#slabs.map((slabs) => hiddenShare(slabs, share))) };
+		return this.#hidden.height;
 	}
 
 	/** Light the slabs of each fur as at these places. */

@@ -12,6 +12,9 @@ export interface Slabs {
 	layers: number;
 }
 
+/** Share of the view from straight above that goes to hairs that are hardly seen. */
+const HIDDEN = 0.1;
+
 /** Numbers per row of the shaders' table: four RGBA texels. */
 const ROW = 16;
 
@@ -32,8 +35,35 @@ export function standIns(slabs: Slabs, share: number): Float64Array {
 	});
 }
 
+/**
+ * Height below which fur is hardly seen, share of what is left of its height: a single shell can stand for all below.
+ *
+ * @param share of the fur's height that is left, above 0
+ */
+export function hiddenShare(slabs: Slabs, share: number): number {
+	let left = HIDDEN;
+	const parts = seenParts(slabs, share);
+	const k = parts.findIndex((part) => {
+		left -= part;
+		return left < 0;
+	});
+	return k < 0 ? 0 : Math.min((k + 1 + left / (parts[k] as number)) / (slabs.layers * share), 1);
+}
+
 /** Share of the view from above that lies over the middle of each remaining slab. */
-function shareAbove({ planes, scale, layers }: Slabs, share: number): Float64Array {
+function shareAbove(slabs: Slabs, share: number): Float64Array {
+	const seen = seenParts(slabs, share);
+	let above = 0;
+	for (let k = seen.length - 1; k >= 0; k--) {
+		const part = seen[k] as number;
+		seen[k] = above + part / 2;
+		above += part;
+	}
+	return seen;
+}
+
+/** Share of the view from above that each remaining slab has of all of them. */
+function seenParts({ planes, scale, layers }: Slabs, share: number): Float64Array {
 	const { plane, channel } = alphaChannel(scale.length);
 	const bytes = planes[plane] as Uint8Array;
 	const size = Math.floor(bytes.length / 4 / layers);
@@ -50,13 +80,7 @@ function shareAbove({ planes, scale, layers }: Slabs, share: number): Float64Arr
 		}
 	}
 	const all = seen.reduce((sum, part) => sum + part, 0) || 1;
-	let above = 0;
-	for (let k = seen.length - 1; k >= 0; k--) {
-		const part = (seen[k] as number) / all;
-		seen[k] = above + part / 2;
-		above += part;
-	}
-	return seen;
+	return seen.map((part) => part / all);
 }
 
 /** Source of the table, computed once: α-weighted mean of each slab's coefficients, and their pull. */

@@ -1,7 +1,24 @@
-/** Dynamic resolution: as many pixels as a frame's time allows, all of them at rest. */
+/** Dynamic resolution: as many shells and pixels as a frame's time allows, all of them at rest. */
 
 /** Resolution per side, each step with √½ of the pixels of the one before. */
-const STEPS = [1, 2 ** -0.25, 2 ** -0.5, 2 ** -0.75, 0.5] as const;
+const SCALES = [1, 2 ** -0.25, 2 ** -0.5, 2 ** -0.75, 0.5] as const;
+
+/** Share of a frame's time that is left where shells are merged. */
+const MERGED_TIME = 0.8;
+
+/** How a frame is drawn. */
+interface Step {
+	scale: number;
+	merging: 0 | 1;
+	/** Expected share of the time of the first step. */
+	time: number;
+}
+
+const PIXELS: readonly Step[] = SCALES.map((scale) => ({ scale, merging: 0, time: scale * scale }));
+const SHELLS_FIRST: readonly Step[] = [
+	...PIXELS.slice(0, 1),
+	...PIXELS.map(({ scale, time }): Step => ({ scale, merging: 1, time: MERGED_TIME * time })),
+];
 
 /** Frames per window, judged by their median: single hiccups and the gap of a hidden tab don't count. */
 const WINDOW = 9;
@@ -35,6 +52,8 @@ export interface FurGovernorOptions {
 	 * intervals don't show whether a higher resolution has room, so it is tried now and then.
 	 */
 	capped?: boolean;
+	/** Whether shells are merged before pixels are taken away; see `merging`. */
+	merges?: boolean;
 	/** Smallest time between two changes of the resolution, milliseconds. */
 	cooldown?: number;
 	/** Milliseconds without movement after which the picture is drawn at full resolution. */
@@ -51,6 +70,7 @@ export interface FurGovernorOptions {
  * times around the target change nothing, and failed tries become rare.
  */
 export class FurGovernor {
+	readonly #steps: readonly Step[];
 	readonly #target: number;
 	readonly #capped: boolean;
 	readonly #cooldown: number;
@@ -73,7 +93,9 @@ export class FurGovernor {
 	#full = 0;
 	#since = 0;
 
-	constructor({ target = 1000 / 60, capped = false, cooldown = 400, rest = 500 }: FurGovernorOptions = {}) {
+	constructor(options: FurGovernorOptions = {}) {
+		const { target = 1000 / 60, capped = false, merges = false, cooldown = 400, rest = 500 } = options;
+		this.#steps = merges ? SHELLS_FIRST : PIXELS;
 		this.#target = target;
 		this.#capped = capped;
 		this.#cooldown = cooldown;
@@ -82,7 +104,16 @@ export class FurGovernor {
 
 	/** Factor of the resolution, per side: 1, 0.84, 0.71, 0.59 or 0.5. */
 	get scale(): number {
-		return this.#resting ? 1 : (STEPS[this.#level] ?? 1);
+		return this.#resting ? 1 : this.#step.scale;
+	}
+
+	/** Value for `FurShells.merging`: 1 from the first step down on if shells are merged first, else 0. */
+	get merging(): 0 | 1 {
+		return this.#resting ? 0 : this.#step.merging;
+	}
+
+	get #step(): Step {
+		return this.#steps[this.#level] as Step;
 	}
 
 	/**
@@ -151,7 +182,7 @@ export class FurGovernor {
 		this.#late++;
 		if (this.#late === 1 && median <= FAR_LATE * this.#target) return;
 		const rash = now - this.#raised < RASH;
-		if (this.#level === STEPS.length - 1) {
+		if (this.#level === this.#steps.length - 1) {
 			if (this.#since > DESCENT || median < WORTH * this.#full) return;
 			this.#heldUntil = now + HOPELESS_WAIT;
 			this.#change(0, now);
@@ -181,12 +212,10 @@ export class FurGovernor {
 		this.#change(level, now);
 	}
 
-	/** Highest resolution expected in time, if time is proportional to pixels. */
+	/** First step expected in time, if time is proportional to pixels. */
 	#fitting(median: number): number {
-		const own = STEPS[this.#level] ?? 1;
-		for (let level = 0; level < STEPS.length; level++)
-			if (median * ((STEPS[level] ?? 1) / own) ** 2 <= ROOM * this.#target) return level;
-		return STEPS.length - 1;
+		const level = this.#steps.findIndex(({ time }) => (median * time) / this.#step.time <= ROOM * this.#target);
+		return level < 0 ? this.#steps.length - 1 : level;
 	}
 
 	/** Learn from frames at rest: full resolution that is in time at rest is in time in motion. */

@@ -25,6 +25,8 @@ export interface FurMaterialParameters extends ShaderMaterialParameters {
 	furLength?: number;
 	/** Shells of one body; may lie between two whole numbers. */
 	shellCount?: number;
+	/** Lowest shells that one is drawn for; FurShells sets it for every picture. @internal */
+	merged?: number;
 	/** Coverage below which a fragment is dropped, 0..1; FurShells sets it for every picture. */
 	alphaCut?: number;
 	/** {@inheritDoc FurMaterial.bodyRadius} */
@@ -62,6 +64,7 @@ export interface FurMaterialParameters extends ShaderMaterialParameters {
 const MIRRORED = [
 	'furLength',
 	'shellCount',
+	'merged',
 	'alphaCut',
 	'crispness',
 	'skinColor',
@@ -84,6 +87,8 @@ export class FurMaterial extends PeltMaterial {
 	declare furLength: number;
 	/** {@inheritDoc FurMaterialParameters.shellCount} */
 	declare shellCount: number;
+	/** {@inheritDoc FurMaterialParameters.merged} @internal */
+	declare merged: number;
 	/** {@inheritDoc FurMaterialParameters.alphaCut} */
 	declare alphaCut: number;
 	/** {@inheritDoc FurMaterialParameters.crispness} @internal */
@@ -128,6 +133,7 @@ export class FurMaterial extends PeltMaterial {
 					furLength: { value: asset.length },
 					shellCount: { value: asset.layers },
 					firstShell: { value: 0 },
+					merged: { value: 0 },
 					drift: { value: furs.flatMap(({ drift }) => driftKnots(drift)) },
 					lean: { value: leanOf(asset) },
 					bent: { value: furs.flatMap(bentWeights) },

@@ -153,6 +153,11 @@ export class PeltMaterial extends ShaderMaterial {
 		this.#switch('TRIMMED', share < 1);
 	}
 
+	/** Share of the fur's height, from the skin, that is hardly seen; less where fur is thinner than baked. @internal */
+	get hidden(): number {
+		return this.#light.hidden(this.trim) * Math.min(this.density, 1);
+	}
+
 	/** Switch to the cheaper sum for lamps of one hue. */
 	override onBeforeRender(_renderer: WebGLRenderer, scene: Scene, _camera: Camera): void {
 		followHue(this, scene);

@@ -31,8 +31,8 @@ export function copyLook(from: Looking, to: Looking): void {
 	Object.assign(to.material, Object.fromEntries(HAIRS.map((name) => [name, from.material[name]])));
 	for (const name of COLOURS) to.material[name] = new Color().copy(from.material[name]);
 	to.length = from.length;
-	const { automatic, coarseness, shellCount, castShadow, receiveShadow } = from.shells;
-	Object.assign(to.shells, { coarseness, castShadow, receiveShadow });
+	const { automatic, coarseness, merging, shellCount, castShadow, receiveShadow } = from.shells;
+	Object.assign(to.shells, { coarseness, merging, castShadow, receiveShadow });
 	if (!automatic) to.shells.shellCount = shellCount;
 	if (!from.fins || !to.fins) return;
 	to.fins.visible = from.fins.visible;

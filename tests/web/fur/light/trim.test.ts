@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { SlabMeans, type Slabs, standIns } from '../../../../web/fur/light/trim.ts';
+import { hiddenShare, SlabMeans, type Slabs, standIns } from '../../../../web/fur/light/trim.ts';
 
 const LAYERS = 4;
 const TEXELS = 9; // of a slab
@@ -33,6 +33,29 @@ function changed(table: Float32Array, slab: number, moments: readonly number[]):
 	const by = dot(six(8), moments);
 	return moments.map((m, i) => m + (six(0)[i] ?? 0) * by);
 }
+
+describe('hidden fur', () => {
+	/** Fur of one texel a slab, of this coverage, lowest first. */
+	const fur = (...coverage: number[]): Slabs => ({
+		planes: [Uint8Array.from(coverage.flatMap((alpha) => [0, 0, 0, 255 * alpha]))],
+		scale: [1, 1, 1],
+		bias: [0, 0, 0],
+		layers: coverage.length,
+	});
+
+	it('ends where a tenth of the view from above is left', () => {
+		// The slabs have 0, .2, 0 and .8 of the view: half of the second one is hidden.
+		expect(hiddenShare(fur(0, 1, 0, 0.8), 1)).toBeCloseTo(1.5 / 4, 9);
+		expect(hiddenShare(fur(1, 1, 1, 1), 1)).toBeCloseTo(3.1 / 4, 9);
+		expect(hiddenShare(fur(1, 0, 0, 0), 1)).toBeCloseTo(0.1 / 4, 9);
+	});
+
+	it('is less of cut fur, whose lowest hairs have nothing above them', () => {
+		const dense = fur(0.6, 0.6, 0.6, 0.6);
+		expect(2 * hiddenShare(dense, 0.5)).toBeLessThan(4 * hiddenShare(dense, 1));
+		expect(hiddenShare(fur(0, 0, 0, 1), 0.5)).toBe(0);
+	});
+});
 
 describe('cut fur', () => {
 	it('has each slab stand in for the one in whole fur above which as much is seen, as furbake trim has it', () => {

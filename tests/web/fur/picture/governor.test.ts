@@ -197,3 +197,30 @@ it('moves in steps of √½ of the pixels', () => {
 	}
 	expect([...seen]).toEqual([1, 0.84, 0.71, 0.59, 0.5]);
 });
+
+describe('with shells that may be merged', () => {
+	/** What is drawn after two seconds of frames of such a time, of which merging saves a quarter. */
+	const drawn = (time: number, merges: boolean) => {
+		const one = new Machine({ merges });
+		one.run(2, (scale) => time * scale ** 2 * (one.governor.merging ? 0.75 : 1));
+		return { merging: one.governor.merging, scale: one.scale };
+	};
+
+	it('merges them before it takes pixels away, and fewer of those', () => {
+		expect(drawn(9, true)).toEqual({ merging: 0, scale: 1 });
+		expect(drawn(18, true)).toEqual({ merging: 0, scale: 1 });
+		expect(drawn(19, true).merging).toBe(1);
+		expect(drawn(30, true).merging).toBe(1);
+		expect(drawn(30, true).scale).toBeGreaterThan(drawn(30, false).scale);
+		expect(drawn(30, false).merging).toBe(0);
+	});
+
+	it('draws all of them at rest', () => {
+		const one = new Machine({ merges: true });
+		one.run(2, pixels(17.9));
+		one.run(2, pixels(30));
+		expect(one.governor.merging).toBe(1);
+		one.run(2, pixels(30), false);
+		expect([one.governor.merging, one.scale]).toEqual([0, 1]);
+	});
+});

@@ -12,7 +12,10 @@ flat out uint vDetail; // two halves: alphaCut, X of crispness
 
 uniform float tiles; // texture coordinates → tiles
 uniform float shellCount; // n of one body, or the largest of many; may be fractional
-uniform int firstShell; // first shell that is drawn
+uniform int firstShell; // first shell that is drawn, of those left by merging
+#ifndef BODIES
+uniform float merged; // lowest shells that one is drawn for; where it is broken two share them
+#endif
 
 #define FUR_SLABS (FURS * LAYERS) // slabs of all furs in one state
 #ifdef WET
@@ -102,7 +105,8 @@ ShellPoint shellPoint() {
 	vShells = bodyDetail.x;
 	vDetail = packHalf2x16(bodyDetail.yz);
 #else
-	float i = float(firstShell + gl_InstanceID), count = shellCount;
+	float below = max(merged - 1.0, 0.0), lowest = floor(below);
+	float i = float(firstShell + gl_InstanceID) + lowest, count = shellCount;
 #endif
 	point.there = i < count;
 	// Shells lie in the middle of their share of the fur; a fractional n leaves the outermost a smaller share.
@@ -127,7 +131,12 @@ ShellPoint shellPoint() {
 #endif
 	vec2 drifted = driftAt(point.s);
 	vAt = vec3(uv * furTiles - (drifted - driftKnot(slab + 1)), float(slab + furRegion * LAYERS));
-	vWeight = _fur.x * FUR_SHARE * share / sharesOf(slab, count);
+	float slabs = share / sharesOf(slab, count);
+#ifndef BODIES
+	float many = (lowest + 1.0) * SLABS / count;
+	if (below > 0.0 && i < lowest + 2.0) slabs = i == lowest ? many * (lowest + 1.0 - below) : slabs + many * (below - lowest);
+#endif
+	vWeight = _fur.x * FUR_SHARE * slabs;
 #ifdef PARTED
 	drifted *= furWidth;
 	vLowest = _region.x - dot(regionSlope.xy, drifted) / tiles;
