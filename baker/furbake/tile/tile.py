@@ -9,7 +9,9 @@ from functools import lru_cache
 from typing import Any
 
 from furbake.options import BakeOptions
+from furbake.pelt.above import as_seen
 from furbake.pelt.bent import fit_bends
+from furbake.pelt.curves import Curves
 from furbake.pelt.eye import EyeLaw, fit_eye
 from furbake.pelt.hairs.states import Fur, chosen, in_state
 from furbake.pelt.hairs.strands import Strands, grow
@@ -70,17 +72,21 @@ class Tile:
         """Pelts of all states; the first has the laws of bent hairs and of light and eye."""
         (pelt, figures), *others = fit_pelts(samples, self.options)
         with ThreadPoolExecutor(1) as beside:  # each of the two has gaps in which a core would wait
-            law = beside.submit(self._eye, pelt)
+            seen = beside.submit(self._seen, pelt)
             bent = None if self.options.flat else fit_bends(pelt, self.strands, self.options.coat, step)
-            eye = law.result()
+            curves, eye = seen.result()
         pelt = replace(pelt, bent=bent)
         if eye is not None:
             pelt = replace(pelt, eye=eye.weights, surge=eye.surge)
-        return [(pelt, figures), *others]
+        return [(replace(one, curves=curves), of_it) for one, of_it in [(pelt, figures), *others]]
 
-    def _eye(self, pelt: Pelt) -> EyeLaw | None:
-        options = self.options
-        return None if options.curves == "none" else fit_eye(pelt, self.strands, options.coat, flat=options.flat)
+    def _seen(self, pelt: Pelt) -> tuple[Curves | None, EyeLaw | None]:
+        """Mean curves of the body as it is seen, and the law of light and eye beside them."""
+        if pelt.curves is None:
+            return None, None
+        strands, options = self.strands, self.options
+        curves = pelt.curves if options.flat else as_seen(pelt, strands, options.coat)
+        return curves, fit_eye(replace(pelt, curves=curves), strands, options.coat, flat=options.flat)
 
     def fit_fins(self, dry: Volume, fitted: Fitted) -> Fitted:
         """The same pelts with their fins."""
