@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +20,7 @@ import numpy as np
 import OpenImageIO as oiio  # noqa: N813 — as its own documentation spells it
 from numpy.typing import NDArray
 
+from furbake.cores import cores
 from furbake.pelt.pelt import FinPelt, Pelt
 from furbake.surface.files import check_regular
 from furbake.surface.limits import Budget, limits
@@ -170,22 +172,19 @@ def _write(path: Path, spec: oiio.ImageSpec, pixels: NDArray[Any]) -> None:
 
 def write_planes(folder: Path, pelt: Pelt, prefix: str = "") -> list[str]:
     """Write the images of a pelt, whose names begin with `prefix`; their names in the order of `images`."""
-    written: list[str] = []
+    images: dict[str, tuple[Bytes, bool]] = {}
     for part, planes in (("", pack(pelt)), ("fin-", None if pelt.fin is None else pack_fin(pelt.fin))):
         if planes is None:
             continue
         stem = "fin" if part else "plane"
-        images = {f"{prefix}{stem}{i}.png": pixels for i, pixels in enumerate(planes.coefficients)}
-        for name, pixels in images.items():
-            write_png(folder / name, pixels)
-        written += images
+        images |= {f"{prefix}{stem}{i}.png": (pixels, False) for i, pixels in enumerate(planes.coefficients)}
         if planes.colour is not None:
-            written.append(f"{prefix}{part}colour.png")
-            write_png(folder / written[-1], planes.colour, srgb=True)
+            images[f"{prefix}{part}colour.png"] = planes.colour, True
         if planes.direction is not None:
-            written.append(f"{prefix}{part}direction.png")
-            write_png(folder / written[-1], planes.direction)
-    return written
+            images[f"{prefix}{part}direction.png"] = planes.direction, False
+    with ThreadPoolExecutor(cores()) as workers:
+        list(workers.map(lambda name: write_png(folder / name, *images[name]), images))
+    return list(images)
 
 
 def read_png(path: Path) -> Bytes:

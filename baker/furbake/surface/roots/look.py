@@ -28,27 +28,38 @@ class Points:
     shares: Floats
 
 
-def colours_at(surface: Surface, points: Points) -> Floats:
-    """(n, 3) linear base colours of the surface's skin. Colours of pictures are those of the texels inside of faces."""
-    colour = np.ones((len(points.face), 3))
-    wanted: dict[Picture, list[tuple[Skin, Ints, Points]]] = {}
-    for piece, rows, mine in _by_piece(surface, points):
-        colour[rows] *= piece.material.factor[:3]
-        if piece.colour is not None:
-            corners = piece.colour[piece.faces[mine.face], :3]
-            colour[rows] *= np.einsum("nc,nck->nk", mine.shares, corners)
-        if piece.uv is not None and piece.material.picture is not None:
-            wanted.setdefault(piece.material.picture, []).append((piece, rows, mine))
-    for picture, parts in wanted.items():
-        pixels = decode(picture)
-        if pixels is None:
-            continue
-        pixels = spread(pixels[..., :3], [_coordinates(piece, np.arange(len(piece.faces))) for piece, _, _ in parts])
-        for piece, rows, mine in parts:
+class BaseColours:
+    """Base colours of a skin. Its pictures are decoded once; between their faces they have the colours inside."""
+
+    def __init__(self, surface: Surface) -> None:
+        self.surface = surface
+        faces: dict[Picture, list[Floats]] = {}
+        for piece in surface.skin:
+            if piece.uv is not None and piece.material.picture is not None:
+                faces.setdefault(piece.material.picture, []).append(_coordinates(piece, np.arange(len(piece.faces))))
+        decoded = {picture: decode(picture) for picture in faces}
+        self.pixels = {
+            picture: spread(pixels[..., :3], faces[picture])
+            for picture, pixels in decoded.items()
+            if pixels is not None
+        }
+
+    def at(self, points: Points) -> Floats:
+        """(n, 3) linear base colours."""
+        colour = np.ones((len(points.face), 3))
+        for piece, rows, mine in _by_piece(self.surface, points):
+            material = piece.material
+            colour[rows] *= material.factor[:3]
+            if piece.colour is not None:
+                corners = piece.colour[piece.faces[mine.face], :3]
+                colour[rows] *= np.einsum("nc,nck->nk", mine.shares, corners)
+            if piece.uv is None or material.picture not in self.pixels:
+                continue
+            pixels = self.pixels[material.picture]
             for some in np.array_split(np.arange(len(rows)), len(rows) // AT_ONCE + 1):
                 uv = np.einsum("nc,nck->nk", mine.shares[some], _coordinates(piece, mine.face[some]))
-                colour[rows[some]] *= sample_picture(pixels, uv, piece.material.wrap, LINEAR)
-    return colour
+                colour[rows[some]] *= sample_picture(pixels, uv, material.wrap, LINEAR)
+        return colour
 
 
 def spread(pixels: Bytes, coordinates: list[Floats]) -> Bytes:

@@ -12,7 +12,7 @@ from furbake.surface.colours import Bytes, smaller, srgb_bytes
 from furbake.surface.material import Picture
 from furbake.surface.mesh import Surface
 from furbake.surface.roots.layout import laid_out
-from furbake.surface.roots.look import Points, colours_at, nearest_on_skin, on_skin
+from furbake.surface.roots.look import BaseColours, Points, nearest_on_skin, on_skin
 from furbake.surface.roots.raster import drawn
 from furbake.surface.soup import Flags, Floats
 
@@ -55,7 +55,7 @@ def _drawn(skin: Surface, ground: Surface, charts: Charts, uv: Floats, shape: tu
     face, row, column, shares = (np.concatenate(found) for found in zip(*parts, strict=True))
     corners = charts.source[charts.faces]
     same = on_skin(skin, corners) if ground is skin else None
-    total = np.zeros((len(face), 3))
+    colours_of, total = BaseColours(skin), np.zeros((len(face), 3))
     steps = (np.arange(WITHIN) + 0.5) / WITHIN - 0.5
     for aside in ((x, y) for x in steps for y in steps):
         # Beside the middle, but never beyond the face: what lies there may be another part of the model's picture.
@@ -65,7 +65,7 @@ def _drawn(skin: Surface, ground: Surface, charts: Charts, uv: Floats, shape: tu
             points = nearest_on_skin(skin, np.einsum("nc,nck->nk", held, ground.vertices[corners[face]]))
         else:
             points = Points(same[0][face], np.take_along_axis(held, same[1][face], axis=1))
-        total += colours_at(skin, points)
+        total += colours_of.at(points)
     colours = np.zeros((*shape, 3))
     colours[row, column] = total / WITHIN**2
     known = np.zeros(shape, dtype=bool)

@@ -20,7 +20,7 @@ from furbake.surface.mesh import Surface, simplify
 from furbake.surface.place.fins import build_fins
 from furbake.surface.place.vertex_fur import VertexFur
 from furbake.surface.roots.layout import laid_out, patches_of
-from furbake.surface.roots.look import colours_at, nearest_on_skin, spread
+from furbake.surface.roots.look import BaseColours, nearest_on_skin, spread
 from furbake.surface.roots.picture import picture_of_roots
 from furbake.surface.roots.raster import drawn
 from furbake.surface.shapes import builtin
@@ -129,7 +129,7 @@ def test_what_lies_between_islands_does_not_show() -> None:
     skin = Skin(Material(picture=as_png(pixels)), np.arange(3), np.array([[0, 1, 2]]), corners[0])
     surface = Surface(np.eye(3), np.array([[0, 1, 2]]), np.eye(3), skin=(skin,))
     shares = random_places(1)[1]
-    green = colours_at(surface, nearest_on_skin(surface, shares))
+    green = BaseColours(surface).at(nearest_on_skin(surface, shares))
     np.testing.assert_allclose(green, np.tile([0, 1, 0], (len(shares), 1)), atol=1e-9)
     assert (spread(pixels, [corners]) != pixels).any()
 
