@@ -147,11 +147,11 @@ def test_the_bunnys_face_is_read() -> None:
     face = read_features(Path(__file__).parents[4] / "public" / "models" / "bunny.features.json")
     assert [feature.name for feature in face[:3]] == ["eye right", "eye left", "nose"]
     assert all(feature.on for feature in face[:3])
-    # Dark rims lie around the eyes, no farther forward; a mouth under the nose.
+    # Dark rims peep out beside the eyes; a mouth under the nose.
     named = {feature.name: feature for feature in face}
     for side in ("right", "left"):
         rim, eye = named[f"rim {side}"], named[f"eye {side}"]
-        assert min(rim.radii[:2]) > max(eye.radii[:2])
+        assert 0.9 < min(rim.radii[:2]) / max(eye.radii[:2]) < 1.1
         assert max(rim.colour) < 0.02
     mouth = [feature for feature in face if feature.name.startswith("mouth")]
     assert len(mouth) == 3
