@@ -69,7 +69,7 @@ const necks: { lamp: BodyJob['cells'][0]['lamp']; boxes: [shaded: Box, lit: Box]
 			[72, 108, 100, 122],
 			[130, 95, 165, 125],
 		],
-		traced: 0.105 / 1.245,
+		traced: 0.0197 / 1.2687,
 	},
 	{
 		lamp: [-0.74864, 0.65094, -0.12574],
@@ -77,7 +77,7 @@ const necks: { lamp: BodyJob['cells'][0]['lamp']; boxes: [shaded: Box, lit: Box]
 			[95, 80, 125, 130],
 			[50, 105, 75, 125],
 		],
-		traced: 0.006 / 0.862,
+		traced: 0.0065 / 0.9174,
 	},
 ];
 

@@ -82,7 +82,7 @@ function carry(fur: Fur): void {
 		(_, i) => 0.3 * (max.x - min.x) * (weights[4 * Math.floor(i / 3) + 1] as number),
 	);
 	geometry.morphAttributes.position = [new BufferAttribute(way, 3)];
-	Object.assign(fur.ground.skin, { pose: { influences: [0], release() {} } });
+	Object.assign(fur.ground.skin, { pose: { influences: [0], morphsOf() {}, release() {} } });
 }
 
 /** Gusts, a stroke and a body that is carried about. @param frame of 60 a second */

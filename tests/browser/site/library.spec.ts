@@ -20,7 +20,7 @@ const npm = (...args: string[]) =>
  * Bytes of the loader in an app, minified, each file through gzip: of the app itself, and of all files that are there once a
  * model is shown, without and with its fins, with joints besides, and with the checks of a model.
  */
-const BYTES = { app: 4.5e3, still: 42e3, fins: 47.5e3, character: 50.5e3, checked: 64e3 };
+const BYTES = { app: 4.5e3, still: 42.5e3, fins: 47.5e3, character: 50.5e3, checked: 64e3 };
 
 /** Bytes of `<fur-view>` with three.js inside, through gzip. */
 const VIEW = 261e3;
@@ -207,23 +207,24 @@ test('the example, built by another app, grows fur under the pointer as lamp', a
 		build: { modulePreload: { polyfill: false }, chunkSizeWarningLimit: 1200 },
 	});
 	host = await serveFolder(join(app, 'dist'), '/');
+	const slow = { timeout: 60_000 };
 	/** The picture once the model is in it. */
 	const shown = async () => {
 		await page.goto(host.address);
 		await page.locator('canvas').waitFor();
 		await page.mouse.move(20, 40);
-		await expect.poll(async () => covered(await picture(page))).toBeGreaterThan(0.1);
+		await expect.poll(async () => covered(await picture(page)), slow).toBeGreaterThan(0.1);
 		return picture(page);
 	};
 	const furry = await shown();
 	await page.mouse.move(220, 40);
-	await expect.poll(async () => difference(furry, await picture(page))).toBeGreaterThan(2);
+	await expect.poll(async () => difference(furry, await picture(page)), slow).toBeGreaterThan(2);
 
 	await page.route('**/model.gltf', async (route) => {
 		const { extensions: _, ...plain } = await (await route.fetch()).json();
 		await route.fulfill({ json: plain });
 	});
-	expect(difference(furry, await shown()), 'from the skin alone').toBeGreaterThan(5);
+	expect(difference(furry, await shown()), 'from the skin alone').toBeGreaterThan(3.5);
 });
 
 /** Share of the picture that is not its ground. */

@@ -136,14 +136,14 @@ export class FurShells extends PosedMesh<InstancedBufferGeometry, FurMaterial> {
 	/** Draw the hidden ones as one. */
 	#merge(): void {
 		const merged = this.merging && this.merging * this.#own.hidden * this.shellCount;
-		if (merged === this.material.merged) return;
-		this.material.merged = merged;
+		if (merged === this.#own.merged) return;
+		this.#own.merged = merged;
 		this.geometry.instanceCount = this.drawnShells;
 	}
 
 	/** Number of shells that are drawn: fewer than `shellCount` where some are merged. */
 	get drawnShells(): number {
-		return Math.ceil(this.shellCount) - Math.floor(Math.max(this.material.merged - 1, 0));
+		return Math.ceil(this.shellCount) - Math.floor(Math.max(this.#own.merged - 1, 0));
 	}
 
 	/** Set number of shells, alpha cut and crispness for this picture. */
