@@ -39,7 +39,7 @@ FLOORS: dict[str, set[str]] = {
     "surface/place": {f"surface/{name}" for name in ("mesh", "charts", "colours", "repair", "lay", "files")},
     "surface/roots": {f"surface/{name}" for name in ("mesh", "charts", "colours", "material", "repair", "soup")},
     "surface/skeleton": {f"surface/{name}" for name in ("mesh", "soup", "files", "repair", "rig", "lay", "place")},
-    "asset": {"pelt", "surface"},
+    "asset": {"pelt", "surface", "cores"},
     "options": {"pelt", "lazy", "surface/files", "surface/limits", "surface/soup"},
     "rti": {"asset", "pelt", "surface", "daylight"},
     "identity": {"options", "surface", "rti"},
