@@ -102,7 +102,7 @@ def grey_copy(asset: Asset, folder: Path, albedo: float, skin: float) -> None:
             primitive["attributes"].pop("COLOR_0", None)
     for name in ("textures", "samplers"):
         document.pop(name, None)
-    for own in (fur, *fur.get("regions", {"furs": []})["furs"]):
+    for own in _furs(fur):
         pelt = own["pelts"][0]
         own["pelts"] = [pelt]
         if "multiple" in pelt:
@@ -130,7 +130,7 @@ def coloured_copy(asset: Asset, folder: Path) -> None:
     document: dict[str, Any] = json.loads(json.dumps(asset.document))
     fur = next(iter(value for key, value in document["extensions"].items() if key == "FUR_ptm_shells"))
     images: set[int] = set()
-    for own in (fur, *fur.get("regions", {"furs": []})["furs"]):
+    for own in _furs(fur):
         pelt = own["pelts"][0]
         own["pelts"] = [pelt]
         for part in (pelt, pelt.get("fin", {})):
@@ -145,6 +145,11 @@ def coloured_copy(asset: Asset, folder: Path) -> None:
     _plain(document, 1.0)
     (folder / document["buffers"][0]["uri"]).write_bytes(asset.data)
     (folder / "model.gltf").write_text(json.dumps(document), "utf-8")
+
+
+def _furs(fur: dict[str, Any]) -> list[dict[str, Any]]:
+    """The coat and the furs of its regions, as an asset stores them."""
+    return [fur, *fur.get("regions", {"furs": []})["furs"]]
 
 
 def _plain(document: dict[str, Any], skin: float) -> None:
