@@ -81,8 +81,9 @@ def curve_values(curves: Curves, light: np.ndarray, along: float, beta: float) -
     z = light[2]
     x = 6 + 10 * np.sqrt(z) if z >= 0 else 6 * max(1 + z * (beta + 1) / np.sqrt(2 * beta + 1), 0.0)
     knot = min(int(x), 15)
-    place = min(max(np.log2(beta) / 2, 0.0), 2.0)
-    body = min(int(place), 1)
+    body = 0 if beta < 4 else 1
+    near, far = 1 / (4**body + 1), 1 / (4 ** (body + 1) + 1)
+    place = body + (near - 1 / (min(max(beta, 1), 16) + 1)) / (near - far)
     out = []
     for even, lean in zip(curves.even, curves.along, strict=True):
         value = 0.0

@@ -17,7 +17,11 @@ from furbake.pelt.texels.basis import Functions, harmonics, held
 Array = NDArray[np.float64]
 
 RADII = (1.0, 4.0, 16.0)
-"""β of the tables; other bodies are mixed from them in proportion to log β, and none is out of their range."""
+"""β of the tables; other bodies are mixed from two of them in proportion to 1/(β + 1), and none is out of their range.
+
+Beside light transport itself at β = 8, the mean light of what is seen from above is .98 to 1.03 of the measured down to
+the horizon, and 1.0 to 1.1 below it; mixed in proportion to log β it was 1.05 to 1.14, and 1.2 to 1.3.
+"""
 
 KNOTS = 17
 """Knots of a table: x = 0, 1 ... 16 of `abscissa`."""
@@ -54,8 +58,8 @@ def hats(x: Array) -> Array:
 
 def shares(beta: float) -> Array:
     """Weights of the tables of `RADII` for a body of radius β, (3,)."""
-    logs = np.log(RADII)
-    return np.array([np.interp(np.log(beta), logs, row) for row in np.eye(len(RADII))])
+    places = -1 / (np.array(RADII) + 1)
+    return np.array([np.interp(-1 / (beta + 1), places, row) for row in np.eye(len(RADII))])
 
 
 @dataclass(frozen=True)

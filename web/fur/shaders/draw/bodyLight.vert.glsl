@@ -34,7 +34,7 @@ void main() {
 #endif
 	} else {
 #ifdef SKY
-		packSky(skyAt(point, bending), evenSky(point, skyRadius(point)), vEntry0, vEntry1, vEntry2);
+		packSky(skyAt(point, bending), evenSky(point, skyPlace(point)), vEntry0, vEntry1, vEntry2);
 #endif
 	}
 	gl_PointSize = 1.0;

@@ -44,27 +44,32 @@ mat3 threeOfSlab(FurPoint point, int texel) {
 	return mat3(ofSlab(point, texel).xyz, ofSlab(point, texel + 1).xyz, ofSlab(point, texel + 2).xyz);
 }
 
-// log₄ β of the body for light from all around, by its principal curvatures: mean over directions.
-float skyRadius(FurPoint point) {
+// Place of a body among the tables, 0 at β = 1, 1 at 4, 2 at 16: linear in 1/(β + 1) between two of them, which is `share`.
+float tablePlace(float share) {
+	return clamp((1.0 / 2.0 - share) / (1.0 / 2.0 - 1.0 / 5.0), 0.0, 1.0) + clamp((1.0 / 5.0 - share) / (1.0 / 5.0 - 1.0 / 17.0), 0.0, 1.0);
+}
+
+// That place for light from all around, by the principal curvatures: mean over directions.
+float skyPlace(FurPoint point) {
 	vec3 bend = point.curvature;
 	float mean = 0.5 * (bend.x + bend.y), apart = length(vec2(0.5 * (bend.x - bend.y), bend.z));
-	vec2 roots = sqrt(clamp(vec2(mean + apart, mean - apart), 1.0 / 16.0, 1.0));
-	return -log2(0.5 * (roots.x + roots.y));
+	vec2 bends = clamp(vec2(mean + apart, mean - apart), 1.0 / 16.0, 1.0);
+	return tablePlace(0.5 * dot(bends / (1.0 + bends), vec2(1.0)));
 }
 
-vec4 ofSky(FurPoint point, int texel, float radius) {
-	int smaller = int(min(radius, 1.0));
+vec4 ofSky(FurPoint point, int texel, float place) {
+	int smaller = int(min(place, 1.0));
 	texel += RADIUS * smaller;
-	return mix(ofSlab(point, texel), ofSlab(point, texel + RADIUS), radius - float(smaller));
+	return mix(ofSlab(point, texel), ofSlab(point, texel + RADIUS), place - float(smaller));
 }
 
-#define ENVIRONMENT(texel) mat3x4(ofSky(point, texel, radius), ofSky(point, texel + 1, radius), ofSky(point, texel + 2, radius))
+#define ENVIRONMENT(texel) mat3x4(ofSky(point, texel, place), ofSky(point, texel + 1, place), ofSky(point, texel + 2, place))
 #define ENVIRONMENT_LOW0 ENVIRONMENT(HARMONICS0_LOW)
 #define ENVIRONMENT_HIGH0 ENVIRONMENT(HARMONICS0_HIGH)
 #define ENVIRONMENT_LOW1 ENVIRONMENT(HARMONICS1_LOW)
 #define ENVIRONMENT_HIGH1 ENVIRONMENT(HARMONICS1_HIGH)
-#define ENVIRONMENT_LOW2 ofSky(point, HARMONIC2_LOW, radius).xyz
-#define ENVIRONMENT_HIGH2 ofSky(point, HARMONIC2_HIGH, radius).xyz
+#define ENVIRONMENT_LOW2 ofSky(point, HARMONIC2_LOW, place).xyz
+#define ENVIRONMENT_HIGH2 ofSky(point, HARMONIC2_HIGH, place).xyz
 #define POLYNOMIAL_LOW(part) threeOfSlab(point, POLYNOMIALS + 3 * part)
 #define POLYNOMIAL_HIGH(part) threeOfSlab(point, POLYNOMIALS + 9 + 3 * part)
 
@@ -85,7 +90,7 @@ float horizonDip(FurPoint point, float radius) {
 // Mean curves under a light. height: light over the horizon, −1..1. left: see horizonShare. lightTS: clamped to the horizon.
 vec4 curvesAt(float height, float left, float radius, vec3 lightTS) {
 	float x = height < 0.0 ? 6.0 * left : 6.0 + 10.0 * sqrt(height);
-	vec2 at = vec2((x + 0.5) / 17.0, 0.5 * log2(radius) + 0.5);
+	vec2 at = vec2((x + 0.5) / 17.0, tablePlace(1.0 / (radius + 1.0)) + 0.5);
 #ifdef FIN
 	float along = leanTS().x * lightTS.x; // the lean's part across a fin points to either side
 #else
@@ -118,8 +123,8 @@ vec3 lampTinge(FurPoint point, vec3 gain, float radius, float height, float nap)
 	return mix(vec3(1.0), gain, clamp(dot(ofSlab(point, SHARES).xyz, terms) / nap, 0.0, 1.0));
 }
 
-// Factor of the sky's light. radius: see skyRadius
-vec3 skyTinge(FurPoint point, vec3 gain, float radius, float nap) {
-	return mix(vec3(1.0), gain, min(ofSky(point, HARMONIC2_LOW, radius).w / nap, 1.0));
+// Factor of the sky's light. place: see skyPlace
+vec3 skyTinge(FurPoint point, vec3 gain, float place, float nap) {
+	return mix(vec3(1.0), gain, min(ofSky(point, HARMONIC2_LOW, place).w / nap, 1.0));
 }
 #endif

@@ -31,8 +31,8 @@ float radiusTowards(FurPoint point, vec3 lightTS) {
 	return bodyRadius;
 }
 
-float skyRadius(FurPoint point) {
-	return bodyRadius;
+float skyPlace(FurPoint point) {
+	return 0.0;
 }
 
 // Dip of the horizon at a point: −sin of the lowest visible elevation.

@@ -106,7 +106,7 @@ vec2 seenSky(FurPoint point, Quadratic seen, Radiance around) {
 struct Sky {
 	Moments moments;
 	float nap; // share for the eye
-	float radius; // see skyRadius
+	float place; // see skyPlace
 };
 
 // Moments of the radiance R(ω) = Σ_j radiance[j]·Y_j(ω) in the tangent frame (columns T, B, N), from three's ambient,
@@ -114,7 +114,7 @@ struct Sky {
 Sky skyAt(FurPoint point, Bending bending) {
 	Quadratic seen = seenByEye(point, eyeAt(point, bending));
 	Moments moments;
-	float radius = skyRadius(point), nap = 1.0;
+	float place = skyPlace(point), nap = 1.0;
 	mat3 frameVS = point.frameVS;
 	const float Y0 = 0.28209479, Y1 = 0.48860251;
 	vec3 constant = ambientLightColor;
@@ -175,16 +175,16 @@ Sky skyAt(FurPoint point, Bending bending) {
 #else
 	if (bending.there) addChange(moments, point, around, bending, seen, 1.0);
 #endif
-	return Sky(moments, nap, radius);
+	return Sky(moments, nap, place);
 }
 
 #ifdef MEAN_CURVES
 // Response of the slab to an even sky. It varies most from slab to slab; what is left changes slowly.
-float evenSky(FurPoint point, float radius) {
-	return max(ofSky(point, HARMONICS0_LOW, radius).x, 1e-6);
+float evenSky(FurPoint point, float place) {
+	return max(ofSky(point, HARMONICS0_LOW, place).x, 1e-6);
 }
 
-// Bits of an entry of BodyLight: moments over `even` and nap as halves of a factor, then that factor, nap and radius.
+// Bits of an entry of BodyLight: moments over `even` and nap as halves of a factor, then that factor, nap and place.
 void packSky(Sky sky, float even, out uvec4 first, out uvec4 second, out uvec4 third) {
 	mat3 low = sky.moments.low, high = sky.moments.high;
 	vec3 largest = max(max(abs(low[0]), abs(low[1])), abs(low[2]));
@@ -194,7 +194,7 @@ void packSky(Sky sky, float even, out uvec4 first, out uvec4 second, out uvec4 t
 	high /= factor;
 	first = uvec4(packHalf2x16(low[0].xy), packHalf2x16(low[1].xy), packHalf2x16(low[2].xy), packHalf2x16(vec2(low[0].z, low[1].z)));
 	second = uvec4(packHalf2x16(high[0].xy), packHalf2x16(high[1].xy), packHalf2x16(high[2].xy), packHalf2x16(vec2(high[0].z, high[1].z)));
-	third = uvec4(packHalf2x16(vec2(low[2].z, high[2].z)), floatBitsToUint(vec3(factor / (even * sky.nap), sky.nap, sky.radius)));
+	third = uvec4(packHalf2x16(vec2(low[2].z, high[2].z)), floatBitsToUint(vec3(factor / (even * sky.nap), sky.nap, sky.place)));
 }
 #endif
 
@@ -218,7 +218,7 @@ Sky storedSky(FurPoint point) {
 	int lower = storedSlab(below), upper = storedSlab(below + 1);
 	vec2 share = (vec2(point.slab, point.s * float(LAYERS) - 0.5) - float(lower)) / float(max(upper - lower, 1));
 	sky.nap = mix(sky.nap, above.nap, share.y);
-	float factor = evenSky(point, sky.radius) * sky.nap;
+	float factor = evenSky(point, sky.place) * sky.nap;
 	sky.moments.low = factor * (sky.moments.low + share.x * (above.moments.low - sky.moments.low));
 	sky.moments.high = factor * (sky.moments.high + share.x * (above.moments.high - sky.moments.high));
 	return sky;
@@ -234,7 +234,7 @@ Moments environmentMoments(FurPoint point, Bending bending) {
 #endif
 	Moments moments = sky.moments;
 #ifdef MULTIPLE
-	vec3 tinge = skyTinge(point, multipleGain(point), sky.radius, sky.nap);
+	vec3 tinge = skyTinge(point, multipleGain(point), sky.place, sky.nap);
 	mat3 rows = mat3(tinge, tinge, tinge);
 	moments.low = matrixCompMult(moments.low, rows);
 	moments.high = matrixCompMult(moments.high, rows);
