@@ -239,6 +239,7 @@ def extension(
         "drift": [numbers(row) for row in pelt.drift],
         **{name: [numbers(row) for row in law] for name in LAWS if (law := getattr(pelt, name)) is not None},
         **({} if pelt.surge is None else {"surge": numbers(pelt.surge)}),
+        **({} if pelt.spread is None else {"spread": numbers(np.array([pelt.spread]))[0]}),
         "ramp": {
             "root": numbers(np.array(pelt.ramp.root)),
             "tip": numbers(np.array(pelt.ramp.tip)),

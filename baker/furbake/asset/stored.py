@@ -93,6 +93,7 @@ def _pelt(fur: dict[str, Any], asset: Asset, index: int) -> Pelt:
         bent=_array(fur["bent"], 3, 8) if "bent" in fur else None,
         eye=_array(fur["eye"], 3, 12) if "eye" in fur else None,
         surge=_array(fur["surge"], 3) if "surge" in fur else None,
+        spread=float(fur["spread"]) if "spread" in fur else None,
         curves=curves,
         weights=None if curves is None else _array(stored["weights"], layers, curves.count),
         multiple=_multiple(stored["multiple"], layers) if "multiple" in stored else None,

@@ -19,8 +19,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.pelt.curves import lean_direction
+from furbake.pelt.hairs.shown import shown_slabs
 from furbake.pelt.hairs.strands import Coat, Strands
-from furbake.pelt.hairs.volume import Volume, coarsen, fine_shape, voxelise
+from furbake.pelt.hairs.volume import Volume, fine_shape, voxelise
 from furbake.pelt.light.transport import Setting, hemisphere, sample
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.texels.fill import fill
@@ -114,7 +115,7 @@ def fit_bends(
         texels, alpha = pelt.values, pelt.alpha / 255
     else:
         fine = voxelise(strands, height, *fine_shape(layers, size, height), coat.opacity)
-        seen, alpha = hemisphere(LIGHTS_UNBENT), coarsen(fine, layers, size).coverage
+        seen, alpha = hemisphere(LIGHTS_UNBENT), shown_slabs(fine, strands, layers, size).coverage
         texels = fill(fit(under(fine, seen), basis, seen, pelt.mean(seen)), alpha)
     matrix, right = np.zeros((24, 24)), np.zeros(24)
     middle = (np.arange(layers) + 0.5) / layers

@@ -55,6 +55,7 @@ class Pelt:
     basis : functions of the light that the coefficients multiply
     drift : (K, 2) mean sideways displacement of the hairs at each slab's middle, tile widths
     height : of the fur, tile widths
+    spread : of the hairs' slopes, as of `spread_of`, or None: combed hairs hide as much as others
     fin : its side view, or None
     bent : (3, 8) numbers of the law of bent hairs, or None
     eye, surge : (3, 12) and (3,) numbers of the law of light and eye, or None
@@ -80,6 +81,7 @@ class Pelt:
     bent: Floats | None = None
     eye: Floats | None = None
     surge: Floats | None = None
+    spread: float | None = None
     curves: Curves | None = None
     weights: Floats | None = None
     multiple: Multiple | None = None

@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.cores import cores
+from furbake.pelt.hairs.shown import BETWEEN, MOST
 from furbake.pelt.hairs.strands import Coat
-from furbake.pelt.hairs.volume import SOLID_SLAB, Volume, doubled, pool
+from furbake.pelt.hairs.volume import SOLID_SLAB, Volume, doubled, moved, pool
 from furbake.pelt.light.fibre import THINNEST, Cylinders
 from furbake.pelt.light.paths import BODY_RADIUS, FLAT
 from furbake.pelt.light.scatter import Slabs, Unscattered, between_hairs, sent
@@ -26,14 +27,8 @@ Single = NDArray[np.float32]
 DARK = 1e-6
 """Least T that is distinguished from 0."""
 
-MOST = 0.996
-"""Largest coverage, as in `shellOpacity` of hair/opacity.glsl."""
-
 SHOWN_SIZE = 64
 """Texels a side that are composited at most: a page shows larger tiles by their smaller levels."""
-
-BETWEEN = 0.25
-"""Texels between their middles and where they are read, along both axes: pixels lie anywhere."""
 
 
 class LitHairs:
@@ -120,15 +115,6 @@ class ShownTexels:
                 depth += np.log1p(-moved(shell, way * foot + BETWEEN)) / np.float32(up)
             found[k] = np.exp(depth) * own * np.float32(eye[2] * (r / self.beta) ** 2)
         return found
-
-
-def moved(image: Single, aside: Array) -> Single:
-    """An image (..., N, N) read `aside` texels (u, v) from their middles, bilinear, periodic."""
-    whole = np.floor(aside).astype(int)
-    part = (aside - whole).astype(np.float32)
-    near = np.roll(image, (-whole[1], -whole[0]), (-2, -1))
-    near = near + part[0] * (np.roll(near, -1, -1) - near)
-    return np.asarray(near + part[1] * (np.roll(near, -1, -2) - near), np.float32)
 
 
 def even(field: Single) -> Single:

@@ -28,8 +28,9 @@ from furbake.asset.read import AssetError, read_json
 from furbake.asset.store import atomic_folder
 from furbake.identity import library_versions
 from furbake.options import BakeOptions, OptionError
+from furbake.pelt.hairs.shown import shown_slabs
 from furbake.pelt.hairs.strands import Strands, grow
-from furbake.pelt.hairs.volume import Volume, coarsen, fine_shape, voxelise
+from furbake.pelt.hairs.volume import Volume, fine_shape, voxelise
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.texels.basis import PTM, PTM_TERMS, ptm
 from furbake.pelt.texels.eigen import eigen
@@ -107,9 +108,8 @@ def write(
         progress("strands", 0.0)
         strands = grow(options.coat, height, options.seed)
         progress("strands", 1.0)
-        progress("volume", 0.0)
         fine = voxelise(strands, height, *fine_shape(options.layers, options.size, height), options.coat.opacity)
-        volume = coarsen(fine, options.layers, options.size)
+        volume = shown_slabs(fine, strands, options.layers, options.size)
         progress("volume", 1.0)
         lighting = light(fine, options, lambda fraction: progress("light", fraction))
         angles, arc = arc_lights()

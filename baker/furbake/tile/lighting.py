@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.options import BakeOptions
+from furbake.pelt.hairs.shown import shown_slabs
 from furbake.pelt.hairs.states import Fur, PeltState
 from furbake.pelt.hairs.strands import Strands, grow
-from furbake.pelt.hairs.volume import Volume, coarsen, fine_shape, voxelise
+from furbake.pelt.hairs.volume import Volume, fine_shape, voxelise
 from furbake.pelt.light.transport import LOWEST, LOWEST_FLAT, Beams, Setting, hemisphere, sample
 from furbake.pelt.means import Measured, measure
 
@@ -53,7 +54,7 @@ def grown(options: BakeOptions) -> tuple[Strands, Volume, Volume]:
     height = options.own_height
     strands = grow(options.coat, height, options.seed)
     fine = voxelise(strands, height, *fine_shape(options.layers, options.size, height), options.coat.opacity)
-    return strands, fine, coarsen(fine, options.layers, options.size)
+    return strands, fine, shown_slabs(fine, strands, options.layers, options.size)
 
 
 def light(
@@ -125,7 +126,7 @@ def sampled(
     options = replace(options, coat=fur.coat)
     # Mud has no curves of its own.
     lighting = light(fine, replace(options, curves="none") if fur.state.dirt else options, step, beams=beams)
-    return Sampled(fur.state, coarsen(fine, options.layers, options.size), lighting)
+    return Sampled(fur.state, shown_slabs(fine, fur.strands, options.layers, options.size, fur.mud), lighting)
 
 
 def write_samples(archive: BinaryIO, dry: Sampled, strands: Strands) -> None:

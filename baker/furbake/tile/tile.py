@@ -11,6 +11,7 @@ from typing import Any
 from furbake.options import BakeOptions
 from furbake.pelt.bent import fit_bends
 from furbake.pelt.eye import EyeLaw, fit_eye
+from furbake.pelt.hairs.shown import spread_of
 from furbake.pelt.hairs.states import Fur, chosen, in_state
 from furbake.pelt.hairs.strands import Strands, grow
 from furbake.pelt.hairs.volume import Volume
@@ -67,8 +68,10 @@ class Tile:
         return [sampled(fur, self._volume(fur, dry), self.options, part, some) for fur, part, some in share]
 
     def fit(self, samples: Sequence[Sampled], step: Step) -> Fitted:
-        """Pelts of all states; the first has the laws of bent hairs and of light and eye."""
+        """Pelts of all states; the first has the hairs' spread and the laws of bent hairs and of light and eye."""
         (pelt, figures), *others = fit_pelts(samples, self.options)
+        if self.options.curves != "none":
+            pelt = replace(pelt, spread=round(spread_of(self.strands, self.height), 3))
         with ThreadPoolExecutor(1) as beside:  # each of the two has gaps in which a core would wait
             law = beside.submit(self._eye, pelt)
             bent = None if self.options.flat else fit_bends(pelt, self.strands, self.options.coat, step)

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from furbake.options import BakeOptions, preset
-from furbake.pelt.curves import RADII, Curves, abscissa, elevation, lean_direction
+from furbake.pelt.curves import RADII, Curves, abscissa, elevation, lean_direction, shares
 from furbake.pelt.hairs.states import DIRTY, PeltState, in_state
 from furbake.pelt.hairs.strands import grow
+from furbake.pelt.hairs.volume import coarsen
 from furbake.pelt.light.paths import lowest
 from furbake.pelt.light.transport import Setting, hemisphere, sample_apart
 from furbake.pelt.means import Measured, coarser, directions, mean_light, measure, rounded, shared, tables
@@ -181,16 +182,35 @@ def test_bytes_suit_each_slab() -> None:
 
 
 def test_measured_means_are_those_of_the_samples() -> None:
-    _, fine, volume = grown(SMALL)
+    _, fine, _ = grown(SMALL)
     bodies = measure(fine, 6, 16, SMALL.coat)
+    coverage = coarsen(fine, 6, 16).coverage
     assert [body.beta for body in bodies] == list(RADII)
     dark = [body.values[body.lights[:, 2] < 0].max(0) for body in bodies]
     assert (dark[0] > dark[2]).all()  # the smaller the body, the farther light comes round it
     home = bodies[1]
     samples = under(home.lights, fine, SMALL)
     for lit, values in zip(samples[18:22], home.values[18:22], strict=True):
-        for slab, alpha, value in zip(lit, volume.coverage, values, strict=True):
+        for slab, alpha, value in zip(lit, coverage, values, strict=True):
             assert np.average(slab.ravel(), weights=alpha.ravel()) == pytest.approx(value, rel=1e-4)
+
+
+@pytest.mark.parametrize("beta", [2.0, 8.0])
+def test_bodies_between_two_tables_are_lit_as_light_transport_has_them(beta: float) -> None:
+    """From the middle of the dip below the horizon up. Mixed by log β they would be up to 1.2 times as bright."""
+    _, fine, volume = grown(replace(SMALL, size=32))
+    x = np.repeat([5.0, 6.3, 8.0, 11.0], 6)
+
+    def lit(radius: float) -> np.ndarray:
+        z, azimuth = elevation(x, radius), np.arange(len(x)) * np.pi / 3
+        lights = np.stack([*(np.sqrt(1 - z * z) * [np.cos(azimuth), np.sin(azimuth)]), z], -1)
+        parts = sample_apart(fine, 6, 32, lights, Setting(SMALL.coat.albedo, SMALL.coat.skin, beta=radius))[:2]
+        cover = volume.coverage.mean((1, 2))
+        seen = cover * np.append(np.cumprod(1 - cover[:0:-1])[::-1], 1)
+        return (mean_light(parts[0] + parts[1], volume.coverage) @ seen).reshape(-1, 6).mean(1)
+
+    mixed = sum(share * lit(radius) for share, radius in zip(shares(beta), RADII, strict=True) if share > 0)
+    np.testing.assert_allclose(mixed / lit(beta), 1, atol=0.05)
 
 
 def test_coarser_voxels_hide_as_much() -> None:

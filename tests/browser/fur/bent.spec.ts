@@ -77,6 +77,36 @@ test('baked numbers of bent hairs meet their terms and powers of the height', as
 	expect(changed).toBe(terms.length);
 });
 
+test('combed hairs hide as much more as they lie along the skin', async ({ page }) => {
+	await openStage(page);
+	const { bends } = JSON.parse(await readFile(`${repository}${golden}/bent.json`, 'utf8'));
+	const gltf = JSON.parse(await readFile(`${repository}${golden}/model.gltf`, 'utf8'));
+	const fur = gltf.extensions.FUR_ptm_shells;
+	const spread = 0.3;
+	await page.route(/model\.gltf\?spread$/, (route) =>
+		route.fulfill({ json: { ...gltf, extensions: { FUR_ptm_shells: { ...fur, spread } } } }),
+	);
+	const alphas = async (query: string, comb: number[], length: number) => {
+		const attributes = { _comb: comb, _fur: [1, length, 1, 0] };
+		const drawn = await page.evaluate(([url, a]) => stage.vertices(url, 3, a, { lamp: [0, 0, 1] }), [
+			served(`${golden}/model.gltf${query}`),
+			attributes,
+		] as const);
+		return drawn.alpha;
+	};
+	const across = ([u, v]: [number, number]) => u * u + v * v + spread * spread;
+	// Slope of the top slab's hairs, from its middle on as from the one below it to there.
+	const own = (fur.drift[3][1] - fur.drift[2][1]) * (fur.layers / fur.height);
+	for (const [comb, length] of [[bends[0], 1], [bends[2], 1], [bends[2], 0.5], [[0, 0], 1]] as [number[], number][]) {
+		const [x = 0, y = 0] = comb;
+		const further = (2 * 0.875 * length) / Math.sqrt(1 - x * x - y * y);
+		const power = Math.sqrt(across([further * x, own + further * y]) / across([0, own]));
+		const [plain, combed] = [await alphas('', comb, length), await alphas('?spread', comb, length)];
+		expect(Math.max(...plain)).toBeGreaterThan(0.5);
+		expect(combed).toEqual(plain.map((alpha) => expect.closeTo(1 - (1 - alpha) ** power, 2)));
+	}
+});
+
 for (const name of ['ptm-6', 'eigen-6', 'eigen-3']) {
 	test(`the sky lights bent hairs as lamps all around do: ${name}`, async ({ page }) => {
 		await openStage(page);

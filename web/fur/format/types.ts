@@ -155,6 +155,8 @@ export interface FurAsset {
 	eye?: number[][];
 	/** Surge of light of a lamp beside the eye: excess seen from above, further excess from aside, width in radians. */
 	surge?: [number, number, number];
+	/** Mean distance of the hairs' slopes from the mean slope at their height. */
+	spread?: number;
 	/** Linear colours along a hair: mix(root, tip, s^power). */
 	ramp: {
 		/** At the skin. */
@@ -183,7 +185,7 @@ export interface FurAsset {
 
 /** Fur of a region of a body; the rest is as of the coat. */
 export interface RegionFur
-	extends Pick<FurAsset, 'height' | 'curves' | 'drift' | 'bent' | 'eye' | 'surge' | 'ramp' | 'pelts'> {
+	extends Pick<FurAsset, 'height' | 'curves' | 'drift' | 'bent' | 'eye' | 'surge' | 'spread' | 'ramp' | 'pelts'> {
 	/** Name of the region. */
 	name: string;
 	/** Width of its tile over that of the coat's. */

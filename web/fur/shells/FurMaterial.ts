@@ -1,6 +1,6 @@
 import { Color, type ShaderMaterialParameters, Vector2, Vector3, Vector4 } from 'three';
 import { type Roots, rootUniforms } from '../body/roots/Roots.ts';
-import { type FurAsset, fursOf, type Pelt } from '../format.ts';
+import { type FurAsset, fursOf, type Pelt, tileOf } from '../format.ts';
 import { bentWeights, leanOf, wayOf } from '../light/bent.ts';
 import { eyeUniforms } from '../light/eye.ts';
 import type { FurTextures, TexelCoding } from '../light/texels.ts';
@@ -135,6 +135,7 @@ export class FurMaterial extends PeltMaterial {
 					firstShell: { value: 0 },
 					merged: { value: 0 },
 					drift: { value: furs.flatMap(({ drift }) => driftKnots(drift)) },
+					spreads: { value: furs.map((fur, i) => spreadOf(fur, asset, regions?.furs[i - 1]?.tile ?? 1)) },
 					lean: { value: leanOf(asset) },
 					bent: { value: furs.flatMap(bentWeights) },
 					...eyeUniforms(furs),
@@ -184,6 +185,16 @@ function codingOf(asset: FurAsset): TexelCoding {
 	const { basis, environment, curves, pelts } = asset;
 	const means = curves && { curves, way: wayOf(asset), weights: pelt.weights ?? [], multiple: pelt.multiple };
 	return { ...pelt, basis, environment, means, pelts };
+}
+
+/**
+ * Of a fur X = spread of its hairs' slopes, 0 where the asset does not tell it, Y = length of the longest hairs of the body,
+ * both as displacements in widths of its tile.
+ *
+ * @param width of the fur's tile over the coat's
+ */
+function spreadOf({ spread = 0, height }: FurAsset, asset: FurAsset, width: number): Vector2 {
+	return new Vector2(spread * height, asset.length / (tileOf(asset) * width));
 }
 
 /** Mean displacement of the hairs at the root and in every slab's middle, two to a vector. */

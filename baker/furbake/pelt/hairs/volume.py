@@ -185,6 +185,15 @@ def doubled(image: NDArray[Real]) -> NDArray[Real]:
     return image
 
 
+def moved(image: NDArray[np.float32], aside: Array) -> NDArray[np.float32]:
+    """An image (..., N, N) read `aside` texels (u, v) from their middles, bilinear, periodic."""
+    whole = np.floor(aside).astype(int)
+    part = (aside - whole).astype(np.float32)
+    near = np.roll(image, (-whole[1], -whole[0]), (-2, -1))
+    near = near + part[0] * (np.roll(near, -1, -1) - near)
+    return np.asarray(near + part[1] * (np.roll(near, -1, -2) - near), np.float32)
+
+
 def seen_from_above(coverage: NDArray[Real], layers: int) -> NDArray[Real]:
     """Visible share of each fine slab from above within its coarse slab, α_j·Π(1−α): (K·f, N, N) → (K, f, N, N)."""
     slabs = coverage.reshape(layers, -1, *coverage.shape[1:])

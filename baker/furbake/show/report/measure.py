@@ -16,7 +16,8 @@ from furbake.asset.read import Asset, AssetError, read_asset
 from furbake.asset.stored import read_pelt
 from furbake.imported.stored import tile_strands
 from furbake.options import BakeOptions, OptionError
-from furbake.pelt.hairs.volume import Volume, coarsen, fine_shape, voxelise
+from furbake.pelt.hairs.shown import shown_slabs
+from furbake.pelt.hairs.volume import Volume, fine_shape, voxelise
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.texels.fill import fill
 from furbake.pelt.texels.fit import VISIBLE, Judge, decibels, fit, relight
@@ -121,7 +122,7 @@ def measure(folder: Path, progress: Progress = lambda stage, fraction: None) -> 
     progress("strands", 1.0)
     progress("volume", 0.0)
     fine = voxelise(strands, pelt.height, *fine_shape(options.layers, options.size, pelt.height), options.coat.opacity)
-    volume = coarsen(fine, options.layers, options.size)
+    volume = shown_slabs(fine, strands, options.layers, options.size)
     progress("volume", 1.0)
     lighting = light(fine, replace(options, curves="none"), lambda fraction: progress("light", fraction))
     angles, sweep, leaning = sweep_lights(pelt)

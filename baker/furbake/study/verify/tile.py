@@ -19,8 +19,9 @@ from furbake.asset.planes import write_png
 from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt
 from furbake.options import BakeOptions, OptionError
+from furbake.pelt.hairs.shown import shown_slabs
 from furbake.pelt.hairs.strands import grow
-from furbake.pelt.hairs.volume import coarsen, fine_shape, pool, voxelise
+from furbake.pelt.hairs.volume import fine_shape, pool, voxelise
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.texels.fit import Judge
 from furbake.pelt.texels.quantise import srgb_bytes
@@ -123,7 +124,7 @@ def look(pelt: Pelt, options: BakeOptions, spp: int, depth: int, progress: Progr
     towards = lights()
     strands = grow(options.coat, pelt.height, options.seed)
     fine = voxelise(strands, pelt.height, *fine_shape(pelt.layers, pelt.size, pelt.height), options.coat.opacity)
-    alpha = coarsen(fine, pelt.layers, pelt.size).coverage
+    alpha = shown_slabs(fine, strands, pelt.layers, pelt.size).coverage
     if float(np.abs(alpha - pelt.alpha / 255).mean()) > OTHER_STRANDS:
         raise VerifyError("bake.json: its options do not grow this bake's strands, bake it again with this furbake")
     light = under(towards, fine, options, lambda fraction: progress("light", fraction))

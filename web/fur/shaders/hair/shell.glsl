@@ -42,6 +42,8 @@ out vec2 vRoot; // root of the hairs, cells
 #endif
 #endif
 
+uniform vec2 spreads[FURS]; // X = spread of the hairs' slopes, 0 where it is not known; Y = length of the longest hairs; widths of the fur's tile
+
 #define TIE 0.7 // phase at which half as many shells as slabs are as bright as a few more or less
 
 #define SLABS (furTrim * float(LAYERS)) // slabs left after a cut
@@ -95,6 +97,20 @@ float sharesOf(int slab, float count) {
 #endif
 }
 
+// Skin that combed hairs of a slab lie along over that of uncombed ones, by their mean slopes: see `spread_of`, pelt/hairs/shown.py.
+float combedCover(ShellPoint point) {
+	vec2 spread = spreads[furRegion];
+	if (spread.x <= 0.0) return 1.0;
+	float reach = spread.y * _fur.y;
+#ifdef WET
+	reach *= furTraits.x;
+#endif
+	float k = float(point.slab);
+	vec2 own = (driftAt((k + 1.0) / float(LAYERS)) - driftAt(k / float(LAYERS))) * float(LAYERS);
+	vec2 more = 2.0 * point.s * reach / max(furRise(point.comb), 0.1) * point.comb.xy;
+	return sqrt((dot(own + more, own + more) + spread.x * spread.x) / (dot(own, own) + spread.x * spread.x));
+}
+
 // Places the vertex and writes varyings that are independent of the light.
 ShellPoint shellPoint() {
 	takePose();
@@ -136,7 +152,8 @@ ShellPoint shellPoint() {
 	float many = (lowest + 1.0) * SLABS / count;
 	if (below > 0.0 && i < lowest + 2.0) slabs = i == lowest ? many * (lowest + 1.0 - below) : slabs + many * (below - lowest);
 #endif
-	vWeight = _fur.x * FUR_SHARE * slabs;
+	point.slab = slab;
+	vWeight = _fur.x * FUR_SHARE * slabs * combedCover(point);
 #ifdef PARTED
 	drifted *= furWidth;
 	vLowest = _region.x - dot(regionSlope.xy, drifted) / tiles;
@@ -145,7 +162,6 @@ ShellPoint shellPoint() {
 	vRoot = (uv * tiles - drifted) * furCells;
 #endif
 #endif
-	point.slab = slab;
 	vec2 kept = keptLevels(slab + furRegion * LAYERS);
 	vKept = mix(kept.x, kept.y, crispness.y);
 	vFacing = dot(point.turn * n, viewerVS(point.pointVS));
