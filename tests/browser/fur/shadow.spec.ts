@@ -140,7 +140,9 @@ test('one lamp of three casts a shadow on its own light alone', async ({ page })
 	}
 });
 
-test('light from behind comes through an ear, by the shadow map, and through nothing thick or round', async ({ page }) => {
+test('light from behind comes through an ear, by the shadow map, and through nothing thick or round', async ({
+	page,
+}) => {
 	await openInPage(page, 'neck');
 	// From the right, the lamp behind and above. The ear, and all below the head's top.
 	const view = { name: 'ear', view: 'right', eye: [2.4, 1.5, 6.6], lamp: [-0.351, 0.251, -0.902] } as const;

@@ -10,8 +10,8 @@ import {
 } from 'three';
 import { describe, expect, it } from 'vitest';
 import { FurFollicles } from '../../../../web/fur/body/FurFollicles.ts';
-import { MatteMaterial } from '../../../../web/fur/body/MatteMaterial.ts';
 import { furCover, standsOn } from '../../../../web/fur/body/furCover.ts';
+import { MatteMaterial } from '../../../../web/fur/body/MatteMaterial.ts';
 import { ShadedPiece, Skin } from '../../../../web/fur/body/Skin.ts';
 import type { FurAsset, RGB } from '../../../../web/fur/format.ts';
 
