@@ -35,6 +35,7 @@ const SHARED = [
 		'gloss',
 		'sharpness',
 		'backlight',
+		'glow',
 		'density',
 	],
 	...['swing', 'stains', 'wetnesses', 'traits', 'mud', 'morphCount', 'morphs'],
