@@ -10,9 +10,9 @@ import {
 } from 'three';
 import { describe, expect, it } from 'vitest';
 import { FurFollicles } from '../../../../web/fur/body/FurFollicles.ts';
-import { furCover, standsOn } from '../../../../web/fur/body/furCover.ts';
-import { MatteMaterial } from '../../../../web/fur/body/MatteMaterial.ts';
-import { ShadedPiece, Skin } from '../../../../web/fur/body/Skin.ts';
+import { furCover, standsOn } from '../../../../web/fur/body/skin/furCover.ts';
+import { MatteMaterial } from '../../../../web/fur/body/skin/MatteMaterial.ts';
+import { ShadedPiece, Skin } from '../../../../web/fur/body/skin/Skin.ts';
 import type { FurAsset, RGB } from '../../../../web/fur/format.ts';
 
 const attribute = (size: number, values: number[][]) => new BufferAttribute(new Float32Array(values.flat()), size);

@@ -10,12 +10,12 @@ import {
 	type Object3D,
 	Vector3,
 } from 'three';
-import type { FurAsset } from '../format.ts';
-import type { FurFollicles } from './FurFollicles.ts';
-import type { FurPose } from './FurPose.ts';
+import type { FurAsset } from '../../format.ts';
+import type { FurFollicles } from '../FurFollicles.ts';
+import type { FurPose } from '../FurPose.ts';
+import { shareGeometry, unshareGeometry } from '../shareGeometry.ts';
 import { furCover, standsOn } from './furCover.ts';
 import { MatteMaterial } from './MatteMaterial.ts';
-import { shareGeometry, unshareGeometry } from './shareGeometry.ts';
 
 /** Share of the roots' colour that the skin shows in the shadow of its fur. */
 const SHADE = 0.35;

@@ -1,5 +1,5 @@
 import { MeshStandardMaterial, type WebGLProgramParametersWithUniforms } from 'three';
-import matte from '../shaders/draw/matte.glsl?raw';
+import matte from '../../shaders/skin/matte.glsl?raw';
 
 /**
  * A standard material whose highlights of lamps end with its smoothness. Three's have some left at a roughness of 1, pale specks
