@@ -2,8 +2,12 @@
 // surface in which the hair has its root, so that it is the same from root to tip, and in all furs.
 
 #ifdef PARTED
-in float vLowest; // bounds of the numbers of this fur's hairs at the root
+#if REGIONS == 2
+in float vBound; // see shell.glsl
+#else
+in float vLowest;
 in float vHighest;
+#endif
 #ifdef TIGHT
 uniform float furCells; // see shell.glsl
 #define vRoot (rootTiles(furAt) * (furWidth * furCells))
@@ -11,11 +15,17 @@ uniform float furCells; // see shell.glsl
 in vec2 vRoot; // root of the hairs, cells
 #endif
 
+// x >> by, for x below 2²⁸ and by below 16: software rasterisers shift lane by lane where lanes differ.
+uint shifted(uint x, uint by) {
+	uint power = uint(int(uintBitsToFloat((143u - by) << 23))); // 2^(16 − by)
+	return (x >> 16) * power + (((x & 0xffffu) * power) >> 16);
+}
+
 // Number of a cell, 0..1: PCG (M. E. O'Neill 2014) of its two places.
 float numberOf(ivec2 cell) {
 	uint h = (uint(cell.x) & 0xffffu) | (uint(cell.y) << 16);
 	h = h * 747796405u + 2891336453u;
-	h = ((h >> ((h >> 28) + 4u)) ^ h) * 277803737u;
+	h = (shifted(h >> 4, h >> 28) ^ h) * 277803737u;
 	h = (h >> 22) ^ h;
 	return float(h >> 8) / 16777216.0;
 }
@@ -23,9 +33,12 @@ float numberOf(ivec2 cell) {
 // Share of this fur in the hairs of a fragment: 0 or 1, and where cells are smaller than pixels their mean.
 float furShare() {
 	vec2 apart = fwidth(vRoot);
-	if (vLowest <= 0.0 && vHighest >= 1.0) return 1.0;
 	float number = numberOf(ivec2(floor(vRoot)));
+#if REGIONS == 2
+	float one = step(mix(number, 1.0 - number, furSecond), vBound), mean = clamp(vBound, 0.0, 1.0);
+#else
 	float one = step(vLowest, number) * step(number, vHighest), mean = clamp(vHighest, 0.0, 1.0) - clamp(vLowest, 0.0, 1.0);
+#endif
 	return mix(one, mean, smoothstep(0.5, 1.5, max(apart.x, apart.y)));
 }
 #endif
