@@ -97,7 +97,12 @@ test('combed hairs hide as much more as they lie along the skin', async ({ page 
 	const across = ([u, v]: [number, number]) => u * u + v * v + spread * spread;
 	// Slope of the top slab's hairs, from its middle on as from the one below it to there.
 	const own = (fur.drift[3][1] - fur.drift[2][1]) * (fur.layers / fur.height);
-	for (const [comb, length] of [[bends[0], 1], [bends[2], 1], [bends[2], 0.5], [[0, 0], 1]] as [number[], number][]) {
+	for (const [comb, length] of [
+		[bends[0], 1],
+		[bends[2], 1],
+		[bends[2], 0.5],
+		[[0, 0], 1],
+	] as [number[], number][]) {
 		const [x = 0, y = 0] = comb;
 		const further = (2 * 0.875 * length) / Math.sqrt(1 - x * x - y * y);
 		const power = Math.sqrt(across([further * x, own + further * y]) / across([0, own]));
