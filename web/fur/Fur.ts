@@ -178,6 +178,11 @@ export class Fur {
 		return updateFurs(this.#itself, seconds);
 	}
 
+	/** Longest side of the box around the bare body at rest, model units. */
+	get extent(): number {
+		return this.ground.skin.extent;
+	}
+
 	/**
 	 * Length of the longest hairs, model units; 0.1 to 2 times `asset.length`, the baked one. Shorter hairs are cut, longer
 	 * ones are stretched.

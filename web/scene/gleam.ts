@@ -10,6 +10,11 @@ import { type Material, type Mesh, MeshStandardMaterial, type WebGLProgramParame
 
 /** Height, sine, of the mirrored horizon's middle, and half its width where the part is smooth. */
 const HORIZON = { middle: 0.1, width: 0.2 };
+/**
+ * The brightest of the sky as a window, the glint that keeps an eye alive where no lamp is mirrored: `towards` the viewer from
+ * straight above, cosines of its soft edge, brightness over the sky's, and roughness up to which it is seen.
+ */
+const WINDOW = { towards: 0.9, from: 0.95, to: 0.98, bright: 14, smooth: 0.35 };
 /** Cosines between the mirrored direction and the part's front (+z) between which the fur around it lets light through. */
 const FUR = { from: -0.6, to: 0.3 };
 
@@ -26,19 +31,24 @@ vFront = normalize(normalMatrix * vec3(0.0, 0.0, 1.0));
 
 const MIRROR = /* glsl */ `
 vec3 mirrored = reflect(-geometryViewDir, geometryNormal);
-vec3 mirroredLight = ambientLightColor;
+vec3 mirroredLight = ambientLightColor, skyLight = ambientLightColor;
+vec3 window = normalize(viewMatrix[1].xyz + ${WINDOW.towards} * geometryViewDir);
 float blur = ${HORIZON.width} + material.roughness;
 #if defined(USE_LIGHT_PROBES)
 mirroredLight += getLightProbeIrradiance(lightProbe, mirrored);
+skyLight += getLightProbeIrradiance(lightProbe, window);
 #endif
 #if NUM_HEMI_LIGHTS > 0
 #pragma unroll_loop_start
 for (int i = 0; i < NUM_HEMI_LIGHTS; i ++) {
 	mirroredLight += mix(hemisphereLights[i].groundColor, hemisphereLights[i].skyColor,
 		smoothstep(${HORIZON.middle} - blur, ${HORIZON.middle} + blur, dot(mirrored, hemisphereLights[i].direction)));
+	skyLight += hemisphereLights[i].skyColor;
 }
 #pragma unroll_loop_end
 #endif
+float glint = smoothstep(${WINDOW.from}, ${WINDOW.to}, dot(mirrored, window));
+mirroredLight += ${WINDOW.bright.toFixed(1)} * glint * step(material.roughness, ${WINDOW.smooth}) * skyLight;
 float throughFur = dot(vFront, vFront) > 0.5 ? smoothstep(${FUR.from}, ${FUR.to}, dot(mirrored, vFront)) : 1.0;
 float shine = throughFur * (1.0 - pow4(material.roughness));
 radiance += RECIPROCAL_PI * mirroredLight * shine;

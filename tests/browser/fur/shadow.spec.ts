@@ -139,3 +139,35 @@ test('one lamp of three casts a shadow on its own light alone', async ({ page })
 		expect((once?.[box] ?? 0) / value).toBeLessThan(1.07);
 	}
 });
+
+test('light from behind comes through an ear, by the shadow map, and through nothing thick or round', async ({
+	page,
+}) => {
+	await openInPage(page, 'neck');
+	// From the right, the lamp behind and above. The ear, and all below the head's top.
+	const view = { name: 'ear', view: 'right', eye: [2.4, 1.5, 6.6], lamp: [-0.351, 0.251, -0.902] } as const;
+	const boxes: Box[] = [
+		[110, 30, 130, 50],
+		[0, 60, 240, 200],
+	];
+	const [dark, glowing, exact, bare, bareToo] = await page.evaluate(
+		([url, job, where]) =>
+			loaded.means(url, job, where, [
+				{ method: 'ptm' },
+				{ method: 'ptm', glow: 0.12 },
+				{ method: 'ptm', glow: 0.12, lampsPerFragment: true },
+				{ method: 'ptm-bare' },
+				{ method: 'ptm-bare', glow: 0.12 },
+			]),
+		[served(BUNNY), { ...jobOf(view.lamp), cells: [{ ...view }] }, boxes] as const,
+	);
+	const [ear = 0, body = 0] = glowing?.map((value, i) => value - (dark?.[i] ?? 0)) ?? [];
+	const description = `ear ${dark?.[0]?.toFixed(4)} + ${ear.toFixed(4)}, body ${dark?.[1]?.toFixed(4)} + ${body.toFixed(6)}`;
+	test.info().annotations.push({ type: 'glow', description });
+	expect(ear).toBeGreaterThan(0.04);
+	expect(ear).toBeLessThan(0.2);
+	expect(Math.abs(body)).toBeLessThan(0.002 * ear);
+	expect(Math.abs((exact?.[0] ?? 0) - (glowing?.[0] ?? 1))).toBeLessThan(0.02);
+	// Without a shadow map nothing is known of the body's thickness.
+	expect(bareToo).toEqual(bare);
+});

@@ -13,6 +13,8 @@ export interface Drawing {
 	/** Unit vectors to lamps beside the cell's own, which cast no shadows. */
 	others?: readonly BodyCell['lamp'][];
 	lampsPerFragment?: boolean;
+	/** Thickness through which skin glows, share of the body's longest side. */
+	glow?: number;
 }
 
 /** @returns of each drawing of the job's only cell the mean light in each of the boxes */
@@ -25,8 +27,9 @@ export async function means(
 	const body = await openBody(url, job);
 	const { material, skin } = body.fur;
 	for (const name of ['root', 'tip', 'tip2'] as const) material[name].setScalar(0.85);
-	const found = drawings.map(({ method, others = [], lampsPerFragment = false }) => {
+	const found = drawings.map(({ method, others = [], lampsPerFragment = false, glow = 0 }) => {
 		material.lampsPerFragment = lampsPerFragment;
+		material.glow = glow * body.fur.extent;
 		const lamps = others.map((towards) => {
 			const lamp = new DirectionalLight(0xffffff, 0.3 * job.irradiance);
 			lamp.position.set(...towards);

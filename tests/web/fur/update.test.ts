@@ -3,7 +3,7 @@
 import { readFileSync } from 'node:fs';
 import { Color, Group, Mesh, Object3D, SphereGeometry, Texture } from 'three';
 import { describe, expect, it, vi } from 'vitest';
-import type { Skin } from '../../../web/fur/body/Skin.ts';
+import type { Skin } from '../../../web/fur/body/skin/Skin.ts';
 import { Fur, type Ground } from '../../../web/fur/Fur.ts';
 import { parseFur } from '../../../web/fur/format/extension.ts';
 import type { FurAsset } from '../../../web/fur/format.ts';

@@ -37,6 +37,7 @@ it('adds each piece of its shader once, and nothing to what other materials shar
 	expect(shader.vertexShader.split('vFront = normalize')).toHaveLength(2);
 	expect(shader.fragmentShader.split('varying vec3 vFront')).toHaveLength(2);
 	expect(shader.fragmentShader.split('radiance += RECIPROCAL_PI')).toHaveLength(2);
+	expect(shader.fragmentShader.split('float glint')).toHaveLength(2);
 	expect({ ...ShaderChunk }).toEqual(chunks);
 	expect(ShaderLib.physical).toMatchObject({ vertexShader, fragmentShader });
 	const plain = new MeshStandardMaterial();

@@ -13,7 +13,7 @@ import {
 	type furMethod,
 	updateFurs,
 } from '../../fur/index.ts';
-import { DEFAULT_LOOK, glossOf } from '../../page/look.ts';
+import { DEFAULT_LOOK, GLOW, glossOf } from '../../page/look.ts';
 import type { Store } from '../state/store.ts';
 import type { View } from '../state/view.ts';
 import { paint } from './colours.ts';
@@ -283,6 +283,7 @@ function style(fur: Fur, gloss = glossOf(fur.asset), { shells, length = 1, densi
 	const { material } = fur.shells;
 	material.gloss = gloss;
 	material.backlight = DEFAULT_LOOK.backlight;
+	material.glow = GLOW * fur.extent;
 	material.density = density;
 	fur.length = length * fur.asset.length;
 	if (shells) fur.shells.shellCount = shells;

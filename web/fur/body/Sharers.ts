@@ -1,7 +1,7 @@
 import type { BufferGeometry, Mesh } from 'three';
 import type { Roots } from './roots/Roots.ts';
-import type { Skin } from './Skin.ts';
 import { unshareGeometry } from './shareGeometry.ts';
+import type { Skin } from './skin/Skin.ts';
 
 /** A fur, as far as it can be shared. */
 interface SharedFur {

@@ -4,7 +4,7 @@ import { Color, type Mesh, type MeshStandardMaterial, type Object3D } from 'thre
 import type { GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 import type { checkGeometry } from '../body/checkGeometry.ts';
 import { loadRoots } from '../body/roots/Roots.ts';
-import { Skin } from '../body/Skin.ts';
+import { Skin } from '../body/skin/Skin.ts';
 import { Fur } from '../Fur.ts';
 import type { FurAsset, Pelt } from '../format.ts';
 import type { GltfFiles } from '../planes/GltfFiles.ts';

@@ -38,6 +38,7 @@ const SHARED = [
 		'gloss',
 		'sharpness',
 		'backlight',
+		'glow',
 		'density',
 	],
 	...['swing', 'stains', 'wetnesses', 'traits', 'mud', 'morphCount', 'morphs'],

@@ -54,6 +54,8 @@ export interface FurMaterialParameters extends ShaderMaterialParameters {
 	gloss?: number;
 	/** {@inheritDoc FurMaterial.backlight} */
 	backlight?: number;
+	/** {@inheritDoc FurMaterial.glow} */
+	glow?: number;
 	/** {@inheritDoc FurMaterial.density} */
 	density?: number;
 	/** {@inheritDoc FurMaterial.lampsPerFragment} */

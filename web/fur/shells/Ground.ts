@@ -1,6 +1,6 @@
 import type { BufferGeometry, Color, Object3D } from 'three';
 import type { Roots } from '../body/roots/Roots.ts';
-import type { Skin } from '../body/Skin.ts';
+import type { Skin } from '../body/skin/Skin.ts';
 import type { growFins } from './fins/growFins.ts';
 
 /** Surfaces of a body that fur is drawn on. */

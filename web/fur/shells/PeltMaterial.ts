@@ -96,6 +96,18 @@ export class PeltMaterial extends ShaderMaterial {
 	}
 
 	/**
+	 * Thickness of skin from which on no light comes through from behind, world units; thinner parts that are leaves, such as
+	 * ears, glow, limbs do not. By the shadow map of a directional lamp; 0 costs nothing. {@link Fur.extent} gives a measure.
+	 */
+	get glow(): number {
+		return this.uniforms.glow?.value;
+	}
+
+	set glow(thickness: number) {
+		this.#set('glow', thickness, thickness > 0);
+	}
+
+	/**
 	 * Number of hairs over the baked number, 0.1 to 3: coverage α becomes 1 − (1 − α)^density; light and shadows stay as
 	 * baked. 1 costs nothing.
 	 */
@@ -206,7 +218,7 @@ export class PeltMaterial extends ShaderMaterial {
 	}
 
 	/** @param on whether the value has any effect */
-	#set(name: 'gloss' | 'backlight' | 'density', value: number, on: boolean): void {
+	#set(name: 'gloss' | 'backlight' | 'glow' | 'density', value: number, on: boolean): void {
 		const uniform = this.uniforms[name];
 		if (uniform) uniform.value = value;
 		this.#switch(name.toUpperCase(), on);

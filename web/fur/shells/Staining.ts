@@ -1,6 +1,6 @@
 import { type Object3D, Scene } from 'three';
 import type { FurFollicles } from '../body/FurFollicles.ts';
-import type { Skin, Wetness } from '../body/Skin.ts';
+import type { Skin, Wetness } from '../body/skin/Skin.ts';
 import type { FurAsset } from '../format.ts';
 import type { FurTextures } from '../light/texels.ts';
 import type { PeltStates } from '../planes/PeltStates.ts';

@@ -92,7 +92,19 @@ def read_features(path: Path) -> tuple[Feature, ...]:
         raise MeshError(f'{path}: no list of features, expected {{"features": [...]}}')
     if len(records) > MAX_FEATURES:
         raise MeshError(f"{path}: {len(records)} features, expected at most {MAX_FEATURES}")
-    return tuple(_feature(record, f"{path}: features[{i}]") for i, record in enumerate(records))
+    features = tuple(_feature(record, f"{path}: features[{i}]") for i, record in enumerate(records))
+    _refuse_doubles(features, path)
+    return features
+
+
+def _refuse_doubles(features: tuple[Feature, ...], path: Path) -> None:
+    """Refuse features that fill the same place: the renderer could not tell which is in front."""
+    first: dict[Feature, int] = {}
+    for i, feature in enumerate(features):
+        shape = replace(feature, name="", colour=Feature.colour, roughness=Feature.roughness, clear=CLEAR)
+        before = first.setdefault(shape, i)
+        if before != i:
+            raise MeshError(f"{path}: features[{i}] fills the place of features[{before}], expected another place")
 
 
 def placed(surface: Surface, features: tuple[Feature, ...]) -> tuple[Feature, ...]:

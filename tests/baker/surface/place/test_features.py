@@ -57,6 +57,10 @@ def test_features_are_read(file: Callable[[Any], Path]) -> None:
         ({"features": [EYE | {"sink": True}]}, "features[0].sink is true, expected a number from -1 to 1"),
         ('{"features": [{"centre": [NaN, 0, 0], "radii": [1, 1, 1]}]}', "features[0].centre is [NaN, 0, 0], expected"),
         ('{"features": [{"centre": [1e999, 0, 0], "radii": [1, 1, 1]}]}', "features[0].centre is [Infinity, 0, 0]"),
+        (
+            {"features": [EYE, EYE | {"radii": [1, 1, 1]}, EYE | {"name": "lid", "colour": [1, 1, 1]}]},
+            "features[2] fills the place of features[0], expected another place",
+        ),
         ({"features": [EYE] * 101}, "101 features, expected at most 100"),
     ],
 )

@@ -1,7 +1,18 @@
-import { BufferAttribute, BufferGeometry, Color, Mesh, MeshStandardMaterial } from 'three';
+import {
+	BufferAttribute,
+	BufferGeometry,
+	Color,
+	Mesh,
+	MeshPhysicalMaterial,
+	MeshStandardMaterial,
+	ShaderLib,
+	type WebGLProgramParametersWithUniforms,
+} from 'three';
 import { describe, expect, it } from 'vitest';
 import { FurFollicles } from '../../../../web/fur/body/FurFollicles.ts';
-import { furCover, ShadedPiece, Skin } from '../../../../web/fur/body/Skin.ts';
+import { furCover, standsOn } from '../../../../web/fur/body/skin/furCover.ts';
+import { MatteMaterial } from '../../../../web/fur/body/skin/MatteMaterial.ts';
+import { ShadedPiece, Skin } from '../../../../web/fur/body/skin/Skin.ts';
 import type { FurAsset, RGB } from '../../../../web/fur/format.ts';
 
 const attribute = (size: number, values: number[][]) => new BufferAttribute(new Float32Array(values.flat()), size);
@@ -33,6 +44,14 @@ describe('furCover', () => {
 		expect(furCover(points(0, 1), points(1, 0))).toBeUndefined();
 		expect(furCover(points(0, 1), shells({ x: 0.5 }))).toBeUndefined();
 	});
+
+	it('is that of the nearest shells where these stand on a simpler surface, and none far from them', () => {
+		const fur = shells({ x: 0 }, { x: 1 }, { x: 2.5, length: 0 }, { x: 3.5 });
+		expect(standsOn([points(0, 1), points(2.5, 3.5, 9)], fur)).toBe(true);
+		expect(standsOn([points(0, 0.4, 0.9, 2.2, 30)], fur)).toBe(false);
+		// Its one edge is 1 long.
+		expect([...(furCover(points(0, 0.4, 0.9, 2.2, 30), fur, true) ?? [])]).toEqual([1, 1, 1, 0, 0]);
+	});
 });
 
 const shade = new Color(0.1, 0.2, 0.3);
@@ -47,6 +66,7 @@ describe('a piece of the skin', () => {
 		piece.shade(shade);
 		expect(piece.material.color.toArray()).toEqual([0.05, 0.2, 0.3].map((c) => expect.closeTo(c)));
 		expect(piece.material.roughness, 'dull').toBe(1);
+		expect(piece.material).toBeInstanceOf(MatteMaterial);
 		piece.shade(undefined);
 		expect(piece.material.color.toArray()).toEqual(own.color.toArray());
 		expect(piece.material.roughness).toBe(0.5);
@@ -140,5 +160,24 @@ describe('the skin of a body', () => {
 		body.scale.setScalar(0.5);
 		body.updateMatrix();
 		expect(new Skin(body, [body], undefined).extent).toBeCloseTo(1.5);
+	});
+});
+
+describe('a matte material', () => {
+	it('takes the highlights of what is rough away, once, in a shader of its own', () => {
+		const { vertexShader, fragmentShader } = ShaderLib.physical;
+		const shader = { vertexShader, fragmentShader } as WebGLProgramParametersWithUniforms;
+		new MatteMaterial().onBeforeCompile(shader);
+		expect(shader.fragmentShader.split('directSpecular *= 1.0 - pow4(material.roughness)')).toHaveLength(2);
+		expect(ShaderLib.physical).toMatchObject({ vertexShader, fragmentShader });
+		expect(new MatteMaterial().customProgramCacheKey()).not.toBe(new MeshStandardMaterial().customProgramCacheKey());
+		expect(new MatteMaterial().clone()).toBeInstanceOf(MatteMaterial);
+	});
+
+	it('leaves materials with more to them as they are', () => {
+		expect(MatteMaterial.of(new MeshPhysicalMaterial({ clearcoat: 1 }))).toMatchObject({ clearcoat: 1 });
+		const hooked = new MeshStandardMaterial();
+		hooked.onBeforeCompile = () => {};
+		expect(MatteMaterial.of(hooked)).not.toBeInstanceOf(MatteMaterial);
 	});
 });

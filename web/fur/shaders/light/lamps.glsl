@@ -123,6 +123,28 @@ void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bendi
 #endif
 }
 
+#ifdef GLOWING
+// The fur is lit as from straight above: light leaves the skin to all sides.
+void addGlow(inout Lamps lamps, FurPoint point, float through, vec3 irradiance) {
+	if (through <= 0.0) return;
+	vec3 up = vec3(0.0), low, high;
+	up.UP = 1.0;
+	basis(up, low, high);
+	vec3 light = max(through * meanLight(point, curvesAt(1.0, 1.0, radiusTowards(point, up), up)), 0.0) * irradiance * SKIN;
+#ifdef ONE_HUE
+	float strength = dot(light, vec3(0.2126, 0.7152, 0.0722));
+	lamps.moments.low += strength * low;
+	lamps.moments.high += strength * high;
+#ifdef TINGED
+	lamps.tinge += vec4(strength * SKIN / dot(SKIN, vec3(0.2126, 0.7152, 0.0722)), strength);
+#endif
+#else
+	lamps.moments.low += outerProduct(light, low);
+	lamps.moments.high += outerProduct(light, high);
+#endif
+}
+#endif
+
 #ifdef STORED_ARRIVALS
 #define DIRECTIONAL_ARRIVAL(i) storedArrival(i)
 #else
@@ -154,6 +176,9 @@ Lamps lampsAt(FurPoint point, Bending bending) {
 		addLamp(lamps, power, point, bending, DIRECTIONAL_ARRIVAL(UNROLLED_LOOP_INDEX), many, light.direction, light.color);
 #if defined(SHADOW_SHARE) && (UNROLLED_LOOP_INDEX == 0)
 		first = lamps.share;
+#endif
+#if defined(GLOWING) && (UNROLLED_LOOP_INDEX < NUM_DIR_LIGHT_SHADOWS)
+		addGlow(lamps, point, glowThrough(directionalShadowMap[ i ], directionalShadowMatrix[ i ], directionalLightShadows[ i ].shadowBias, point, light.direction), light.color);
 #endif
 	}
 	#pragma unroll_loop_end

@@ -17,6 +17,7 @@ import arrival from '../../shaders/light/arrival.glsl?raw';
 import bent from '../../shaders/light/bent.glsl?raw';
 import curves from '../../shaders/light/curves.glsl?raw';
 import eye from '../../shaders/light/eye.glsl?raw';
+import glow from '../../shaders/light/glow.glsl?raw';
 import lamps from '../../shaders/light/lamps.glsl?raw';
 import moments from '../../shaders/light/moments.glsl?raw';
 import shadow from '../../shaders/light/shadow.glsl?raw';
@@ -44,7 +45,7 @@ export const arrivalChunks = (curved: boolean): string[] => [
 ];
 
 /** Light of lamps. @param curved as above */
-export const lampChunks = (curved: boolean): string[] => [...arrivalChunks(curved), shadow, lamps];
+export const lampChunks = (curved: boolean): string[] => [...arrivalChunks(curved), shadow, glow, lamps];
 
 /** Light of the environment. */
 export const skyChunks = (curved: boolean): string[] => (curved ? [sky] : [parts.horizon?.dip ?? '', sky]);

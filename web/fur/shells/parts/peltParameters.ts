@@ -64,6 +64,7 @@ export function peltParameters(
 			gloss: { value: 0 },
 			sharpness: { value: 60 },
 			backlight: { value: 0 },
+			glow: { value: 0 },
 			lampHue: { value: new Color(1, 1, 1) },
 			density: { value: 1 },
 			swing: { value: null },

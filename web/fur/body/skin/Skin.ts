@@ -10,35 +10,12 @@ import {
 	type Object3D,
 	Vector3,
 } from 'three';
-import type { FurAsset } from '../format.ts';
-import type { FurFollicles } from './FurFollicles.ts';
-import type { FurPose } from './FurPose.ts';
-import { shareGeometry, unshareGeometry } from './shareGeometry.ts';
-
-/** Fur shorter than this share of the longest begins to let the skin's own colour through. */
-const SHORT = 1 / 8;
-
-/**
- * Fur cover of each vertex of the skin, 0..1, by the shells' vertices at the same place.
- *
- * @param skin with positions in the shells' units, to the bit
- * @returns undefined where fur covers all of it, or where the shells' surface is another, simpler one
- */
-export function furCover(skin: BufferGeometry, shells: BufferGeometry): Float32Array | undefined {
-	const fur = shells.getAttribute('_fur');
-	const [places, stands] = [skin.getAttribute('position'), shells.getAttribute('position')];
-	const key = (position: typeof places, i: number) => [position.getX(i), position.getY(i), position.getZ(i)].join();
-	const cover = new Map<string, number>();
-	for (let i = 0; i < stands.count; i++) {
-		const share = fur ? fur.getX(i) * Math.min(fur.getY(i) / SHORT, 1) : 1;
-		const at = key(stands, i);
-		cover.set(at, (cover.get(at) ?? 0) + share);
-	}
-	const found = Array.from({ length: places.count }, (_, i) => cover.get(key(places, i)));
-	if (found.every((share) => share === undefined)) return undefined;
-	const shares = Float32Array.from(found, (share) => Math.min(share ?? 0, 1));
-	return shares.every((share) => share > 0.99) ? undefined : shares;
-}
+import type { FurAsset } from '../../format.ts';
+import type { FurFollicles } from '../FurFollicles.ts';
+import type { FurPose } from '../FurPose.ts';
+import { shareGeometry, unshareGeometry } from '../shareGeometry.ts';
+import { furCover, standsOn } from './furCover.ts';
+import { MatteMaterial } from './MatteMaterial.ts';
 
 /** Share of the roots' colour that the skin shows in the shadow of its fur. */
 const SHADE = 0.35;
@@ -89,7 +66,7 @@ export class ShadedPiece {
 		const own = piece.material as MeshStandardMaterial;
 		this.#plain = own;
 		this.#colours = piece.geometry.attributes.color;
-		this.material = own.clone();
+		this.material = MatteMaterial.of(own);
 		this.#own = own.color?.clone();
 		this.#roughness = own.roughness;
 		this.#covered = cover ? cover.reduce((sum, share) => sum + share, 0) / cover.length : 1;
@@ -201,7 +178,8 @@ export class Skin {
 		this.#poseOf = poseOf;
 		this.pose = poseOf?.(meshes);
 		known.set(object, this);
-		this.#pieces = meshes.map((mesh) => new ShadedPiece(mesh, surface && furCover(mesh.geometry, surface)));
+		const apart = surface && !standsOn(this.geometries, surface);
+		this.#pieces = meshes.map((mesh) => new ShadedPiece(mesh, surface && furCover(mesh.geometry, surface, apart)));
 		const box = new Box3();
 		for (const mesh of meshes) {
 			mesh.castShadow = mesh.receiveShadow = true;
