@@ -204,7 +204,9 @@ def test_stored_and_read_back(tmp_path: Path, make_pelt: Callable[..., Pelt]) ->
     charts, fur = surface.natural.charts(1.0), VertexFur.even(len(surface.vertices))
     numbers = np.round(np.random.default_rng(1).normal(size=(3, 12)), 3)
     peak = np.array([0.25, -0.125, 0.0625])
-    write_gltf(tmp_path, FurModel(surface, charts, fur, (replace(make_pelt(), eye=numbers, surge=peak, spread=0.25),), 0.5))
+    write_gltf(
+        tmp_path, FurModel(surface, charts, fur, (replace(make_pelt(), eye=numbers, surge=peak, spread=0.25),), 0.5)
+    )
     pelt = read_pelt(read_asset(tmp_path))
     np.testing.assert_array_equal(pelt.eye, numbers)
     np.testing.assert_array_equal(pelt.surge, peak)

@@ -1,8 +1,8 @@
 """Stored slabs that show as much of every height as the hairs do.
 
-Slabs are composited as if their hairs had nothing to do with each other. A hair goes on from slab to slab, and what lies
-below it is hidden once: `shown_slabs` takes 1 − α of every slab to the power at which all of them together show, from
-straight above, as much of each height as the strands do.
+Slabs are composited as if their hairs had nothing to do with each other. A hair goes on from slab to slab, and what
+lies below it is hidden once: `shown_slabs` takes 1 − α of every slab to the power at which all of them together show,
+from straight above, as much of each height as the strands do.
 
 Combed hairs lie along more of the skin and hide more of it, by how much steeper they were before: the shader takes
 1 − α to a further power, for which `spread_of` says how far the hairs' own slopes differ.

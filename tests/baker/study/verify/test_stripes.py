@@ -80,8 +80,8 @@ def edges(picture: np.ndarray, seen: Frame) -> np.ndarray:
 def test_edges_lie_where_the_tracer_has_them(combed: bool, tmp_path: Path) -> None:
     """Within half of a hair's spacing, RMS, upright.
 
-    Combed across the stripes, tips are a third of a tile off their roots: .8 of a spacing; if hairs that lie hid no more
-    than others, 1.5.
+    Combed across the stripes, tips are a third of a tile off their roots: .8 of a spacing; if hairs that lie hid no
+    more than others, 1.5.
     """
     laid = {"sweep": "0.5"} if combed else {"coat.lean": "0,0"}
     white = {f"ramp.{name}": WHITE for name in ("root", "tip", "tip2")}
