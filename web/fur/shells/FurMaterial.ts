@@ -112,6 +112,7 @@ export class FurMaterial extends PeltMaterial {
 	declare sharpness: number;
 
 	/** @param roots picture of the skin below; undefined: colours of the vertices */
+	// Long: one flat table of uniforms and defaults.
 	constructor(asset: FurAsset, textures: FurTextures, parameters: FurMaterialParameters = {}, roots?: Roots) {
 		const pelt = asset.pelts[0];
 		if (!pelt) throw new Error('FUR_ptm_shells/pelts: got none, expected at least one');
@@ -192,7 +193,7 @@ function codingOf(asset: FurAsset): TexelCoding {
 }
 
 /**
- * Of a fur X = spread of its hairs' slopes, 0 where the asset does not tell it, in widths of its tile, Y = length of the
+ * Spread of a fur's hairs: X = of their slopes, 0 where the asset does not tell it, in widths of its tile, Y = length of the
  * longest hairs of the body, in widths of the coat's.
  */
 function spreadOf({ spread = 0, height }: FurAsset, asset: FurAsset): Vector2 {

@@ -15,17 +15,11 @@ uniform float furCells; // see shell.glsl
 in vec2 vRoot; // root of the hairs, cells
 #endif
 
-// x >> by, for x below 2²⁸ and by below 16: software rasterisers shift lane by lane where lanes differ.
-uint shifted(uint x, uint by) {
-	uint power = uint(int(uintBitsToFloat((143u - by) << 23))); // 2^(16 − by)
-	return (x >> 16) * power + (((x & 0xffffu) * power) >> 16);
-}
-
 // Number of a cell, 0..1: PCG (M. E. O'Neill 2014) of its two places.
 float numberOf(ivec2 cell) {
 	uint h = (uint(cell.x) & 0xffffu) | (uint(cell.y) << 16);
 	h = h * 747796405u + 2891336453u;
-	h = (shifted(h >> 4, h >> 28) ^ h) * 277803737u;
+	h = ((h >> ((h >> 28) + 4u)) ^ h) * 277803737u;
 	h = (h >> 22) ^ h;
 	return float(h >> 8) / 16777216.0;
 }
@@ -33,6 +27,11 @@ float numberOf(ivec2 cell) {
 // Share of this fur in the hairs of a fragment: 0 or 1, and where cells are smaller than pixels their mean.
 float furShare() {
 	vec2 apart = fwidth(vRoot);
+#if REGIONS == 2
+	if (vBound >= 1.0) return 1.0;
+#else
+	if (vLowest <= 0.0 && vHighest >= 1.0) return 1.0;
+#endif
 	float number = numberOf(ivec2(floor(vRoot)));
 #if REGIONS == 2
 	float one = step(mix(number, 1.0 - number, furSecond), vBound), mean = clamp(vBound, 0.0, 1.0);
