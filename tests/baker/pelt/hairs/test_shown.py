@@ -58,10 +58,7 @@ def test_uppermost_hairs_are_those_that_rays_from_above_hit(strands: Strands) ->
 
 
 def test_slabs_show_as_much_of_each_height_as_hairs_do(strands: Strands) -> None:
-    """Beside brute force on other points of the tile.
-
-    Without the powers slabs show too much of the tips and too little skin.
-    """
+    """Beside brute force on other points of the tile; without powers slabs show too little of the skin."""
     fine = voxelise(strands, HEIGHT, *fine_shape(LAYERS, SIZE, HEIGHT), PAPER.coat.opacity)
     hit = first_hit(strands, np.zeros(2), np.random.default_rng(2).random((1500, 2)))
     truth = np.array([np.mean(hit >= k / LAYERS * HEIGHT) for k in range(LAYERS)])

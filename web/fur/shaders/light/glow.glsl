@@ -13,7 +13,9 @@ const vec3 SKIN = vec3(0.46, 0.15, 0.075); // share of the light that thin skin 
 // Share of a lamp's light on the other side that comes through.
 float glowThrough(ShadowMap map, mat4 matrix, float bias, FurPoint point, vec3 lightVS) {
 	float facing = -dot(lightVS, point.frameVS[UPRIGHT]);
-	if (facing <= 0.0 || !receiveShadow) return 0.0;
+	// Long hairs on either side take what skin lets through.
+	float bare = 1.0 - smoothstep(0.25, 0.75, point.reach / glow);
+	if (facing <= 0.0 || bare <= 0.0 || !receiveShadow) return 0.0;
 	// Largest convex curvature: a ball's is twice the share facing away over the way through it, a leaf's is small.
 	vec3 bend = point.curvature / max(point.reach, 1e-9);
 	float round = max(0.5 * (bend.x + bend.y) + length(vec2(0.5 * (bend.x - bend.y), bend.z)), 0.0);
@@ -30,6 +32,6 @@ float glowThrough(ShadowMap map, mat4 matrix, float bias, FurPoint point, vec3 l
 		sum += lit / (1.0 + bulge * bulge * bulge);
 	}
 	sum /= float(GLOW_TAPS);
-	return facing * sum * sum;
+	return bare * facing * sum * sum;
 }
 #endif
