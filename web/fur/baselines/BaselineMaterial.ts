@@ -57,7 +57,7 @@ export class BaselineMaterial extends ShaderMaterial {
 			].join('\n'),
 			fragmentShader: [
 				'#include <common>',
-				...texelChunks,
+				...texelChunks(),
 				coverage,
 				...('ROOTS' in shells.defines || 'REGIONS' in shells.defines ? [drift] : []),
 				parts.regions?.dissolve ?? '',

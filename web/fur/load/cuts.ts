@@ -1,7 +1,8 @@
 /** Planes of an asset → textures of its shells and fins. */
 
 import { ClampToEdgeWrapping, type Texture } from 'three';
-import { type Fin, type FurAsset, fursOf, type Pelt } from '../format.ts';
+import { hairsOf } from '../format/hairsOf.ts';
+import type { Fin, FurAsset, Pelt } from '../format.ts';
 import type { FurTextures } from '../light/texels.ts';
 import type { GltfFiles } from '../planes/GltfFiles.ts';
 import { decodePlanes, depthOf, type Layout, type PlaneFile, type Role } from '../planes/mipLevels.ts';
@@ -42,7 +43,7 @@ export async function finCut(asset: FurAsset, files: GltfFiles, fin: Fin): Promi
 
 /** @param partOf the cut's part of a state */
 async function cutOf(asset: FurAsset, files: GltfFiles, layout: Layout, partOf: (state: Pelt) => Stored): Promise<Cut> {
-	const furs = fursOf(asset);
+	const furs = hairsOf(asset);
 	const planes = furs.flatMap(({ pelts }, fur) =>
 		planesOf(partOf(pelts[0] as Pelt)).map(({ role, index }) =>
 			files.image(index).then((file) => ({ role, fur, ...file })),
@@ -79,6 +80,6 @@ function planesOf({ planes: [plane0, plane1], colour, direction }: Stored): { ro
 
 /** Heights of several furs over the coat's. */
 function heightsOf(asset: FurAsset): Pick<Layout, 'heights'> {
-	const { regions, height } = asset;
-	return regions ? { heights: [1, ...regions.furs.map((fur) => fur.height / height)] } : {};
+	const furs = hairsOf(asset);
+	return furs.length > 1 ? { heights: furs.map(({ height }) => height / asset.height) } : {};
 }

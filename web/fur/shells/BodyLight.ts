@@ -46,7 +46,17 @@ const SKY_HEIGHTS = 11;
 const PARTS = ['SWING', 'STRAIGHT', 'TRIMMED', 'WET', 'SKY', 'MORPHS'];
 
 /** Parts of the shells' shaders that belong to the pelt. */
-const PELT_PARTS = ['LAYERS', 'EYE', 'TWO_PLANES', 'CURVES', 'CURVES_LOW', 'CURVES_HIGH', 'REGIONS', 'ONE_FUR'];
+const PELT_PARTS = [
+	'LAYERS',
+	'EYE',
+	'TWO_PLANES',
+	'CURVES',
+	'CURVES_LOW',
+	'CURVES_HIGH',
+	'REGIONS',
+	'SAME_HAIRS',
+	'ONE_FUR',
+];
 
 /** Shells that look the light up. */
 type Shells = Mesh<InstancedBufferGeometry, FurMaterial>;

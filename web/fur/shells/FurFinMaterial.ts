@@ -21,6 +21,9 @@ export interface FurFinMaterialParameters extends ShaderMaterialParameters {
 
 const MIRRORED = ['finLength', 'finOpacity', 'finHeights'] as const satisfies (keyof FurFinMaterialParameters)[];
 
+/** Parts of the shells' shaders that the pelt decides on. */
+const PARTS = ['LAYERS', 'EYE', 'ROOTS', 'REGIONS', 'SAME_HAIRS'];
+
 /** Uniforms shared with the shells. */
 const SHARED = [
 	...[
@@ -78,9 +81,7 @@ export class FurFinMaterial extends PeltMaterial {
 				// |n·v| of the faces, between which a fin fades out; half a mip level finer than even, since fins are seen askew.
 				defines: {
 					FIN: '',
-					LAYERS: shells.defines.LAYERS,
-					...('EYE' in shells.defines && { EYE: '' }),
-					...('ROOTS' in shells.defines && { ROOTS: '' }),
+					...Object.fromEntries(Object.entries(shells.defines).filter(([part]) => PARTS.includes(part))),
 					FADE_FROM: '0.03',
 					FADE_TO: '0.15',
 					LOD_BIAS: '-0.5',

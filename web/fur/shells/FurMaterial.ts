@@ -1,5 +1,6 @@
 import { Color, type ShaderMaterialParameters, Vector2, Vector3, Vector4 } from 'three';
 import { type Roots, rootUniforms } from '../body/roots/Roots.ts';
+import { hairsOf } from '../format/hairsOf.ts';
 import { type FurAsset, fursOf, type Pelt, tileOf } from '../format.ts';
 import { bentWeights, leanOf, wayOf } from '../light/bent.ts';
 import { eyeUniforms } from '../light/eye.ts';
@@ -111,11 +112,12 @@ export class FurMaterial extends PeltMaterial {
 	declare sharpness: number;
 
 	/** @param roots picture of the skin below; undefined: colours of the vertices */
+	// Long: one flat table of uniforms and defaults.
 	constructor(asset: FurAsset, textures: FurTextures, parameters: FurMaterialParameters = {}, roots?: Roots) {
 		const pelt = asset.pelts[0];
 		if (!pelt) throw new Error('FUR_ptm_shells/pelts: got none, expected at least one');
 		const { ramp, regions } = asset;
-		const furs = fursOf(asset);
+		const furs = hairsOf(asset);
 		super(
 			furs.map(codingOf),
 			textures,
@@ -137,11 +139,11 @@ export class FurMaterial extends PeltMaterial {
 					firstShell: { value: 0 },
 					merged: { value: 0 },
 					drift: { value: furs.flatMap(({ drift }) => driftKnots(drift)) },
-					spreads: { value: furs.map((fur, i) => spreadOf(fur, asset, regions?.furs[i - 1]?.tile ?? 1)) },
+					spreads: { value: furs.map((fur) => spreadOf(fur, asset)) },
 					lean: { value: leanOf(asset) },
 					bent: { value: furs.flatMap(bentWeights) },
 					...eyeUniforms(furs),
-					...(regions && parts.regions?.regionUniforms(regions, furs)),
+					...(regions && parts.regions?.regionUniforms(regions, furs, fursOf(asset))),
 					...morphUniforms(),
 					...weightUniforms(),
 					alphaCut: { value: ALPHA_CUT },
@@ -163,6 +165,7 @@ export class FurMaterial extends PeltMaterial {
 					MAX_SLANT: '6.0',
 					HAIR: '0.2',
 					LAYERS: asset.layers,
+					...(regions && { REGIONS: 1 + regions.furs.length, ...(furs.length === 1 && { SAME_HAIRS: '' }) }),
 					...(asset.eye && { EYE: '' }),
 					...(roots && { ROOTS: '' }),
 				},
@@ -190,13 +193,11 @@ function codingOf(asset: FurAsset): TexelCoding {
 }
 
 /**
- * Of a fur X = spread of its hairs' slopes, 0 where the asset does not tell it, Y = length of the longest hairs of the body,
- * both as displacements in widths of its tile.
- *
- * @param width of the fur's tile over the coat's
+ * Spread of a fur's hairs: X = of their slopes, 0 where the asset does not tell it, in widths of its tile, Y = length of the
+ * longest hairs of the body, in widths of the coat's.
  */
-function spreadOf({ spread = 0, height }: FurAsset, asset: FurAsset, width: number): Vector2 {
-	return new Vector2(spread * height, asset.length / (tileOf(asset) * width));
+function spreadOf({ spread = 0, height }: FurAsset, asset: FurAsset): Vector2 {
+	return new Vector2(spread * height, asset.length / tileOf(asset));
 }
 
 /** Mean displacement of the hairs at the root and in every slab's middle, two to a vector. */

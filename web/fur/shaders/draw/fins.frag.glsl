@@ -16,7 +16,7 @@ in vec4 vSkin;
 out vec4 fragColour;
 
 void main() {
-	vec3 at = vec3(vAt, float(furRegion));
+	vec3 at = vec3(vAt, float(furHairs));
 	FurTexel texel = furTexel(at);
 #ifdef ROOTS
 	rootColour = texture(roots, vRoot).rgb;

@@ -34,15 +34,20 @@ out float vFacing; // n·v
 out float vKept;
 #ifdef PARTED
 in vec4 regionSlope; // growth of the two bounds along u and v, per unit of texture coordinates: XY of the lower, ZW of the upper
-out float vLowest; // bounds of the numbers of this fur's hairs at their root
-out float vHighest;
 #ifndef TIGHT
 uniform float furCells; // cells along a tile of the coat in which all hairs are of one fur
 out vec2 vRoot; // root of the hairs, cells
 #endif
+// Bounds of the numbers of this fur's hairs there.
+#if REGIONS == 2
+out float vBound; // upper bound of the coat's; of the other's, which are counted from 1 down, too
+#else
+out float vLowest;
+out float vHighest;
+#endif
 #endif
 
-uniform vec2 spreads[FURS]; // X = spread of the hairs' slopes, 0 where it is not known; Y = length of the longest hairs; widths of the fur's tile
+uniform vec2 spreads[FURS]; // X = spread of the hairs' slopes, 0 where it is not known; Y = length of the longest hairs; widths of the coat's tile
 
 #define TIE 0.7 // phase at which half as many shells as slabs are as bright as a few more or less
 
@@ -99,9 +104,9 @@ float sharesOf(int slab, float count) {
 
 // Skin that combed hairs of a slab lie along over that of uncombed ones, by their mean slopes: see `spread_of`, pelt/hairs/shown.py.
 float combedCover(ShellPoint point) {
-	vec2 spread = spreads[furRegion];
+	vec2 spread = spreads[furHairs];
 	if (spread.x <= 0.0) return 1.0;
-	float reach = spread.y * _fur.y;
+	float reach = spread.y * _fur.y / furWidth;
 #ifdef WET
 	reach *= furTraits.x;
 #endif
@@ -156,13 +161,18 @@ ShellPoint shellPoint() {
 	vWeight = _fur.x * FUR_SHARE * slabs * combedCover(point);
 #ifdef PARTED
 	drifted *= furWidth;
-	vLowest = _region.x - dot(regionSlope.xy, drifted) / tiles;
-	vHighest = _region.y - dot(regionSlope.zw, drifted) / tiles;
 #ifndef TIGHT
 	vRoot = (uv * tiles - drifted) * furCells;
 #endif
+	vec2 bounds = _region.xy - vec2(dot(regionSlope.xy, drifted), dot(regionSlope.zw, drifted)) / tiles;
+#if REGIONS == 2
+	vBound = mix(bounds.y, 1.0 - bounds.x, furSecond);
+#else
+	vLowest = bounds.x;
+	vHighest = bounds.y;
 #endif
-	vec2 kept = keptLevels(slab + furRegion * LAYERS);
+#endif
+	vec2 kept = keptLevels(slab + furHairs * LAYERS);
 	vKept = mix(kept.x, kept.y, crispness.y);
 	vFacing = dot(point.turn * n, viewerVS(point.pointVS));
 	gl_Position = point.there ? projectionMatrix * vec4(point.pointVS, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);

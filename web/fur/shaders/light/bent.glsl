@@ -1,8 +1,8 @@
 // Light on fur that is bent further than baked. Texels stay; the effective direction of light and the hairs' reflectance
 // change, by the law of pelt/bent.py. `furbake bend` compares it with bakes of the bent hairs.
 
-#ifdef REGIONS
-uniform vec2 leans[REGIONS]; // lean of each fur
+#if FURS > 1
+uniform vec2 leans[FURS]; // lean of each fur
 #define lean ofFur(leans, 1, 0)
 #else
 uniform vec2 lean; // mean displacement of the tips inside the tile, share of the length along (T, B)

@@ -20,7 +20,7 @@ uniform highp sampler2D slabLight; // a row per slab, state after state, in each
 #define HAIRS 63 // RGB = mean colour, for a pelt with a colour plane
 
 vec4 ofRow(int row, int texel) {
-	row += furRegion * LAYERS;
+	row += furHairs * LAYERS;
 #ifdef WET
 	int below = stateBelow(vPlace);
 	row += below * FURS * LAYERS;
@@ -96,7 +96,7 @@ vec4 curvesAt(float height, float left, float radius, vec3 lightTS) {
 #else
 	float along = dot(leanTS(), lightTS);
 #endif
-	at.y += 6.0 * float(furRegion);
+	at.y += 6.0 * float(furHairs);
 	return texture(curveTable, at / vec2(1.0, 6.0 * float(FURS))) + along * texture(curveTable, vec2(at.x, (at.y + 3.0) / (6.0 * float(FURS))));
 }
 

@@ -3,8 +3,8 @@
 
 #ifdef EYE
 uniform vec4 eye[9 * FURS]; // weights of twelve terms, fur after fur, three vectors for each of 1, s, s²
-#ifdef REGIONS
-uniform vec4 surges[REGIONS]; // surge of each fur
+#if FURS > 1
+uniform vec4 surges[FURS]; // surge of each fur
 #define furSurge ofFur(surges, 1, 0)
 #else
 #define furSurge surge

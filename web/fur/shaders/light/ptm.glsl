@@ -2,7 +2,7 @@
 
 uniform sampler2DArray plane0; // (a0, a1, a2, a5); with three coefficients (a0, a1, a2, α)
 #ifdef CODINGS // furs have codings of their own
-uniform vec4 codings[4 * REGIONS]; // scale0, offset0, scale1, offset1 below, fur after fur
+uniform vec4 codings[4 * FURS]; // scale0, offset0, scale1, offset1 below, fur after fur
 #ifdef TWO_PLANES
 uniform sampler2DArray plane1; // (a3, a4, α, tint)
 #endif

@@ -5,7 +5,7 @@ uniform highp sampler2D trimLight; // a row per slab, fur after fur; X = pull of
 
 // Moments that give the mean texel of the slab at s the light of cut fur, and keep each texel's difference from the mean.
 Moments trimmed(Moments moments, float s) {
-	int slab = clamp(int(s * float(LAYERS) - 0.01), 0, LAYERS - 1) + furRegion * LAYERS;
+	int slab = clamp(int(s * float(LAYERS) - 0.01), 0, LAYERS - 1) + furHairs * LAYERS;
 	vec3 change = moments.low * texelFetch(trimLight, ivec2(2, slab), 0).xyz + moments.high * texelFetch(trimLight, ivec2(3, slab), 0).xyz;
 	moments.low += outerProduct(change, texelFetch(trimLight, ivec2(0, slab), 0).xyz);
 	moments.high += outerProduct(change, texelFetch(trimLight, ivec2(1, slab), 0).xyz);
@@ -14,7 +14,7 @@ Moments trimmed(Moments moments, float s) {
 
 #ifdef ONE_HUE
 LampMoments trimmed(LampMoments moments, float s) {
-	int slab = clamp(int(s * float(LAYERS) - 0.01), 0, LAYERS - 1) + furRegion * LAYERS;
+	int slab = clamp(int(s * float(LAYERS) - 0.01), 0, LAYERS - 1) + furHairs * LAYERS;
 	float change = dot(moments.low, texelFetch(trimLight, ivec2(2, slab), 0).xyz) + dot(moments.high, texelFetch(trimLight, ivec2(3, slab), 0).xyz);
 	moments.low += change * texelFetch(trimLight, ivec2(0, slab), 0).xyz;
 	moments.high += change * texelFetch(trimLight, ivec2(1, slab), 0).xyz;

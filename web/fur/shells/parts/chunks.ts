@@ -26,14 +26,17 @@ import trimmed from '../../shaders/light/trimmed.glsl?raw';
 import view from '../../shaders/light/view.glsl?raw';
 import { parts } from './parts.ts';
 
+/** Number of furs on a body. */
+const furChunks = (): string[] => [region, parts.regions?.furs ?? ''];
+
 /** Positions of hairs. */
 export const hairChunks = (): string[] => [
-	...[region, regionOut, root, parts.pose?.morphs ?? '', parts.pose?.joints ?? '', pose],
+	...[...furChunks(), regionOut, root, parts.pose?.morphs ?? '', parts.pose?.joints ?? '', pose],
 	...[follicle, comb, weather, weatherOut, trim, displacement],
 ];
 
 /** Reading of texels. */
-export const texelChunks = [region, regionIn, trim, density, weather, weatherIn];
+export const texelChunks = (): string[] => [...furChunks(), regionIn, trim, density, weather, weatherIn];
 
 /** Arrival of lamps at a point of the fur. @param curved whether by mean curves (format 2.x) */
 export const arrivalChunks = (curved: boolean): string[] => [

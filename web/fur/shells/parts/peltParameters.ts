@@ -26,7 +26,7 @@ import { stainUniforms } from '../../weather/stains.ts';
 import { hairChunks, lampChunks, skyChunks, texelChunks } from './chunks.ts';
 
 /**
- * @param furs coding of each fur's texels, the coat first
+ * @param furs coding of each fur's texels, the coat first; of the coat alone where all have its hairs
  * @param light uniforms of the slabs' light
  * @param parameters own shaders (after the common chunks), uniforms, defines and properties
  */
@@ -79,7 +79,6 @@ export function peltParameters(
 			...(texels.scale.length > 3 && { TWO_PLANES: '' }),
 			...(textures.colour && { COLOUR_PLANE: '' }),
 			SKY: '',
-			...(furs.length > 1 && { REGIONS: furs.length }),
 			...(furs.some((own) => String(own.scale) + own.bias !== String(texels.scale) + texels.bias) && { CODINGS: '' }),
 			...defines,
 		},
@@ -91,7 +90,7 @@ export function peltParameters(
 			...[curvature, lightOut, colour, vertexShader],
 		].join('\n'),
 		fragmentShader: [
-			...texelChunks,
+			...texelChunks(),
 			...lampChunks(means !== undefined),
 			...[lightIn, ptm, colour, output, fragmentShader],
 		].join('\n'),

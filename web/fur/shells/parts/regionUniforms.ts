@@ -4,15 +4,20 @@ import { Color, type IUniform } from 'three';
 import type { FurAsset } from '../../format.ts';
 import { leanOf } from '../../light/bent.ts';
 
-/** Numbers of each fur that the shaders look up, the coat first. */
+/**
+ * Numbers of each fur that the shaders look up, the coat first.
+ *
+ * @param hairs furs with numbers of their own, the coat first; see `hairsOf`
+ */
 export function regionUniforms(
 	{ cells, furs: regions }: NonNullable<FurAsset['regions']>,
+	hairs: readonly FurAsset[],
 	furs: readonly FurAsset[],
 ): Record<string, IUniform> {
 	return {
 		furCells: { value: cells },
 		tileWidths: { value: [1, ...regions.map(({ tile }) => tile)] },
-		leans: { value: furs.map(leanOf) },
+		leans: { value: hairs.map(leanOf) },
 		regionRamps: {
 			value: furs.flatMap(({ ramp: { root, tip, tip2 } }) => [root, tip, tip2].map((colour) => new Color(...colour))),
 		},

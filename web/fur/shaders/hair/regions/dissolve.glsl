@@ -2,8 +2,12 @@
 // surface in which the hair has its root, so that it is the same from root to tip, and in all furs.
 
 #ifdef PARTED
-in float vLowest; // bounds of the numbers of this fur's hairs at the root
+#if REGIONS == 2
+in float vBound; // see shell.glsl
+#else
+in float vLowest;
 in float vHighest;
+#endif
 #ifdef TIGHT
 uniform float furCells; // see shell.glsl
 #define vRoot (rootTiles(furAt) * (furWidth * furCells))
@@ -23,9 +27,17 @@ float numberOf(ivec2 cell) {
 // Share of this fur in the hairs of a fragment: 0 or 1, and where cells are smaller than pixels their mean.
 float furShare() {
 	vec2 apart = fwidth(vRoot);
+#if REGIONS == 2
+	if (vBound >= 1.0) return 1.0;
+#else
 	if (vLowest <= 0.0 && vHighest >= 1.0) return 1.0;
+#endif
 	float number = numberOf(ivec2(floor(vRoot)));
+#if REGIONS == 2
+	float one = step(mix(number, 1.0 - number, furSecond), vBound), mean = clamp(vBound, 0.0, 1.0);
+#else
 	float one = step(vLowest, number) * step(number, vHighest), mean = clamp(vHighest, 0.0, 1.0) - clamp(vLowest, 0.0, 1.0);
+#endif
 	return mix(one, mean, smoothstep(0.5, 1.5, max(apart.x, apart.y)));
 }
 #endif

@@ -7,9 +7,13 @@ in float vFade; // opacity of the fin, and 2 more for each fur before its own
 in vec3 vAt; // see shell.glsl
 #ifdef TIGHT
 #define furLayer floor(vAt.z + 0.25)
-#define furAt vec3(vAt.xy, furLayer)
 #else
-#define furAt vAt
+#define furLayer vAt.z
+#endif
+#if defined(REGIONS) && defined(SAME_HAIRS)
+#define furAt vec3(vAt.xy, furLayer - float(furRegion * LAYERS))
+#else
+#define furAt vec3(vAt.xy, furLayer)
 #endif
 #endif
 

@@ -3,13 +3,13 @@
 uniform vec4 drift[FURS * ((LAYERS + 2) / 2)]; // two knots each, fur after fur: mean displacement of the hairs at the root and in every slab's middle, tile widths
 
 vec2 driftKnot(int k) {
-	vec4 two = drift[furRegion * ((LAYERS + 2) / 2) + (k >> 1)];
+	vec4 two = drift[furHairs * ((LAYERS + 2) / 2) + (k >> 1)];
 	return (k & 1) == 0 ? two.xy : two.zw;
 }
 
 // Tiles of the roots of a shell's hairs, which stand aside of them by the drift of their slab. at: tiles and slab, fur after fur
 vec2 rootTiles(vec3 at) {
-	return at.xy - driftKnot(int(at.z + 0.5) - furRegion * LAYERS + 1);
+	return at.xy - driftKnot(int(at.z + 0.5) - furHairs * LAYERS + 1);
 }
 
 // Mean displacement of the hairs: 0 at the root, linear between slab middles and on beyond the last.

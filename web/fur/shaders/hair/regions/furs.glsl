@@ -1,0 +1,24 @@
+// Several furs on one body: each has numbers of its own, by the number of the fur, and slabs of its own in the textures. Where
+// SAME_HAIRS is defined, they differ in size and colours alone, and share the coat's.
+
+#ifdef REGIONS // number of furs
+#if REGIONS == 2 // a mix of two is cheaper than a branch or a place in a list
+#define byFur(list, stride, i) mix(list[i], list[(stride) + (i)], furSecond)
+#else
+#define byFur(list, stride, i) list[(stride) * furRegion + (i)]
+#endif
+uniform float tileWidths[REGIONS]; // widths of a tile over the coat's
+#define furWidth byFur(tileWidths, 1, 0)
+#ifndef SAME_HAIRS
+#define FURS REGIONS
+#define furHairs furRegion
+#define ofFur byFur
+#endif
+#ifndef ONE_FUR
+#define PARTED // furs share the surface
+#if defined(BACKLIGHT) || defined(BODIES)
+#define TIGHT // no varyings are left for places that a fragment can find by itself
+#define RAMP_SHARE 0.5
+#endif
+#endif
+#endif
