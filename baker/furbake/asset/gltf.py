@@ -241,9 +241,7 @@ def extension(
         **({} if pelt.surge is None else {"surge": numbers(pelt.surge)}),
         **({} if pelt.spread is None else {"spread": numbers(np.array([pelt.spread]))[0]}),
         "ramp": {
-            "root": numbers(np.array(pelt.ramp.root)),
-            "tip": numbers(np.array(pelt.ramp.tip)),
-            "tip2": numbers(np.array(pelt.ramp.tip2)),
+            **{name: numbers(np.array(getattr(pelt.ramp, name))) for name in ("root", "tip", "tip2")},
             "power": float(pelt.ramp.power),
         },
         **({} if mud is None else {"mud": numbers(np.array(mud))}),

@@ -210,7 +210,7 @@ def test_bodies_between_two_tables_are_lit_as_light_transport_has_them(beta: flo
         return (mean_light(parts[0] + parts[1], volume.coverage) @ seen).reshape(-1, 6).mean(1)
 
     mixed = sum(share * lit(radius) for share, radius in zip(shares(beta), RADII, strict=True) if share > 0)
-    np.testing.assert_allclose(mixed / lit(beta), 1, atol=0.05)
+    np.testing.assert_allclose(mixed / lit(beta), 1, atol=0.06)
 
 
 def test_coarser_voxels_hide_as_much() -> None:
