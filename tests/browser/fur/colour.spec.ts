@@ -91,7 +91,7 @@ test("the sky has one share for all directions, by the skin's curvature", async 
 	await openStage(page);
 	for (const [radius, ...between] of [
 		[1, 1],
-		[8, 4, 16], // half-way between the tabulated ones
+		[74 / 11, 4, 16], // 1/(β + 1) half-way between those of the tabulated ones
 	] as const) {
 		await serve(page, 0.4, true);
 		let share = 0;
