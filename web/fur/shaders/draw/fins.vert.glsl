@@ -69,7 +69,8 @@ void main() {
 	gl_Position = projectionMatrix * vec4(pointVS, 1.0);
 #ifdef ROOTS
 	vSkin = vec4(skinColor, tipShare * _fur.w);
-	vRoot = uv1 - rootsUnit * furWidth * driftAt(s);
+	vec2 slope;
+	vRoot = uv1 - rootsUnit * furWidth * driftAt(s, slope);
 #else
 	vSkin = vec4(skinColor * color.rgb, tipShare * _fur.w);
 #endif

@@ -102,16 +102,14 @@ float sharesOf(int slab, float count) {
 #endif
 }
 
-// Skin that combed hairs of a slab lie along over that of uncombed ones, by their mean slopes: see `spread_of`, pelt/hairs/shown.py.
-float combedCover(ShellPoint point) {
+// Skin that combed hairs lie along over that of uncombed ones of this slope: see `spread_of`, pelt/hairs/shown.py.
+float combedCover(ShellPoint point, vec2 own) {
 	vec2 spread = spreads[furHairs];
 	if (spread.x <= 0.0) return 1.0;
 	float reach = spread.y * _fur.y / furWidth;
 #ifdef WET
 	reach *= furTraits.x;
 #endif
-	float k = float(point.slab);
-	vec2 own = (driftAt((k + 1.0) / float(LAYERS)) - driftAt(k / float(LAYERS))) * float(LAYERS);
 	vec2 more = 2.0 * point.s * reach / max(furRise(point.comb), 0.1) * point.comb.xy;
 	return sqrt((dot(own + more, own + more) + spread.x * spread.x) / (dot(own, own) + spread.x * spread.x));
 }
@@ -150,7 +148,7 @@ ShellPoint shellPoint() {
 #else
 	int slab = slabAt(point.s, i, count);
 #endif
-	vec2 drifted = driftAt(point.s);
+	vec2 slope, drifted = driftAt(point.s, slope);
 	vAt = vec3(uv * furTiles - (drifted - driftKnot(slab + 1)), float(slab + furRegion * LAYERS));
 	float slabs = share / sharesOf(slab, count);
 #ifndef BODIES
@@ -158,7 +156,7 @@ ShellPoint shellPoint() {
 	if (below > 0.0 && i < lowest + 2.0) slabs = i == lowest ? many * (lowest + 1.0 - below) : slabs + many * (below - lowest);
 #endif
 	point.slab = slab;
-	vWeight = _fur.x * FUR_SHARE * slabs * combedCover(point);
+	vWeight = _fur.x * FUR_SHARE * slabs * combedCover(point, slope);
 #ifdef PARTED
 	drifted *= furWidth;
 #ifndef TIGHT

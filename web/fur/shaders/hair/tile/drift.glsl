@@ -12,10 +12,11 @@ vec2 rootTiles(vec3 at) {
 	return at.xy - driftKnot(int(at.z + 0.5) - furHairs * LAYERS + 1);
 }
 
-// Mean displacement of the hairs: 0 at the root, linear between slab middles and on beyond the last.
-vec2 driftAt(float s) {
+// Mean displacement of the hairs: 0 at the root, linear between slab middles and on beyond the last. slope: of that line
+vec2 driftAt(float s, out vec2 slope) {
 	float x = s * float(LAYERS) + 0.5;
-	if (x < 1.0 || LAYERS == 1) return driftKnot(1) * (2.0 * x - 1.0);
-	int k = min(int(x), LAYERS - 1);
-	return mix(driftKnot(k), driftKnot(k + 1), x - float(k));
+	int k = LAYERS == 1 ? 0 : min(int(x), LAYERS - 1);
+	vec2 above = driftKnot(k + 1), below = k == 0 ? -above : driftKnot(k); // the first slab's middle is half a slab up
+	slope = (above - below) * float(LAYERS);
+	return mix(below, above, x - float(k));
 }
