@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.cores import cores
-from furbake.pelt.hairs.shown import BETWEEN, MOST
+from furbake.pelt.hairs.shown import BETWEEN, MAX_COVERAGE
 from furbake.pelt.hairs.strands import Coat
 from furbake.pelt.hairs.volume import SOLID_SLAB, Volume, doubled, moved, pool
 from furbake.pelt.light.fibre import THINNEST, Cylinders
@@ -83,7 +83,7 @@ class ShownTexels:
         """lights : (n, 3); beta : as of `Beam`"""
         size = min(pelt.size, SHOWN_SIZE)
         self.height, self.beta = pelt.height, FLAT if beta is None else beta
-        self.coverage = np.minimum(pool(pelt.alpha.astype(np.float32) / 255, size), np.float32(MOST))
+        self.coverage = np.minimum(pool(pelt.alpha.astype(np.float32) / 255, size), np.float32(MAX_COVERAGE))
         light = pelt.light(lights) if beta is None else pelt.light(lights, beta)
         self.light = moved(pool(light, size), np.full(2, BETWEEN))
 

@@ -40,14 +40,10 @@ export function heldLight([u, v, z]: Direction): Direction {
 /** Linear between tables' knots and, in 1/(β + 1), between their radii. @param x 0..16 */
 function lookUp(table: readonly (readonly number[])[], x: number, radius: number): number {
 	const [b, i] = [radius < RADII[1] ? 0 : 1, Math.min(Math.floor(x), KNOTS - 2)];
-	const [near, far, at] = [RADII[b] ?? 1, RADII[b + 1] ?? 1, radius].map((some) => 1 / (some + 1)) as [
-		number,
-		number,
-		number,
-	];
+	const [near, far] = [1 / (RADII[b as 0 | 1] + 1), 1 / (RADII[(b + 1) as 1 | 2] + 1)];
 	const along = (knots: readonly number[] = []) => (knots[i] ?? 0) + (x - i) * ((knots[i + 1] ?? 0) - (knots[i] ?? 0));
 	const [smaller, larger] = [along(table[b]), along(table[b + 1])];
-	return larger + ((at - far) / (near - far)) * (smaller - larger);
+	return larger + ((1 / (radius + 1) - far) / (near - far)) * (smaller - larger);
 }
 
 /**

@@ -22,7 +22,7 @@ from furbake.pelt.hairs.volume import Volume, coarsen, moved
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
 
-MOST = 0.996
+MAX_COVERAGE = 0.996
 """Largest coverage, as in `shellOpacity` of hair/opacity.glsl."""
 
 BETWEEN = 0.25
@@ -31,7 +31,7 @@ BETWEEN = 0.25
 PIXELS = 256
 """Points a side of a tile at which the uppermost hair is looked for."""
 
-FINEST = 16
+MAX_DISCS = 16
 """Discs at most that stand for a segment of a hair."""
 
 CHUNK = 1 << 16
@@ -43,10 +43,10 @@ POWERS = (0.1, 4.0)
 STEPS = 20
 """Steps by halves towards a power."""
 
-STEEP, LEVELS = 4.0, 16
+MAX_SLOPE, LEVELS = 4.0, 16
 """Largest slope that counts, and heights whose mean slopes are taken apart."""
 
-LEAST_SPREAD = 0.01
+MIN_SPREAD = 0.01
 """Least spread of the hairs' slopes."""
 
 
@@ -65,7 +65,7 @@ def uppermost(strands: Strands, height: float, mud: Crumbs | None = None) -> Arr
     points, radius = strands.points, strands.radius
     level = np.linalg.norm(np.diff(points[..., :2], axis=1), axis=-1)
     thick = np.maximum(np.minimum(radius[:, 1:], radius[:, :-1]), 0.5 / PIXELS)
-    parts = int(np.clip(np.ceil(np.percentile(level / thick, 95)), 1, FINEST))
+    parts = int(np.clip(np.ceil(np.percentile(level / thick, 95)), 1, MAX_DISCS))
     share = ((np.arange(parts) + 0.5) / parts)[:, None, None]
     top = np.full(PIXELS * PIXELS, -1.0)
     discs = points[:, :-1] + share[..., None] * np.diff(points, axis=1)
@@ -101,7 +101,8 @@ def powers(coverage: Array, shares: Array) -> Array:
     found, shown = np.ones(len(shares)), 0.0
     clear = np.ones(coverage.shape[1:])
     for k in reversed(range(len(shares))):
-        depth = np.log1p(-np.minimum(moved(coverage[k].astype(np.float32), np.full(2, BETWEEN)), MOST)).astype(float)
+        read = moved(coverage[k].astype(np.float32), np.full(2, BETWEEN))
+        depth = np.log1p(-np.minimum(read, MAX_COVERAGE)).astype(float)
         wanted = float(shares[k:].sum()) - shown
         low, high = POWERS
         for _ in range(STEPS):
@@ -117,16 +118,16 @@ def powers(coverage: Array, shares: Array) -> Array:
 
 
 def spread_of(strands: Strands, height: float) -> float:
-    """Mean distance of the hairs' slopes from the mean slope at their height, at least `LEAST_SPREAD`.
+    """Mean distance of the hairs' slopes from the mean slope at their height, at least `MIN_SPREAD`.
 
     A slope is a displacement per height; hairs count by what they hide; height : of the fur, tile widths
     """
     step = np.diff(strands.points, axis=1)
-    slope = np.clip(step[..., :2] / np.maximum(step[..., 2:], 1e-6), -STEEP, STEEP).reshape(-1, 2)
+    slope = np.clip(step[..., :2] / np.maximum(step[..., 2:], 1e-6), -MAX_SLOPE, MAX_SLOPE).reshape(-1, 2)
     weight = ((strands.radius[:, 1:] + strands.radius[:, :-1]) * np.maximum(step[..., 2], 0)).ravel()
     middle = (strands.points[:, 1:, 2] + strands.points[:, :-1, 2]).ravel() / (2 * height)
     level = np.clip((middle * LEVELS).astype(np.int64), 0, LEVELS - 1)
     total = np.maximum(np.bincount(level, weight, LEVELS), 1e-12)
     means = np.stack([np.bincount(level, weight * part, LEVELS) / total for part in slope.T], -1)
     apart = np.linalg.norm(slope - means[level], axis=1)
-    return max(float((weight * apart).sum() / max(float(weight.sum()), 1e-12)), LEAST_SPREAD)
+    return max(float((weight * apart).sum() / max(float(weight.sum()), 1e-12)), MIN_SPREAD)
