@@ -20,7 +20,8 @@ from furbake.cluster.parcel import keep, packed
 from furbake.cluster.versions import ClusterError, versions
 from furbake.cluster.work import Order, bake_there, let_go, lit_there
 from furbake.options import BakeOptions
-from furbake.pelt.light.transport import Array, Beam, Beams, Fields
+from furbake.pelt.light.beam import Beam, Fields
+from furbake.pelt.light.transport import Array, Beams
 from furbake.surface.limits import VARIABLE
 from furbake.tile.lighting import directions
 from furbake.tile.tile import Spread

@@ -15,7 +15,7 @@ from furbake.cluster.parcel import Parcel, unpacked, written
 from furbake.cluster.versions import ClusterError, compare, versions
 from furbake.cores import shared_cores
 from furbake.options import BakeOptions
-from furbake.pelt.light.transport import Fields
+from furbake.pelt.light.beam import Fields
 from furbake.tile.tile import lit
 
 

@@ -24,10 +24,11 @@ from furbake.pelt.hairs.dirt import Crumbs, soiled
 from furbake.pelt.hairs.drawn import extinction
 from furbake.pelt.hairs.strands import Coat, Strands
 from furbake.pelt.hairs.volume import Volume, pool, voxelise
+from furbake.pelt.light.beam import mean_direction, transmitted
 from furbake.pelt.light.fibre import cylinder, sine
 from furbake.pelt.light.paths import BODY_RADIUS
-from furbake.pelt.light.scatter import Slabs, Unscattered, scatter
-from furbake.pelt.light.transport import mean_direction, transmitted
+from furbake.pelt.light.scatter import scatter
+from furbake.pelt.light.slabs import Slabs, Unscattered
 from furbake.pelt.pelt import FinPelt, Pelt
 from furbake.pelt.texels.basis import PTM, harmonics
 from furbake.pelt.texels.fill import fill
@@ -173,7 +174,7 @@ class WholeFur:
         with ThreadPoolExecutor(cores()) as workers:
             single, caught, reaching, floor = (np.stack(part) for part in zip(*workers.map(beam, lights), strict=True))
         tangent = mean_direction([self._even(self.breadth * self.tangent[..., axis]) for axis in range(3)])
-        multiple = scatter(
+        several = scatter(
             Slabs(self._even(self.breadth), self.height / self.even[0], tangent),
             Unscattered(lights, caught, reaching, floor),
             albedo=self.albedo,
@@ -181,7 +182,7 @@ class WholeFur:
             faint=self.beta is not None,
         )
         where = self._even(weight) + np.float32(1e-6)
-        multiple = (multiple * where).sum(3) / where.sum(2)
+        multiple = (several.seen * where).sum(3) / where.sum(2)
 
         upright = overlap(count, rows)
         total = np.bincount(slab * self.size + row, seen, count * self.size).reshape(count, self.size)

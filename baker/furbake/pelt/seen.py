@@ -15,10 +15,11 @@ from furbake.cores import cores
 from furbake.pelt.hairs.shown import BETWEEN, MAX_COVERAGE
 from furbake.pelt.hairs.strands import Coat
 from furbake.pelt.hairs.volume import SOLID_SLAB, Volume, doubled, moved, pool
+from furbake.pelt.light.beam import Beam
 from furbake.pelt.light.fibre import THINNEST, Cylinders
 from furbake.pelt.light.paths import BODY_RADIUS, FLAT
-from furbake.pelt.light.scatter import Slabs, Unscattered, between_hairs, sent
-from furbake.pelt.light.transport import Beam
+from furbake.pelt.light.scatter import between_hairs, sent
+from furbake.pelt.light.slabs import Slabs, Unscattered
 from furbake.pelt.pelt import Pelt
 
 Array = NDArray[np.float64]

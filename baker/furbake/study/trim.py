@@ -58,6 +58,7 @@ def cut(whole: Volume, share: float) -> Volume:
         hue=whole.hue[:left],
         drift=whole.drift[:left],
         height=whole.height * left / len(whole.sigma),
+        off_axis=None if whole.off_axis is None else whole.off_axis[:left],
     )
 
 

@@ -15,7 +15,8 @@ from furbake.pelt.hairs.shown import spread_of
 from furbake.pelt.hairs.states import Fur, chosen, in_state
 from furbake.pelt.hairs.strands import Strands, grow
 from furbake.pelt.hairs.volume import Volume
-from furbake.pelt.light.transport import Beam, Beams, Fields, beams_here
+from furbake.pelt.light.beam import Beam, Fields
+from furbake.pelt.light.transport import Beams, beams_here
 from furbake.pelt.pelt import Pelt
 from furbake.tile.fitting import fit_pelts
 from furbake.tile.lighting import Sampled, directions, parts, sampled, setting_of

@@ -101,7 +101,7 @@ def soiled(clean: Volume, mud: Crumbs, opacity: float) -> Volume:
         if not cut.any():
             continue
         upright = np.tile([0.0, 0.0, 1.0], (int(cut.sum()), 1))
-        cover, voxel = cross_sections(mud.centre[cut, :2], np.sqrt(square[cut]), upright, size)
+        cover, voxel, _ = cross_sections(mud.centre[cut, :2], np.sqrt(square[cut]), upright, size)
         here = np.zeros(size * size)
         np.maximum.at(here, voxel.ravel(), cover.ravel())
         slab = plane // PLANES
@@ -117,4 +117,5 @@ def soiled(clean: Volume, mud: Crumbs, opacity: float) -> Volume:
     tangent = (1 - share)[..., None] * clean.tangent + share[..., None] * lying
     tangent /= np.maximum(np.linalg.norm(tangent, axis=-1, keepdims=True), 1e-9)
     breadth = clean.breadth * (1 - fill) + mixed
-    return replace(clean, sigma=hair + mixed, breadth=breadth, tangent=tangent, tint=share)
+    off_axis = None if clean.off_axis is None else clean.off_axis * (1 - share[..., None]).astype(np.float32)
+    return replace(clean, sigma=hair + mixed, breadth=breadth, tangent=tangent, tint=share, off_axis=off_axis)

@@ -40,6 +40,8 @@ class Volume:
     drift : (K, 2) mean displacement of the hairs from their roots, tile widths
     height : tile widths
     aside : (K, 2) how far a slab's voxels lie beside the skin's, tile widths; None: nowhere
+    off_axis : (K, N, N, 2) mean place of a voxel's middle beside the axes of its hairs, level, in their radii; None:
+        voxels show hairs in all of their width
     """
 
     sigma: Array
@@ -51,6 +53,7 @@ class Volume:
     drift: Array
     height: float
     aside: Array | None = None
+    off_axis: NDArray[np.float32] | None = None
 
     @property
     def slab(self) -> float:
@@ -93,6 +96,7 @@ def voxelise(
     solid = np.zeros((layers, size * size))
     widths = np.zeros((layers, 2))
     sums = np.zeros((layers, size * size, 7))  # of coverage times tangent x, y, z, tint, hue, 1; breadth
+    off_axis = np.zeros((layers, size * size, 2), np.float32)
     drift = np.zeros((layers, 3))
     beside = np.zeros((layers, 2)) if aside is None else aside
 
@@ -108,7 +112,7 @@ def voxelise(
         along = direction[hair, segment]
         along = along * np.where(along[:, 2:] < 0, -1.0, 1.0)
 
-        cover, voxel = cross_sections(centre, thick, along, size)
+        cover, voxel, off = cross_sections(centre, thick, along, size)
         here = np.zeros(size * size)
         np.maximum.at(here, voxel.ravel(), cover.ravel())
         solid[slab] += here / PLANES
@@ -118,6 +122,11 @@ def voxelise(
         starts = np.arange(len(hair) + 1) * cover.shape[1]
         drawn = scipy.sparse.csr_array((cover.ravel(), voxel.ravel(), starts), (len(hair), size * size))
         sums[slab] += drawn.T @ values
+        per_radius = 1 / np.maximum(thick * size, MIN_RADIUS)
+        for axis, apart in enumerate(off):
+            off_axis[slab, :, axis] += np.bincount(
+                voxel.ravel(), (cover * apart * per_radius[:, None]).ravel(), size * size
+            )
         widths[slab] += (thick * thick).sum(), thick.sum()
         moved = centre - points[hair, 0, :2]
         drift[slab] += np.append((thick[:, None] * moved).sum(0), thick.sum())
@@ -139,11 +148,14 @@ def voxelise(
         drift=drift[:, :2] / np.maximum(drift[:, 2:], 1e-12) + beside,
         height=height,
         aside=aside,
+        off_axis=np.asarray((off_axis / np.maximum(weight, 1e-6)[..., None]).reshape(*shape, 2), np.float32),
     )
 
 
-def cross_sections(centre: Array, thick: Array, along: Array, size: int) -> tuple[Array, NDArray[np.int64]]:
-    """Coverage of the voxels around n cut hairs: (n, w) coverage 0..1 and (n, w) flat voxel index, wrapped."""
+def cross_sections(centre: Array, thick: Array, along: Array, size: int) -> tuple[Array, NDArray[np.int64], Array]:
+    """Coverage of the voxels around n cut hairs: (n, w) coverage 0..1, (n, w) flat voxel index, wrapped, and (2, n, w)
+    where their middles lie from the hair's, voxels.
+    """
     reach = int(np.ceil(min((thick / np.maximum(along[:, 2], 0.3)).max() * size, size / 2))) + 1
     offset = np.arange(-reach, reach + 1)
     dv, du = (grid.ravel() for grid in np.meshgrid(offset, offset, indexing="ij"))
@@ -159,7 +171,7 @@ def cross_sections(centre: Array, thick: Array, along: Array, size: int) -> tupl
     q = np.sqrt(np.maximum(square - 1 / 12, 1 / 4))
     cover = np.clip(q - distance + 0.5, 0.0, 1.0) * np.minimum(1.0, 3 * square)
     voxel = (nearest[:, 1:] + dv) % size * size + (nearest[:, :1] + du) % size
-    return cover, voxel
+    return cover, voxel, np.stack([u, v])
 
 
 def pool(fine: NDArray[Real], size: int) -> NDArray[Real]:

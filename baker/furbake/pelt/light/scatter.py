@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +21,7 @@ from numpy.typing import NDArray
 from furbake.cores import cores
 from furbake.pelt.light.crossing import Crossing, hemisphere_rule
 from furbake.pelt.light.fibre import sine
+from furbake.pelt.light.slabs import Arriving, Scattered, Slabs, Unscattered
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
@@ -46,61 +46,8 @@ own light. With 0.5 M is 0.86 to 1.04 of a path tracer's (bunny, fox, paper and 
 from 75° to 20°), with 1 it is 1.1 to 1.5 of that, with 0 0.72 to 0.75 (paper)."""
 
 
-@dataclass(frozen=True)
-class Arriving:
-    """Light that arrives at the hairs and at the skin, B fields of it.
-
-    phi : (K, B, N, N) ∫I·sin θ dω, flux : (3, K, B, N, N) ∫I·ω dω, floor : (B, N, N) irradiance of the skin
-    """
-
-    phi: Single
-    flux: Single
-    floor: Single
-
-
-@dataclass(frozen=True)
-class Slabs:
-    """Periodic slabs of hair in which light is scattered.
-
-    sigma : (K, N, N) extinction across the hairs, per tile width
-    thick : of a slab, tile widths
-    tangent : (K, N, N, 3) unit direction of the hairs
-    aside : as of `Volume`
-    """
-
-    sigma: Single
-    thick: float
-    tangent: Single
-    aside: Array | None = None
-
-
-@dataclass(frozen=True)
-class Unscattered:
-    """Light of n lamps of irradiance 1 before it is scattered.
-
-    lights : (n, 3) unit directions
-    caught, reaching : (n, K, N, N) share of each light that reaches a voxel's hairs, with and without the factor sin θ
-    floor : (n, N, N) irradiance of the skin
-    """
-
-    lights: Array
-    caught: Single
-    reaching: Single
-    floor: Single
-
-    def of(self, some: slice | NDArray[np.intp]) -> Unscattered:
-        """Some of the lamps."""
-        return Unscattered(self.lights[some], self.caught[some], self.reaching[some], self.floor[some])
-
-    @property
-    def flux(self) -> Single:
-        """∫I·ω dω, (n, 3, K, N, N)."""
-        directions = self.lights.astype(np.float32)[:, :, None, None, None]
-        return np.asarray(self.reaching[:, None] * directions)
-
-
-def scatter(slabs: Slabs, light: Unscattered, *, albedo: float, skin: float, faint: bool = False) -> Single:
-    """M: light scattered at least twice, the last time to the eye straight above, (n, K, N, N), for n lights.
+def scatter(slabs: Slabs, light: Unscattered, *, albedo: float, skin: float, faint: bool = False) -> Scattered:
+    """Light that is scattered at least twice, for n lights.
 
     albedo, skin : shares of the light that a hair and the skin scatter, the skin evenly
     faint : some of the lights are much fainter than others, and count as much
@@ -120,10 +67,7 @@ def scatter(slabs: Slabs, light: Unscattered, *, albedo: float, skin: float, fai
         floor=parts[:, -1],
     )
     medium = Medium(slabs, skin)
-    arriving = medium.entering(arriving)
-    scattered = np.moveaxis(medium.all_orders(arriving, albedo), 0, 1)
-    multiple: Single = np.maximum(basis @ scattered.reshape(len(parts), -1), 0)
-    return multiple.reshape(light.caught.shape)
+    return Scattered(basis, medium.all_orders(medium.entering(arriving), albedo))
 
 
 def between_hairs(slabs: Slabs, light: Unscattered, *, albedo: float, skin: float) -> Arriving:
@@ -199,11 +143,13 @@ class Medium:
         return Arriving(direct.phi / escape, direct.flux / escape, direct.floor)
 
     def all_orders(self, arriving: Arriving, albedo: float) -> Single:
-        """Sum over all orders of what the hairs send to the eye, (K, B, N, N)."""
-        seen = np.zeros_like(arriving.phi)
-        for _, to_eye, weight in self.orders(arriving, albedo):
-            seen += to_eye * np.float32(weight)
-        return seen
+        """Sum over all orders of what the hairs send to the eye, and of u and v of the flux, (B, 3, K, N, N)."""
+        layers, count, size = arriving.phi.shape[:3]
+        found = np.zeros((count, 3, layers, size, size), np.float32)
+        for arrived, to_eye, weight in self.orders(arriving, albedo):
+            for part, more in enumerate((to_eye, *arrived.flux[:2])):
+                found[:, part] += np.float32(weight) * more.swapaxes(0, 1)
+        return found
 
     def orders(self, arriving: Arriving, albedo: float) -> Iterator[tuple[Arriving, Single, float]]:
         """Arriving light, light to the eye, and weight of each order; the last stands for all after it."""

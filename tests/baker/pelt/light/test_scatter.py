@@ -8,7 +8,8 @@ from furbake.pelt.light import scatter as module
 from furbake.pelt.light.crossing import hemisphere_rule
 from furbake.pelt.light.depth import passing
 from furbake.pelt.light.fibre import cylinder, sine
-from furbake.pelt.light.scatter import Arriving, Medium, Slabs, Unscattered, scatter
+from furbake.pelt.light.scatter import Medium, scatter
+from furbake.pelt.light.slabs import Arriving, Slabs, Unscattered
 
 UPRIGHT = np.array([0.0, 0.0, 1.0], np.float32)
 RNG = np.random.default_rng(0)
@@ -99,7 +100,7 @@ def test_thick_slabs_scatter_as_much_as_thin_ones(monkeypatch: pytest.MonkeyPatc
         reaching = (np.exp(-above) * passing(depth))[None]
         none = np.zeros((1, 2, 2), np.float32)
         unscattered = Unscattered(light, 0.8 * reaching, reaching, none)
-        seen = scatter(Slabs(sigma, slab, tangent), unscattered, albedo=0.85, skin=0.0)[0]
+        seen = scatter(Slabs(sigma, slab, tangent), unscattered, albedo=0.85, skin=0.0).seen[0]
         clear = np.exp(-sigma * slab)
         above = np.cumprod(clear[::-1], 0)[::-1] / clear
         return float((above * (1 - clear) * seen).sum(0).mean())
@@ -128,7 +129,7 @@ def test_a_bright_skin_lights_the_roots() -> None:
     light = np.array([[0.0, 0.0, 1.0]])
     slabs = Slabs(np.full((6, 8, 8), 2.0, np.float32), 0.1, hairs((6, 8, 8), np.array([0.8, 0, 0.6])))
     given = fields(light, (6, 8, 8))
-    black, white = (scatter(slabs, given, albedo=0.85, skin=skin)[0].mean((1, 2)) for skin in (0.0, 0.8))
+    black, white = (scatter(slabs, given, albedo=0.85, skin=skin).seen[0].mean((1, 2)) for skin in (0.0, 0.8))
     assert (white > black).all()
     assert (white - black)[0] > (white - black)[-1]
 
@@ -141,10 +142,10 @@ def test_many_lights_at_once_equal_each_alone() -> None:
     hair /= np.linalg.norm(hair, axis=-1, keepdims=True)
     slabs = Slabs(RNG.uniform(0, 4, shape).astype(np.float32), 0.1, hair)
     light = fields(lights, shape)
-    together = scatter(slabs, light, albedo=0.85, skin=0.25)
+    together = scatter(slabs, light, albedo=0.85, skin=0.25).seen
     for i in range(5):
         one = slice(i, i + 1)
-        alone = scatter(slabs, light.of(one), albedo=0.85, skin=0.25)
+        alone = scatter(slabs, light.of(one), albedo=0.85, skin=0.25).seen
         np.testing.assert_allclose(together[one], alone, rtol=0.03, atol=1e-3)
 
 
@@ -159,8 +160,8 @@ def test_faint_lights_keep_what_they_scatter() -> None:
         field[-1] *= 1e-3
     light.caught[-1, :-1] = light.reaching[-1, :-1] = 0  # it only reaches the top
     given = {"albedo": 0.85, "skin": 0.25}
-    together = scatter(slabs, light, **given, faint=True)[-1]
-    alone = scatter(slabs, light.of(slice(-1, None)), **given)[0]
+    together = scatter(slabs, light, **given, faint=True).seen[-1]
+    alone = scatter(slabs, light.of(slice(-1, None)), **given).seen[0]
     np.testing.assert_allclose(together.mean((1, 2)), alone.mean((1, 2)), rtol=0.1)
 
 
@@ -180,7 +181,7 @@ def test_light_from_behind_a_lying_hair_hardly_reaches_the_eye() -> None:
     lying, upright = (
         scatter(
             Slabs(sigma, 0.1, hairs(shape, way)), Unscattered(light, none, none, skin), albedo=0.85, skin=1.0
-        ).mean()
+        ).seen.mean()
         for way in (np.array([1.0, 0, 0]), UPRIGHT)
     )
     assert lying < 0.4 * upright

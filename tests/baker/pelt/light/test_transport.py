@@ -8,10 +8,11 @@ from scipy.ndimage import map_coordinates
 
 from furbake.pelt.hairs.strands import Coat, Hairs, grow
 from furbake.pelt.hairs.volume import voxelise
+from furbake.pelt.light.beam import Beam
 from furbake.pelt.light.depth import Depth
 from furbake.pelt.light.fibre import THINNEST, cylinder
 from furbake.pelt.light.paths import spread
-from furbake.pelt.light.transport import LOWEST, Beam, Setting, hemisphere, lowest, sample
+from furbake.pelt.light.transport import LOWEST, Setting, hemisphere, lowest, sample
 
 
 def march_on_a_ball(sigma: np.ndarray, height: float, light: np.ndarray, beta: float, step: float = 0.05) -> np.ndarray:
