@@ -73,7 +73,7 @@ def test_stored_planes_give_back_the_samples_as_well_as_the_record_says(
 
     assert np.abs(texels.alpha / 255 - alpha).max() <= 0.5 / 255 + 1e-9
     assert figures["psnr"] == pytest.approx(record["fit"]["psnr_quantised"], abs=0.01)
-    assert record["fit"]["psnr_quantisation"] >= 48
+    assert record["fit"]["psnr_quantisation"] >= (50 if curves == "slab" else 46)
     assert curves == "slab" or record["fit"]["psnr"] < record["fit"]["bound"]["psnr"]
     assert record["fit"]["psnr"] > 15
 
