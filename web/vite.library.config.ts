@@ -6,9 +6,16 @@ import { barePlugin } from './tools/site/plugins.mjs';
 
 const at = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 
-/** What the plugin needs before it has seen any fur. */
-const LOADER =
-	/fur\/(FurLoaderPlugin|format|load\/options|planes\/(GltfFiles|download|furLimits|meshopt)|shells\/parts\/parts)\.ts$/;
+/** Modules of one file each: bundlers of apps leave a file whole. */
+const TOGETHER = {
+	/** What the plugin needs before it has seen any fur. */
+	loader: {
+		test: /fur\/(FurLoaderPlugin|format|load\/options|planes\/(GltfFiles|download|furLimits|meshopt)|shells\/parts\/parts)\.ts$/,
+		priority: 2,
+	},
+	/** Code of all fur, with what fins, joints and several furs share with it: one request, and 1.4 kB less through gzip. */
+	growFur: { test: /fur\/load\/growFur\.ts$/, priority: 1 },
+};
 
 export default defineConfig({
 	root: at('.'),
@@ -25,10 +32,8 @@ export default defineConfig({
 		rolldownOptions: {
 			external: /^three(\/|$)/,
 			output: {
-				chunkFileNames: ({ name, isDynamicEntry }) =>
-					isDynamicEntry || name === 'loader' ? `${name}.js` : 'shared.js',
-				// Apart from what the plugin fetches only where there is fur: bundlers of apps leave a file whole.
-				codeSplitting: { groups: [{ name: 'loader', test: LOADER }] },
+				chunkFileNames: ({ name, isDynamicEntry }) => (isDynamicEntry || name in TOGETHER ? `${name}.js` : 'shared.js'),
+				codeSplitting: { groups: Object.entries(TOGETHER).map(([name, group]) => ({ name, ...group })) },
 			},
 		},
 	},

@@ -121,7 +121,7 @@ def bake(
             furry = replace(
                 _furry(model, options, body, fitted, fins), regions=_regions(body, fitted[0][0], worn, quads)
             )
-            record["asset"] = write_gltf(folder, furry, options.meshopt)
+            record["asset"] = write_gltf(folder, furry, options.meshopt, cache)
             for number, strands in enumerate((body.strands, *(part.strands for part in body.regions[1:]))):
                 if strands is not None:
                     record["asset"]["bytes"] |= write_strands(folder, strands, number)

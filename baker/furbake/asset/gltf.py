@@ -96,10 +96,11 @@ class FurModel:
 
 
 # Long: one document, put together in the order of its parts.
-def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
+def write_gltf(folder: Path, model: FurModel, compress: bool = False, cache: Path | None = None) -> Record:
     """Write model.gltf, model.bin and all images into `folder`; counts and file sizes for the record.
 
     compress : meshes by `EXT_meshopt_compression`, and the fins of a body without morph targets as edges of the shells
+    cache : optional folder of images of pelts that were encoded before
     """
     features = placed(model.skin, model.features)
     laid, model = model.skin, bound(model)
@@ -107,8 +108,8 @@ def write_gltf(folder: Path, model: FurModel, compress: bool = False) -> Record:
         model.skin, model.charts, model.fins, model.fur, model.pelts, model.motion
     )  # fmt: skip
     pelt = pelts[0]
-    looks = Looks(folder, [name for each in pelts for name in write_planes(folder, each, _prefix(each, pelt))])
-    planes, others = list(looks.images), write_regions(folder, model.regions, looks.images)
+    looks = Looks(folder, [name for each in pelts for name in write_planes(folder, each, _prefix(each, pelt), cache)])
+    planes, others = list(looks.images), write_regions(folder, model.regions, looks.images, cache)
     buffer = Buffer(compress)
     ground = model.ground or surface
     place = grid(surface.vertices, ground.vertices)

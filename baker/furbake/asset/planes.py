@@ -8,11 +8,14 @@ A fin's images are its side view, row 0 at the roots.
 
 from __future__ import annotations
 
+import hashlib
 import os
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import lru_cache
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +23,7 @@ import numpy as np
 import OpenImageIO as oiio  # noqa: N813 — as its own documentation spells it
 from numpy.typing import NDArray
 
+from furbake.cache.images import keep_images, write_kept
 from furbake.cores import cores
 from furbake.pelt.pelt import FinPelt, Pelt
 from furbake.surface.files import check_regular
@@ -170,8 +174,11 @@ def _write(path: Path, spec: oiio.ImageSpec, pixels: NDArray[Any]) -> None:
         output.close()
 
 
-def write_planes(folder: Path, pelt: Pelt, prefix: str = "") -> list[str]:
-    """Write the images of a pelt, whose names begin with `prefix`; their names in the order of `images`."""
+def write_planes(folder: Path, pelt: Pelt, prefix: str = "", cache: Path | None = None) -> list[str]:
+    """Write the images of a pelt, whose names begin with `prefix`; their names in the order of `images`.
+
+    cache : optional folder of images that were encoded before
+    """
     images: dict[str, tuple[Bytes, bool]] = {}
     for part, planes in (("", pack(pelt)), ("fin-", None if pelt.fin is None else pack_fin(pelt.fin))):
         if planes is None:
@@ -182,9 +189,19 @@ def write_planes(folder: Path, pelt: Pelt, prefix: str = "") -> list[str]:
             images[f"{prefix}{part}colour.png"] = planes.colour, True
         if planes.direction is not None:
             images[f"{prefix}{part}direction.png"] = planes.direction, False
+    if cache is not None and write_kept(cache, folder, images, encoder()):
+        return list(images)
     with ThreadPoolExecutor(cores()) as workers:
         list(workers.map(lambda name: write_png(folder / name, *images[name]), images))
+    if cache is not None:
+        keep_images(cache, folder, images, encoder())
     return list(images)
+
+
+@lru_cache
+def encoder() -> str:
+    """All that decides a file beside its pixels: the library, and this module, which may be under work."""
+    return f"{version('OpenImageIO')} {hashlib.sha256(Path(__file__).read_bytes()).hexdigest()}"
 
 
 def read_png(path: Path) -> Bytes:

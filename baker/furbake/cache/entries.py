@@ -23,7 +23,7 @@ import numpy as np
 from furbake.cache.trees import packed, unpacked
 
 MAX_BYTES = 2**29
-"""Bytes of all entries together, 512 MiB: a hundred pelts."""
+"""Bytes of all entries together, 512 MiB: a hundred pelts with their images."""
 
 LEFT = 3600.0
 """Seconds after which an unfinished file is that of a bake that was killed."""

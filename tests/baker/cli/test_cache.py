@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from furbake.asset import planes
 from furbake.options import BakeOptions
 from furbake.options.bake_options import OF_BODY
 from furbake.pelt.hairs.ramp import Ramp
@@ -32,6 +33,20 @@ def grown(monkeypatch: pytest.MonkeyPatch) -> list[float]:
 
     monkeypatch.setattr(Tile, "grow", noted)
     return heights
+
+
+@pytest.fixture
+def encoded(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Names of the pelts' images that were encoded: none where their bytes come from the cache."""
+    names: list[str] = []
+    write = planes.write_png
+
+    def noted(path: Path, *more: Any) -> None:
+        names.append(path.name)
+        write(path, *more)
+
+    monkeypatch.setattr(planes, "write_png", noted)
+    return names
 
 
 def bake(run: Callable[..., Any], model: object, out: str, *options: str) -> None:
@@ -58,6 +73,37 @@ def test_another_body_of_another_size_takes_the_same_pelt(run: Callable[..., Any
     assert len(grown) == 2
     bake(run, "sphere", "alone", "--no-cache", "--guide", "down")
     assert files(Path("sphere")) == files(Path("alone"))
+
+
+def test_images_of_another_body_are_not_encoded_again(run: Callable[..., Any], encoded: list[str]) -> None:
+    bake(run, "torus:8x12", "torus", "--cache", "pelts", "--dirt")
+    assert sorted(encoded) == sorted(path.name for path in Path("torus").glob("*.png"))
+    bake(run, "sphere", "sphere", "--cache", "pelts", "--dirt")
+    assert len(encoded) == len(set(encoded))
+    bake(run, "sphere", "alone", "--no-cache", "--dirt")
+    assert files(Path("sphere")) == files(Path("alone"))
+
+
+def test_images_whose_entry_was_removed_or_cut_short_are_encoded_anew(
+    run: Callable[..., Any], encoded: list[str]
+) -> None:
+    bake(run, "plane", "first", "--cache", "pelts", "--dirt")
+    removed, cut = sorted(Path("pelts").glob("*-images.npz"))
+    removed.unlink()
+    cut.write_bytes(cut.read_bytes()[:-9])
+    bake(run, "plane", "second", "--cache", "pelts", "--dirt")
+    assert sorted(encoded) == sorted(2 * [path.name for path in Path("first").glob("*.png")])
+    assert files(Path("first")) == files(Path("second"))
+
+
+def test_another_encoder_encodes_images_anew(
+    run: Callable[..., Any], encoded: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bake(run, "plane", "first", "--cache", "pelts")
+    once = len(encoded)
+    monkeypatch.setattr(planes, "encoder", lambda: "changed")
+    bake(run, "plane", "second", "--cache", "pelts")
+    assert len(encoded) == 2 * once
 
 
 def test_another_fur_is_not_served_this_one(run: Callable[..., Any], grown: list[float]) -> None:

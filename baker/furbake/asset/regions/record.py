@@ -57,16 +57,21 @@ def regions_record(regions: Regions, furs: Sequence[Record]) -> Record:
     return {"tile": numbers(np.array([regions.tile]))[0], "cells": CELLS, "furs": own}
 
 
-def write_regions(folder: Path, regions: Regions | None, images: list[str]) -> list[tuple[RegionFur, list[str]]]:
+def write_regions(
+    folder: Path, regions: Regions | None, images: list[str], cache: Path | None = None
+) -> list[tuple[RegionFur, list[str]]]:
     """Write the images of all regions; each fur with what `write_shared` returns."""
     furs = () if regions is None else regions.furs
-    return [(fur, write_shared(folder, fur.pelts, f"region{i}-", images)) for i, fur in enumerate(furs, 1)]
+    return [(fur, write_shared(folder, fur.pelts, f"region{i}-", images, cache)) for i, fur in enumerate(furs, 1)]
 
 
-def write_shared(folder: Path, pelts: Sequence[Pelt], prefix: str, images: list[str]) -> list[str]:
+def write_shared(
+    folder: Path, pelts: Sequence[Pelt], prefix: str, images: list[str], cache: Path | None = None
+) -> list[str]:
     """Write the images of a region's pelts; those that are there already, byte by byte, are shared.
 
     prefix : of the names of all of its images; images : names in the order of `images`, which grows
+    cache : optional folder of images that were encoded before
 
     Returns names without the prefix, at the index of each image, "" for those of other furs.
     """
@@ -74,7 +79,7 @@ def write_shared(folder: Path, pelts: Sequence[Pelt], prefix: str, images: list[
     before = list(images)
     for i, pelt in enumerate(pelts):
         state = f"{pelt.state.name}-" if i else ""
-        for name in write_planes(folder, pelt, f"{prefix}{state}"):
+        for name in write_planes(folder, pelt, f"{prefix}{state}", cache):
             alike = (at for at, other in enumerate(before) if at not in own and _same(folder / other, folder / name))
             at = next(alike, len(images))
             if at < len(images):

@@ -46,13 +46,22 @@ def laid_out(charts: Charts, drift: Floats) -> Floats:
 
 
 def _packed(masks: list[Flags], side: int) -> tuple[Floats, int]:
-    """(P, 2) places of masks in a strip `side` tiles wide, each the first free one; and the longer side of it all."""
-    taken = np.zeros((0, side * CELLS), dtype=bool)
-    places = []
-    for mask in masks:
-        taken, place = _put(taken, mask)
-        places.append(place)
-    return np.array(places), max(side, len(taken) // CELLS)
+    """(P, 2) places of masks in a strip `side` tiles wide, and the longer side of it all.
+
+    Each has the first free place of whole tiles, top row first.
+    """
+    tall = [-(-len(mask) // CELLS) for mask in masks]
+    taken = np.zeros((sum(tall) * CELLS, side * CELLS), dtype=bool)
+    places, rows = [], 0
+    for mask, height in zip(masks, tall, strict=True):
+        windows = sliding_window_view(taken[: (rows + height) * CELLS], mask.shape)[::CELLS, ::CELLS]
+        free = ~np.any(windows & mask, axis=(2, 3))
+        row, column = (int(at) for at in np.unravel_index(int(np.argmax(free)), free.shape))
+        top, left = row * CELLS, column * CELLS
+        taken[top : top + mask.shape[0], left : left + mask.shape[1]] |= mask
+        places.append((column, row))
+        rows = max(rows, row + height)
+    return np.array(places, dtype=np.float64), max(side, rows)
 
 
 def _mask(charts: Charts, mine: Flags, drift: Floats) -> tuple[Flags, Floats]:
@@ -62,22 +71,7 @@ def _mask(charts: Charts, mine: Flags, drift: Floats) -> tuple[Flags, Floats]:
     high = np.maximum(charts.uv[mine], charts.uv[mine] - drift).max(axis=0) + 2.0 / CELLS
     width, height = (np.ceil((high - low) * CELLS)).astype(np.int64)
     steps = int(np.ceil(np.abs(drift).max() * CELLS)) + 1
-    cells = np.zeros((height, width), dtype=bool)
-    for step in range(steps + 1):
-        corners = (charts.uv[faces] - low - drift * (step / steps)) * CELLS
-        cells |= covered(corners, (height, width))
+    corners = charts.uv[faces] - low
+    moved = np.concatenate([corners - drift * (step / steps) for step in range(steps + 1)])
+    cells = covered(moved * CELLS, (height, width))
     return binary_dilation(cells, np.ones((3, 3), dtype=bool)), low
-
-
-def _put(taken: Flags, mask: Flags) -> tuple[Flags, Floats]:
-    """The cells with those of a mask at the first free place of whole tiles, top row first; and that place, tiles."""
-    height, width = mask.shape
-    rows = len(taken)
-    taken = np.pad(taken, ((0, -(-height // CELLS) * CELLS), (0, 0)))
-    windows = sliding_window_view(taken, mask.shape)[::CELLS, ::CELLS]
-    free = ~np.any(windows & mask, axis=(2, 3))
-    row, column = np.unravel_index(int(np.argmax(free)), free.shape)
-    top, left = int(row) * CELLS, int(column) * CELLS
-    taken[top : top + height, left : left + width] |= mask
-    rows = max(rows, -(-(top + height) // CELLS) * CELLS)
-    return taken[:rows], np.array([column, row], dtype=np.float64)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.ndimage import distance_transform_edt
 
+from furbake.cores import cores
 from furbake.surface.charts import Charts
 from furbake.surface.colours import Bytes, smaller, srgb_bytes
 from furbake.surface.material import Picture
@@ -55,17 +57,23 @@ def _drawn(skin: Surface, ground: Surface, charts: Charts, uv: Floats, shape: tu
     face, row, column, shares = (np.concatenate(found) for found in zip(*parts, strict=True))
     corners = charts.source[charts.faces]
     same = on_skin(skin, corners) if ground is skin else None
-    colours_of, total = BaseColours(skin), np.zeros((len(face), 3))
-    steps = (np.arange(WITHIN) + 0.5) / WITHIN - 0.5
-    for aside in ((x, y) for x in steps for y in steps):
-        # Beside the middle, but never beyond the face: what lies there may be another part of the model's picture.
-        held = np.clip(shares + _change(uv[charts.faces[face]], aside), 0.0, 1.0)
+    colours_of, steps = BaseColours(skin), (np.arange(WITHIN) + 0.5) / WITHIN - 0.5
+    shown, triangles = np.unique(face), uv[charts.faces]
+
+    def seen(aside: tuple[float, float]) -> Floats:
+        """Colours beside the middle, but never beyond the face: there may be another part of the model's picture."""
+        change = np.zeros((len(triangles), 3))
+        change[shown] = _change(triangles[shown], aside)
+        held = np.clip(shares + change[face], 0.0, 1.0)
         held /= held.sum(axis=1, keepdims=True)
         if same is None:
             points = nearest_on_skin(skin, np.einsum("nc,nck->nk", held, ground.vertices[corners[face]]))
         else:
             points = Points(same[0][face], np.take_along_axis(held, same[1][face], axis=1))
-        total += colours_of.at(points)
+        return colours_of.at(points)
+
+    with ThreadPoolExecutor(cores()) as workers:
+        total = sum(workers.map(seen, [(x, y) for x in steps for y in steps]))
     colours = np.zeros((*shape, 3))
     colours[row, column] = total / WITHIN**2
     known = np.zeros(shape, dtype=bool)

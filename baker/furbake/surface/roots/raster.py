@@ -21,16 +21,16 @@ def drawn(corners: Floats, shape: tuple[int, int]) -> Iterator[tuple[Ints, Ints,
     high = np.minimum(np.floor(corners.max(axis=1) - 0.5), (shape[1] - 1, shape[0] - 1)).astype(np.int64)
     size = np.maximum(high - low + 1, 0)
     count = size[:, 0] * size[:, 1]
-    some = np.flatnonzero(count)
+    some, triangles = np.flatnonzero(count), _Triangles(corners)
     ends = np.cumsum(count[some])
     for start, stop in _runs(ends):
         faces = some[start:stop]
         face = np.repeat(faces, count[faces])
         inside = np.arange(len(face)) - np.repeat(np.cumsum(count[faces]) - count[faces], count[faces])
         column, row = low[face, 0] + inside % size[face, 0], low[face, 1] + inside // size[face, 0]
-        shares = shares_at(corners[face], np.column_stack([column + 0.5, row + 0.5]))
-        hit = (shares >= 0.0).all(axis=1)
-        yield face[hit], row[hit], column[hit], shares[hit]
+        shares = triangles.shares_at(face, column + 0.5, row + 0.5)
+        hit = np.flatnonzero((shares[0] >= 0.0) & (shares[1] >= 0.0) & (shares[2] >= 0.0))
+        yield face[hit], row[hit], column[hit], np.stack([share[hit] for share in shares], axis=1)
 
 
 def covered(corners: Floats, shape: tuple[int, int]) -> Flags:
@@ -38,24 +38,31 @@ def covered(corners: Floats, shape: tuple[int, int]) -> Flags:
     cells = np.zeros(shape, dtype=bool)
     for _, row, column, _ in drawn(corners, shape):
         cells[row, column] = True
-    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(initial=0.0)
-    steps = int(np.ceil(2.0 * longest)) + 1
+    sides = np.roll(corners, 1, axis=1) - corners
+    steps = int(np.ceil(2.0 * np.linalg.norm(sides, axis=2).max(initial=0.0))) + 1
     for along in np.linspace(0.0, 1.0, steps, endpoint=False):
-        points = corners + along * (np.roll(corners, 1, axis=1) - corners)
-        column, row = np.floor(points).astype(np.int64).reshape(-1, 2).T
+        column, row = np.floor(corners + along * sides).astype(np.int64).reshape(-1, 2).T
         cells[np.clip(row, 0, shape[0] - 1), np.clip(column, 0, shape[1] - 1)] = True
     return cells
 
 
-def shares_at(corners: Floats, points: Floats) -> Floats:
-    """(n, 3) barycentric coordinates of (n, 2) points in (n, 3, 2) triangles; −1 in those without an area."""
-    one, two, way = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0], points - corners[:, 0]
-    area = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
-    flat = np.abs(area) < 1e-12
-    area = np.where(flat, 1.0, area)
-    second = (way[:, 0] * two[:, 1] - way[:, 1] * two[:, 0]) / area
-    third = (one[:, 0] * way[:, 1] - one[:, 1] * way[:, 0]) / area
-    return np.where(flat[:, None], -1.0, np.stack([1.0 - second - third, second, third], axis=1))
+class _Triangles:
+    """Barycentric coordinates in (F, 3, 2) triangles."""
+
+    def __init__(self, corners: Floats) -> None:
+        self.first = corners[:, 0].T
+        self.one, self.two = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+        area = self.one[0] * self.two[1] - self.one[1] * self.two[0]
+        self.flat = np.abs(area) < 1e-12
+        self.area = np.where(self.flat, 1.0, area)
+
+    def shares_at(self, face: Ints, x: Floats, y: Floats) -> tuple[Floats, Floats, Floats]:
+        """Shares of the corners of (n,) faces at (n,) points; −1 in faces without an area."""
+        x, y, area, flat = x - self.first[0][face], y - self.first[1][face], self.area[face], self.flat[face]
+        second = (x * self.two[1][face] - y * self.two[0][face]) / area
+        third = (self.one[0][face] * y - self.one[1][face] * x) / area
+        second[flat] = third[flat] = -1.0
+        return 1.0 - second - third, second, third
 
 
 def _runs(ends: Ints) -> Iterator[tuple[int, int]]:
