@@ -58,6 +58,18 @@ export interface ViewOptions extends WindowOptions {
 	radius?: number;
 }
 
+/**
+ * Distance of the eye, radii, at which a picture shows the lamp's sphere.
+ *
+ * @param aspect width over height; @param zoom as far as a lamp to be dragged stays within the picture's width
+ */
+export function distanceFor(aspect: number, zoom: number, lamp = true): number {
+	const half = Math.tan(MathUtils.degToRad(FIELD_OF_VIEW / 2));
+	const filled = (width: number) => (lampDistance * ROOM) / Math.sin(Math.atan(half * width));
+	const near = filled(Math.min(1, aspect)) / zoom;
+	return lamp ? Math.max(near, filled(aspect)) : near;
+}
+
 export class View {
 	/** Canvas of the first window. */
 	readonly canvas: HTMLCanvasElement;
@@ -142,11 +154,11 @@ export class View {
 	#aim(
 		camera: PerspectiveCamera,
 		aspect: number,
-		{ eye, azimuth = eye?.azimuth ?? 0, elevation = eye?.elevation ?? 20, zoom = 1, distance, target }: WindowOptions,
+		{ eye, azimuth = eye?.azimuth ?? 0, elevation = eye?.elevation ?? 20, zoom = 1, ...options }: WindowOptions,
 	): void {
+		const { distance, target, lamp = true } = options;
 		camera.aspect = aspect;
-		const half = Math.tan(MathUtils.degToRad(FIELD_OF_VIEW / 2)) * Math.min(1, aspect);
-		const away = this.radius * (distance ?? (lampDistance * ROOM) / (zoom * Math.sin(Math.atan(half))));
+		const away = this.radius * (distance ?? distanceFor(aspect, zoom, lamp));
 		this.#toCamera.setFromSphericalCoords(away, MathUtils.degToRad(90 - elevation), MathUtils.degToRad(azimuth));
 		camera.position.copy(target ?? this.centre).add(this.#toCamera);
 		camera.near = Math.max(away - 2.5 * this.radius, 0.02 * away);

@@ -44,6 +44,13 @@ describe('the lesson', () => {
 		}
 	});
 
+	it('keeps a sign on the line of the equation before it', () => {
+		const html = typeset('$U$、$V$ 与 $W$ 和 $X$。');
+		expect(html.match(/<span class="unbroken"><span class="katex">/g)).toHaveLength(2);
+		expect(html).toMatch(/、<\/span><span class="katex">/);
+		expect(html.replace(/<annotation.*?<\/annotation>/gs, '')).toMatch(/。<\/span><\/p>/);
+	});
+
 	it('refuses an equation that is none', () => {
 		expect(() => typeset('$\\nonsense{$')).toThrow(/KaTeX/);
 	});

@@ -10,6 +10,7 @@ import {
 	WireframeGeometry,
 } from 'three';
 import type { FurShells } from '../../fur/index.ts';
+import { GLOW } from '../../page/look.ts';
 import { choice, controlRow, note } from '../controls.ts';
 import { loadFurry, loadReport, reach } from '../data/assets.ts';
 import { patchesOf } from '../data/patches.ts';
@@ -38,6 +39,7 @@ export const mount: Mount = async (place, lesson) => {
 	});
 	view.add(furry.object);
 	view.cast(asset.length, view.radius);
+	shells.material.glow = GLOW * furry.fur.extent;
 
 	const { of, count } = patchesOf(shells.geometry);
 	const white = new BufferAttribute(new Float32Array(of.length * 3).fill(1), 3);

@@ -18,6 +18,22 @@ const markdown = markdownIt({ html: true, typographer: true }).use(tex, {
 		katex.renderToString(source, { displayMode, macros: { ...macros }, strict: 'error' }),
 });
 
+// Browsers break a line between an equation and the sign after it, which must not begin one.
+markdown.core.ruler.push('closing', ({ tokens, Token }) => {
+	for (const { children } of tokens) {
+		for (let i = (children?.length ?? 0) - 2; children && i >= 0; i--) {
+			const [equation, after] = [children[i], children[i + 1]];
+			const sign = after?.type === 'text' && /^[,.;:)!?\u2019，。、；：）！？]+/.exec(after.content)?.[0];
+			if (equation?.type !== 'math_inline' || !after || !sign) continue;
+			const [open, close] = ['<span class="unbroken">', `${sign}</span>`].map((content) =>
+				Object.assign(new Token('html_inline', '', 0), { content }),
+			);
+			after.content = after.content.slice(sign.length);
+			children.splice(i, 1, open, equation, close);
+		}
+	}
+});
+
 /** @param {string} source Markdown with `$…$` and `$$…$$`; @returns {string} HTML */
 export function typeset(source) {
 	return markdown.render(source);
