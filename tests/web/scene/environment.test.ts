@@ -8,7 +8,13 @@ import { type Environment, environmentOf } from '../../../web/scene/environment.
 /** A lamp half way up among walls. @param walls their radiance; the lamp has 400 */
 function place(walls: number): DataTexture {
 	const [width, height] = [128, 64];
-	const texture = new DataTexture(new Float32Array(4 * width * height).fill(walls), width, height, RGBAFormat, FloatType);
+	const texture = new DataTexture(
+		new Float32Array(4 * width * height).fill(walls),
+		width,
+		height,
+		RGBAFormat,
+		FloatType,
+	);
 	let at = 0;
 	visitEnvironment(texture, (_, to) => {
 		if (to.x > 0.68 && to.y > 0.68) (texture.image.data as Float32Array).fill(400, at, at + 4);
