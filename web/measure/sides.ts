@@ -3,7 +3,7 @@
 import { Color, DirectionalLight, Vector3, WebGLRenderer } from 'three';
 import { fitFurShadow } from '../fur/index.ts';
 import { daylightSky, KEY_COLOUR } from '../page/daylight.ts';
-import { DEFAULT_LOOK, glossOf } from '../page/look.ts';
+import { DEFAULT_LOOK } from '../page/look.ts';
 import { setToneMapping } from '../page/toneMapping.ts';
 import { facing } from './facing.ts';
 import { loadFur, Studio } from './studio.ts';
@@ -40,7 +40,7 @@ export async function drawSides(url: string, size: number, backdrop: string): Pr
 	const studio = new Studio(renderer, fur, size, size);
 	const key = new DirectionalLight(KEY_COLOUR, 1);
 	studio.light(key, daylightSky());
-	Object.assign(fur.material, DEFAULT_LOOK, { gloss: glossOf(fur.asset) });
+	Object.assign(fur.material, DEFAULT_LOOK);
 	const { bounds } = studio;
 	const front = facing(fur.skin.parent ?? fur.skin, fur.skin);
 	const found: Record<string, string> = {};

@@ -3,7 +3,7 @@
  * of its own, fetched on demand.
  */
 
-import { Color, type DataTexture, FloatType, type LightProbe, Vector3 } from 'three';
+import { Color, type DataTexture, FloatType, type LightProbe, MathUtils, Vector3 } from 'three';
 import { type FurLamp, furEnvironment } from '../fur/index.ts';
 import { luminance, visitEnvironment } from '../fur/reference.ts';
 import { blurred, groundAlbedo } from './panorama.ts';
@@ -25,6 +25,9 @@ const TOTAL_LIGHT = 9.75;
 
 /** Least share of the dragged lamp in the total light: dragging has to be seen. */
 const MIN_KEY_SHARE = 0.35;
+
+/** Least share of what is no lamp: a photographer's fill, a tenth of the key light on the shaded side. */
+const MIN_FILL_SHARE = 0.24;
 
 /** Direction to a lamp where an environment has none: half way up. */
 const OBLIQUE = new Vector3(1, 1, 1).normalize();
@@ -68,14 +71,23 @@ export function environmentOf(texture: DataTexture, azimuth: number): Environmen
 		whole += luminance(radiance) * solidAngle;
 	});
 	const scale = TOTAL_LIGHT / whole;
-	for (const { color } of lamps) color.multiplyScalar(scale);
-	for (const coefficient of probe.sh.coefficients) coefficient.multiplyScalar(scale);
+	const fill = fillShare(probe, whole);
+	const filled = Math.max(fill, MIN_FILL_SHARE);
+	for (const { color } of lamps) color.multiplyScalar((scale * (1 - filled)) / (1 - fill));
+	for (const coefficient of probe.sh.coefficients) coefficient.multiplyScalar((scale * filled) / fill);
 	const [first, ...others] = lamps;
 	const colour = first ? first.color.clone() : new Color(1, 1, 1);
 	colour.multiplyScalar(Math.max(1, (MIN_KEY_SHARE * TOTAL_LIGHT) / luminance(colour)));
 	const background = blurred(texture, scale);
 	const ground = groundAlbedo(background, probe, colour, first?.direction ?? OBLIQUE);
 	return { probe, key: { direction: first?.direction, colour }, others, background, ground };
+}
+
+/** Share of a probe in the whole light, within 0 and 1. @param whole radiance times solid angle */
+function fillShare({ sh }: LightProbe, whole: number): number {
+	const [{ x, y, z } = new Vector3()] = sh.coefficients;
+	const light = luminance(new Color(x, y, z)) * 2 * Math.sqrt(Math.PI);
+	return MathUtils.clamp(light / whole, 1e-3, 1 - 1e-3);
 }
 
 /** Turns the panorama about the upright axis, by whole columns. @param angle radians from x towards z */

@@ -27,7 +27,7 @@ const cache = join(root, 'node_modules', '.cache', 'furbake');
  * @property {'ptm' | 'eigen'} [basis] of a pelt
  * @property {boolean} [wet] of a pelt: baked in states from dry to wet
  * @property {boolean} [dirt] of a pelt: baked in a dirty state
- * @property {number} [gloss] of a pelt: strength of the highlights that suits it
+ * @property {number} [gloss] of a pelt: strength of the highlights of hairs that shine less than others
  * @property {number} [tips] of a pelt: how far a model's own second tip colour shows on it
  * @property {boolean} [fine] of a pelt: with the preset's own planes, which replace those of the preset's models once they have come
  * @property {boolean} [menu] false: not in the page's menu

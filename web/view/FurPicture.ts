@@ -6,7 +6,7 @@ import { daylightSky, KEY_COLOUR } from '../page/daylight.ts';
 import { ContactShadow, Ground, SLATE } from '../page/ground.ts';
 import { Lamp, lampDistance } from '../page/lamp.ts';
 import { MovingLight } from '../page/light.ts';
-import { DEFAULT_LOOK, GLOW, glossOf } from '../page/look.ts';
+import { DEFAULT_LOOK, GLOW } from '../page/look.ts';
 import type { Environment } from '../scene/environment.ts';
 import { footing } from '../scene/footing.ts';
 import type { Model } from '../scene/model.ts';
@@ -81,7 +81,7 @@ export class FurPicture {
 		const { model, fur, gloss } = shown;
 		if (fur)
 			Object.assign(fur.shells.material, {
-				gloss: gloss ?? glossOf(fur.asset),
+				gloss: gloss ?? DEFAULT_LOOK.gloss,
 				backlight: DEFAULT_LOOK.backlight,
 				glow: GLOW * fur.extent,
 			});

@@ -174,14 +174,11 @@ def mane(points: Floats) -> Floats:
 
 
 def length(points: Floats) -> Floats:
-    """(n,) of the fur over the longest: the mane's is; short on the face, the ears and the feet."""
+    """(n,) of the fur over what the thickness of the body allows: short on the face, shortest between the eyes.
+
+    What is as long there as elsewhere hides the far eye from all who stand aside.
+    """
     x, y, z = points.T
-    side = np.abs(x)
-    found = np.full(len(points), 0.5)
-    face_share = np.clip((z - 0.22) / 0.15, 0.0, 1.0) * np.clip((y - 1.02) / 0.1, 0.0, 1.0)
-    found -= 0.34 * face_share
-    found = np.where(ears(points), 0.2, found)
-    feet = np.clip((0.24 - y) / 0.14, 0.0, 1.0) * np.clip((z - 0.1) / 0.15, 0.0, 1.0) * (side < 0.6)
-    found -= 0.3 * feet
-    found += (1.0 - found) * mane(points) * (1.0 - face_share)
-    return np.asarray(np.clip(found, 0.12, 1.0))
+    face = np.clip((z - 0.24) / 0.2, 0.0, 1.0) * np.clip((y - 1.06) / 0.12, 0.0, 1.0)
+    bridge = np.exp(-((x / 0.12) ** 2 + ((y - 1.36) / 0.13) ** 2)) * (z > 0.3)
+    return np.asarray(np.clip(1.0 - 0.6 * face - 0.3 * bridge, 0.1, 1.0))

@@ -40,3 +40,19 @@ test('with the demo’s highlights and light from behind, the level stays, the r
 	expect(behind.usual.rim).toBeGreaterThan(0.4 * front.usual.all);
 	expect(behind.usual.face).toBeLessThan(0.02 * behind.usual.rim);
 });
+
+test('highlights of near-black hairs leave them black', async ({ page }) => {
+	await openInPage(page, 'look');
+	const job = { ...JOB, width: 60, height: 50, cells: JOB.cells.slice(0, 1) };
+	const [white = 0, black = 0] = await page.evaluate(
+		([url, job]) =>
+			loaded.shine(url, job, [
+				[0.85, 0.85, 0.85],
+				[0.02, 0.02, 0.02],
+			]),
+		['/models/bunny/model.gltf', job] as const,
+	);
+	test.info().annotations.push({ type: 'light', description: JSON.stringify({ white, black }) });
+	expect(black).toBeLessThan(0.25 * white);
+	expect(black).toBeGreaterThan(0.05 * white);
+});

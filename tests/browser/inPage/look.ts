@@ -1,4 +1,4 @@
-/** Runs inside the page: the bunny in one grey with the demo's highlights and light from behind, and without. For `look.spec.ts`. */
+/** Runs inside the page: the bunny in one colour with the demo's highlights and light from behind, and without. For `look.spec.ts`. */
 
 import { openBody } from '../../../web/measure/body.ts';
 import type { BodyJob } from '../../../web/measure/bodyJob.ts';
@@ -43,6 +43,31 @@ export async function parts(url: string, job: BodyJob): Promise<{ none: Parts; u
 			return { all: mean(sums.all), rim: mean(sums.rim), face: mean(sums.face) };
 		};
 		return { none: drawn({ gloss: 0, backlight: 0 }), usual: drawn(DEFAULT_LOOK) };
+	});
+	body.dispose();
+	return found;
+}
+
+/** @returns mean light of all fur that highlights add, by the colour of the hairs */
+export async function shine(url: string, job: BodyJob, colours: [number, number, number][]): Promise<number[]> {
+	const body = await openBody(url, job);
+	const { material } = body.fur;
+	const features = body.features(0);
+	const found = colours.map((colour) => {
+		for (const name of ['root', 'tip', 'tip2'] as const) material[name].setRGB(...colour);
+		const [plain = 0, shiny = 0] = [0, DEFAULT_LOOK.gloss].map((gloss) => {
+			Object.assign(material, { gloss, backlight: 0 });
+			const pixels = body.draw(0, 'ptm');
+			let light = 0;
+			let count = 0;
+			for (let at = 0; at < pixels.length; at += 2) {
+				if ((pixels[at + 1] ?? 0) < 0.5 || features[at + 1]) continue;
+				light += pixels[at] ?? 0;
+				count++;
+			}
+			return light / count;
+		});
+		return shiny - plain;
 	});
 	body.dispose();
 	return found;

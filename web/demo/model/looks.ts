@@ -13,7 +13,7 @@ import {
 	type furMethod,
 	updateFurs,
 } from '../../fur/index.ts';
-import { DEFAULT_LOOK, GLOW, glossOf } from '../../page/look.ts';
+import { DEFAULT_LOOK, GLOW } from '../../page/look.ts';
 import type { Store } from '../state/store.ts';
 import type { View } from '../state/view.ts';
 import { paint } from './colours.ts';
@@ -23,7 +23,7 @@ export interface Outfit {
 	pelt: Fur | undefined;
 	/** Share of the body's second tip colour on a pelt, 0..1. */
 	tips: number;
-	/** Strength of its highlights; undefined: by its colours. */
+	/** Strength of its highlights; undefined: the usual one. */
 	gloss: number | undefined;
 	method: FurMethodName;
 	/** Makes the light of a method of comparison; undefined: the fur's own light. */
@@ -279,7 +279,7 @@ export class Looks {
 	}
 }
 
-function style(fur: Fur, gloss = glossOf(fur.asset), { shells, length = 1, density = 1, colour }: View): void {
+function style(fur: Fur, gloss = DEFAULT_LOOK.gloss, { shells, length = 1, density = 1, colour }: View): void {
 	const { material } = fur.shells;
 	material.gloss = gloss;
 	material.backlight = DEFAULT_LOOK.backlight;

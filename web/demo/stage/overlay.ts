@@ -72,9 +72,11 @@ export class Overlay {
 
 	async #addGraphs(): Promise<void> {
 		const { Graph } = await import('../say/graphs.ts');
-		this.#fps = new Graph(this.#graphs, 'FPS', '#0ff', '#002', 0);
-		this.#cpu = new Graph(this.#graphs, 'CPU', '#0f0', '#020', 1);
-		if (this.#timer.works) this.#gpu = new Graph(this.#graphs, 'GPU', '#ff0', '#220', 1);
+		const { perSecond, milliseconds } = this.#words;
+		const time = (name: string) => (value: number) => `${name} ${milliseconds(value.toFixed(1))}`;
+		this.#fps = new Graph(this.#graphs, '#0ff', '#002', (value) => perSecond(this.#whole.format(value)));
+		this.#cpu = new Graph(this.#graphs, '#0f0', '#020', time('CPU'));
+		if (this.#timer.works) this.#gpu = new Graph(this.#graphs, '#ff0', '#220', time('GPU'));
 	}
 
 	/** Bytes of all textures of the scene. */

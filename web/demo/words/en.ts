@@ -114,7 +114,7 @@ export const en = {
 	triangles: (count: string) => `${count} triangles`,
 	shellCount: (count: string) => `${count} shells`,
 	textures: (megabytes: string) => `${megabytes} MB of textures`,
-	resolution: (percent: number) => (percent === 100 ? 'full resolution' : `${percent} % resolution`),
+	resolution: (percent: number) => (percent === 100 ? 'full resolution' : `${percent}\u00a0% resolution`),
 
 	copied: 'The link is copied: it shows just this picture.',
 	copyThis: (link: string) => `This link shows just this picture:\n${link}`,

@@ -77,7 +77,10 @@ export class PeltMaterial extends ShaderMaterial {
 		this.#switch('SKY', on);
 	}
 
-	/** Strength of the highlights along the hairs, one white and one of their colour; 0 costs nothing. */
+	/**
+	 * Strength of the highlights along the hairs, one white and one of their colour; the white one is weaker on dark and on
+	 * deep colours. 0 costs nothing.
+	 */
 	get gloss(): number {
 		return this.uniforms.gloss?.value;
 	}

@@ -86,6 +86,14 @@ vec3 hued(vec3 light) {
 }
 #endif
 
+#ifdef GLOSS
+// Strength of the white highlight on hairs of this colour, 0..1. The texel's light is that among the hairs of the bake; dark
+// and deep hairs scatter less of it, and a highlight as strong as on pale ones would cover their colour.
+float whiteShine(vec3 colour) {
+	return min(0.15 + dot(colour, vec3(0.2126, 0.7152, 0.0722)) + min(min(colour.r, colour.g), colour.b), 1.0);
+}
+#endif
+
 // 4π·radiance of a texel whose hairs have this colour. Lamps and environment are clamped apart: a polynomial
 // that dips below zero under a strong lamp must not reduce the light of the sky, which turns shadows blue.
 vec3 furRadiance(FurTexel texel, vec3 colour, Lamps lamps, Moments sky) {
@@ -121,9 +129,13 @@ vec3 furRadiance(FurTexel texel, vec3 colour, Lamps lamps, Moments sky) {
 	// The lamps' light on the texel shadows the highlights.
 	vec2 shine = gloss * vec2(texel.tint, 1.0) * lamps.lobes;
 #ifdef WET
+	// Water shines on hairs of any colour.
+	shine.x *= mix(whiteShine(colour), 1.0, furWetness);
 	// A film of water shines on the clumps' crests, where the lamps' light is strongest.
 	float lit = min(dot(lamp, vec3(0.2126, 0.7152, 0.0722)) / max(CREST * lamps.power, 1e-6), 1.0);
 	shine *= mix(1.0, lit * lit * lit, furWetness);
+#else
+	shine.x *= whiteShine(colour);
 #endif
 #ifdef DIRTY
 	shine.x *= 1.0 - mudShare;
