@@ -55,7 +55,7 @@ function methodsText({ results, growth, rounds, clock }: BenchFigures, words: Wo
 	const ptm = growth.filter(({ method }) => method === 'ptm');
 	const steps = ptm.map(({ from, to, ratio }) => ({ from: count(from), to: count(to), ratio: times(ratio) }));
 	const text = words.methodsText(width, height, shells, rounds, clock === 'readPixels');
-	return steps.length ? `${text} ${words.growth(steps)}` : text;
+	return steps.length ? `${text}${words.growth(steps)}` : text;
 }
 
 /** Line chart of a curve; undefined until there is a line to draw. */

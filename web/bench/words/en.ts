@@ -105,8 +105,9 @@ export const en = {
 	methodsTitle: 'Methods',
 	methodsText: (width: number, height: number, shells: number, rounds: number, reads: boolean) =>
 		`Milliseconds a frame at ${width} × ${height} with ${shells} shells: the median of ${rounds === 1 ? 'one round' : `${rounds} rounds`} of turns there and back, each frame ended by ${reads ? 'reading a pixel of it' : "the GPU's own clock"}. Ratios are medians of the rounds' ratios.`,
+	/** Sentence after those of `methodsText`. */
 	growth: (steps: { from: string; to: string; ratio: string }[]) =>
-		`A frame of PTM grows ${steps.map(({ from, to, ratio }) => `from ${from} to ${to} triangles ${ratio}`).join(', ')}.`,
+		` A frame of PTM grows ${steps.map(({ from, to, ratio }) => `from ${from} to ${to} triangles ${ratio}`).join(', ')}.`,
 	articleTitle: "The article's Table 1",
 	articleText:
 		"Frames per second. The article does not say whether its numbers of triangles are the body's or the sum over all 16 layers, so both are measured. Its machine was a Quadro NVS 110 with 64 MB, its rival a layered shadow map of which no text is to be had.",
