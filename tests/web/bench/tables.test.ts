@@ -103,7 +103,9 @@ describe('the report', () => {
 			'Overdraw',
 			'What a frame grows with',
 		]);
-		expect(sections(figures, en)[0]?.text).toContain('. A frame of PTM grows from 512 to 4\u00a0608 triangles ×\u00a01.23');
+		expect(sections(figures, en)[0]?.text).toContain(
+			'. A frame of PTM grows from 512 to 4\u00a0608 triangles ×\u00a01.23',
+		);
 		expect(sections(figures, zh)[0]?.text).toMatch(/。PTM/);
 	});
 
