@@ -96,7 +96,7 @@ class Beam:
             self.breadth *= longer
             self.sigma *= longer
         self.axes = np.ascontiguousarray(np.moveaxis(tangent, -1, 0))
-        self.sides = Sides(self.axes, fine.off_axis, fine.radius)
+        self.sides = Sides(self.axes, fine.breadth > 0, fine.off_axis, fine.radius)
         self.seen = self._pooled(self.shares, self.size)
         self.beside = [self._pooled(self.shares * part, self.size) / self.seen for part in self.sides.beside()]
         self.hair: Single = np.maximum(self.stored(self.breadth), np.float32(1e-6))

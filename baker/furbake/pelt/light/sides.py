@@ -6,8 +6,8 @@ unit of L. A voxel shows a part of the width, x = sin ψ from ψ₁ to ψ₂, an
 
     D = sin θ · 4/(x₂ − x₁) · [½·ψ·cos φ + ¼·sin(2ψ − φ)]  from max(ψ₁, φ − π/2) to min(ψ₂, φ + π/2)
 
-for a light at φ around the hair, towards b: over the whole width `fibre.cylinder`. Of light from
-many hairs, much the same from everywhere but for its flux F, a surface takes 1/4 + F·n/2, and sides differ by 2x·(F·b).
+for a light at φ around the hair, towards b: over the whole width `fibre.cylinder`. Of light from many hairs, much the
+same from everywhere but for its flux F, a surface takes 1/4 + F·n/2, and sides differ by 2x·(F·b).
 """
 
 from __future__ import annotations
@@ -32,37 +32,57 @@ END_ON = 1e-3
 class Sides:
     """Hairs seen from straight above under many lights: what no light changes is worked out once."""
 
-    def __init__(self, axes: Single, off_axis: NDArray[np.floating] | None, radius: Array) -> None:
-        """axes : (3, K, N, N) unit vectors along the hairs; off_axis, radius : as of `Volume`"""
-        self.axes, self.whole, self.told = axes, Cylinders(axes[2]), off_axis is not None
-        self.place = np.zeros_like(axes[2])
+    def __init__(
+        self, axes: Single, there: NDArray[np.bool_], off_axis: NDArray[np.floating] | None, radius: Array
+    ) -> None:
+        """axes : (3, K, N, N) unit vectors along the hairs; there : (K, N, N) voxels that have some
+        off_axis, radius : as of `Volume`
+        """
+        self.shape, self.voxels, self.told = there.shape, np.flatnonzero(there), off_axis is not None
+        u, v, up = (part.ravel()[self.voxels] for part in axes)
+        self.whole, self.place = Cylinders(up), np.zeros_like(up)
+        across = np.maximum(self.whole.sin_view, np.float32(END_ON))
+        self.across = v / across, -u / across
         if off_axis is None:
             return
-        place = off_axis[..., 0] * axes[1] - off_axis[..., 1] * axes[0]
-        place /= np.maximum(self.whole.sin_view, END_ON)
-        half = np.maximum(0.5 / (axes.shape[-1] * np.maximum(radius, 1e-6)), LEAST).astype(np.float32)[:, None, None]
+        aside = off_axis.reshape(-1, 2)[self.voxels].astype(np.float32)
+        place = aside[:, 0] * self.across[0] + aside[:, 1] * self.across[1]
+        size = self.shape[-1]
+        half = np.maximum(0.5 / (size * np.maximum(radius, 1e-6)), LEAST).astype(np.float32)[self.voxels // size**2]
         low, high = np.clip(place - half, -1, 1 - LEAST), np.clip(place + half, LEAST - 1, 1)
         self.place = (low + high) / 2
         self.start, self.end, self.per_width = np.arcsin(low), np.arcsin(high), 4 / (high - low)
 
     def lit(self, light: Array, along: Single, some: slice) -> Single:
         """D of some of the slabs; along : cosines between their hairs and the light, a unit vector (3,)."""
+        area = self.shape[1] * self.shape[2]
+        first, last = np.searchsorted(self.voxels, [some.start * area, some.stop * area])
+        hairs = slice(int(first), int(last))
+        at = self.voxels[hairs] - some.start * area
+        # As of upright hairs: a texel without any has some value.
+        found = np.full(along.size, 4 / np.pi * np.hypot(*light[:2]), np.float32)
+        found[at] = self._lit(light, along.ravel()[at], hairs)
+        return found.reshape(along.shape)
+
+    def _lit(self, light: Array, along: Single, hairs: slice) -> Single:
         if not self.told:
-            return self.whole.lit(along, float(light[2]), some)
-        sin_light, cos_phi = self.whole.around(along, float(light[2]), some)
+            return self.whole.lit(along, float(light[2]), hairs)
+        sin_light, cos_phi = self.whole.around(along, float(light[2]), hairs)
         u, v = light[:2].astype(np.float32)
-        phi = np.copysign(np.arccos(cos_phi), u * self.axes[1][some] - v * self.axes[0][some])
-        first = np.maximum(self.start[some], phi - QUARTER)
-        last = np.maximum(np.minimum(self.end[some], phi + QUARTER), first)
+        phi = np.copysign(np.arccos(cos_phi), u * self.across[0][hairs] + v * self.across[1][hairs])
+        first = np.maximum(self.start[hairs], phi - QUARTER)
+        last = np.maximum(np.minimum(self.end[hairs], phi + QUARTER), first)
         seen = (last - first) * cos_phi
         seen += (np.sin(2 * last - phi) - np.sin(2 * first - phi)) / 2
-        seen *= self.per_width[some] / 2
-        seen *= self.whole.sure[some]
-        seen += self.whole.unsure[some]
+        seen *= self.per_width[hairs] / 2
+        seen *= self.whole.sure[hairs]
+        seen += self.whole.unsure[hairs]
         seen *= sin_light
         return np.asarray(seen)
 
     def beside(self) -> Single:
         """x·b, where voxels show the hairs beside their axes, level, (2, K, N, N)."""
-        across = self.place * self.whole.sure / np.maximum(self.whole.sin_view, END_ON)
-        return np.stack([across * self.axes[1], -across * self.axes[0]])
+        found = np.zeros((2, np.prod(self.shape)), np.float32)
+        for part, across in zip(found, self.across, strict=True):
+            part[self.voxels] = self.place * self.whole.sure * across
+        return found.reshape(2, *self.shape)

@@ -39,15 +39,16 @@ def test_part_of_the_width_is_the_mean_of_its_surface(seed: int) -> None:
     middles = np.arange(-1, 1.25, 0.5)
     axes = np.broadcast_to(fibre.astype(np.float32)[:, None, None, None], (3, 1, 1, len(middles)))
     off_axis = (middles[:, None] * level)[None, None].astype(np.float32)
-    sides = Sides(axes, off_axis, np.array([2.0 / len(middles)]))
+    there = np.ones(axes.shape[1:], bool)
+    sides = Sides(axes, there, off_axis, np.array([2.0 / len(middles)]))
     along = np.tensordot(light.astype(np.float32), axes, 1)
-    found = sides.lit(light, along, slice(None))[0, 0]
+    found = sides.lit(light, along, slice(0, 1))[0, 0]
     for middle, value in zip(middles, found, strict=True):
         low, high = np.clip([middle - 0.25, middle + 0.25], -1, 1)
         place = low + (np.arange(2000) + 0.5) / 2000 * (high - low)
         radiance = np.maximum(surface(fibre, place) @ light, 0).mean()
         assert value == pytest.approx(4 * radiance, rel=0.03, abs=0.03)
-    whole = Sides(axes, None, np.array([1.0])).lit(light, along, slice(None))
+    whole = Sides(axes, there, None, np.array([1.0])).lit(light, along, slice(0, 1))
     np.testing.assert_allclose(whole, cylinder(fibre, light), rtol=1e-3, atol=1e-3)
 
 
