@@ -204,7 +204,7 @@ test('coefficients of the nearest mip level look like a mixture of two', async (
 		const [a, b] = [floats(nearest?.rgba ?? ''), floats(mixed?.rgba ?? '')];
 		const dB = psnr(a, b);
 		test.info().annotations.push({ type: `PSNR at ${distance}`, description: `${dB.toFixed(1)} dB` });
-		expect(dB).toBeGreaterThan(48);
+		expect(dB).toBeGreaterThan(46);
 		expect(
 			a.some((value, i) => value !== b[i]),
 			'that levels differ',
