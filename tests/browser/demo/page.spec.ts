@@ -45,16 +45,12 @@ test('figures stand above their graphs, and none is wider than its graph', async
 	await open(page, '?model=sphere&shells=4&details=1');
 	const captions = page.locator('#overlay figcaption');
 	await expect(captions.nth(1)).toHaveText(/^CPU \d+\.\d ms$/);
-	const room = await captions.evaluateAll((all: HTMLElement[]) =>
-		all.map((one) => (one.parentElement?.clientWidth ?? 0) - one.offsetLeft - one.clientWidth),
-	);
-	expect(Math.min(...room)).toBeGreaterThan(0);
-	// A frame of ten seconds, the widest that is shown.
-	const wide = await captions.nth(1).evaluate((one: HTMLElement) => {
-		one.textContent = 'CPU 10000.0 ms';
-		return (one.parentElement?.clientWidth ?? 0) - one.offsetLeft - one.clientWidth;
+	const room = await captions.evaluateAll((all: HTMLElement[]) => {
+		// A frame of ten seconds, the widest that is shown.
+		for (const one of all.slice(1)) one.textContent = 'CPU 10000.0 ms';
+		return all.map((one) => (one.parentElement?.clientWidth ?? 0) - one.offsetLeft - one.clientWidth);
 	});
-	expect(wide).toBeGreaterThan(0);
+	expect(Math.min(...room)).toBeGreaterThan(0);
 });
 
 test('every control is reached by the Tab key, and says what it is', async ({ page }) => {

@@ -21,6 +21,7 @@ Array = NDArray[np.float64]
 Single = NDArray[np.float32]
 
 QUARTER = np.float32(np.pi / 2)
+"""A quarter turn."""
 
 LEAST = 0.02
 """Least part of the width, in radii, that a voxel shows."""
@@ -38,15 +39,15 @@ class Sides:
         """axes : (3, K, N, N) unit vectors along the hairs; there : (K, N, N) voxels that have some
         off_axis, radius : as of `Volume`
         """
-        self.shape, self.voxels, self.told = there.shape, np.flatnonzero(there), off_axis is not None
+        self.shape, self.voxels, self.placed = there.shape, np.flatnonzero(there), off_axis is not None
         u, v, up = (part.ravel()[self.voxels] for part in axes)
         self.whole, self.place = Cylinders(up), np.zeros_like(up)
         across = np.maximum(self.whole.sin_view, np.float32(END_ON))
         self.across = v / across, -u / across
         if off_axis is None:
             return
-        aside = off_axis.reshape(-1, 2)[self.voxels].astype(np.float32)
-        place = aside[:, 0] * self.across[0] + aside[:, 1] * self.across[1]
+        off = off_axis.reshape(-1, 2)[self.voxels].astype(np.float32)
+        place = off[:, 0] * self.across[0] + off[:, 1] * self.across[1]
         size = self.shape[-1]
         half = np.maximum(0.5 / (size * np.maximum(radius, 1e-6)), LEAST).astype(np.float32)[self.voxels // size**2]
         low, high = np.clip(place - half, -1, 1 - LEAST), np.clip(place + half, LEAST - 1, 1)
@@ -65,7 +66,7 @@ class Sides:
         return found.reshape(along.shape)
 
     def _lit(self, light: Array, along: Single, hairs: slice) -> Single:
-        if not self.told:
+        if not self.placed:
             return self.whole.lit(along, float(light[2]), hairs)
         sin_light, cos_phi = self.whole.around(along, float(light[2]), hairs)
         u, v = light[:2].astype(np.float32)
