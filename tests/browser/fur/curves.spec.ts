@@ -37,6 +37,36 @@ test("the shader's L equals numpy's on bodies of every radius", async ({ page })
 	expect(Math.max(...expected)).toBeGreaterThan(2);
 });
 
+test('contrast spreads texels around what they have in common, the mean curve', async ({ page }) => {
+	await openStage(page);
+	const { bodies, lights }: { bodies: number[]; lights: number[][] } = await json('lights.json');
+	const stored = await readFloats(`${golden}/light.f32`);
+	const [each, none, twice] = await Promise.all(
+		[1, 0, 2].map(async (contrast) =>
+			floats(
+				await page.evaluate(([url, l, a, c]) => stage.light(url, l, a, c), [
+					served(`${golden}/model.gltf`),
+					lights,
+					{ curvature: ball(bodies[0] as number) },
+					contrast,
+				] as const),
+			),
+		),
+	);
+	if (!each || !none || !twice) throw new Error('nothing drawn');
+	const texels = 64;
+	let spread = 0;
+	each.forEach((light, i) => {
+		expect(Math.abs(light - (stored[i] ?? Number.NaN))).toBeLessThan(4e-3);
+		const mean = none[i] as number;
+		// One light for the whole slab.
+		expect(Math.abs(mean - (none[texels * Math.floor(i / texels)] as number))).toBeLessThan(4e-3);
+		if (light > 0.01 && mean > 0) expect(twice[i]).toBeCloseTo(Math.max(2 * light - mean, 0), 1);
+		spread = Math.max(spread, Math.abs(light - mean));
+	});
+	expect(spread).toBeGreaterThan(0.5);
+});
+
 test("lamps go by the skin's curvature along their azimuth, and by the hair's length", async ({ page }) => {
 	await openStage(page);
 	const light = [0.4, -0.9, -0.17];

@@ -65,6 +65,7 @@ export const finStage = {
 		const lamp = new DirectionalLight(0xffffff, 4 * Math.PI);
 		scene.add(fins, lamp);
 		fins.material.blending = NoBlending;
+		fur.material.contrast = 1;
 		fins.material.finLength = 1;
 		const camera = new OrthographicCamera(-0.5, 0.5, asset.length, 0, 0.1, 10);
 		camera.position.z = 5;
@@ -119,6 +120,7 @@ export const finStage = {
 		const lamp = new DirectionalLight(0xffffff, 4 * Math.PI);
 		scene.add(fins, lamp);
 		fins.material.blending = NoBlending;
+		fur.material.contrast = 1;
 		fins.material.finLength = 1;
 		const tall = fur.shells.material.furLength;
 		const camera = new OrthographicCamera(-0.5, 0.5, tall, 0, 0.1, 10);

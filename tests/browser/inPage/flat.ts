@@ -44,7 +44,7 @@ export function uncovered(pixels: Float32Array): Float32Array {
 	return channel(pixels, 0).map((red, i) => red / (alpha[i] ?? 0));
 }
 
-/** A golden asset laid flat: one pixel per texel, seen from straight above. */
+/** A golden asset laid flat: one pixel per texel, seen from straight above, the light as it is stored. */
 export class Flat {
 	readonly #scene = new Scene();
 	readonly #camera = new OrthographicCamera(-0.5, 0.5, 0.5, -0.5, 0.1, 10);
@@ -71,6 +71,7 @@ export class Flat {
 		this.#camera.lookAt(centre);
 		this.#target = new WebGLRenderTarget(asset.size, asset.size, { type: FloatType });
 		shells.material.blending = NoBlending;
+		fur.material.contrast = 1;
 		shells.automatic = false;
 		shells.geometry.instanceCount = 1;
 	}

@@ -1,6 +1,6 @@
 /** Decoding of a texel's bytes and coefficients, as uniforms. */
 
-import { type IUniform, type Texture, Vector3, Vector4 } from 'three';
+import { type IUniform, type Texture, Vector2, Vector3, Vector4 } from 'three';
 import { type Basis, channelOf, type Multiple, type Pelt } from '../format.ts';
 import type { MeanCurves } from './curves.ts';
 import { horizonMoments, polynomialCurves, smoothSum } from './moments.ts';
@@ -75,16 +75,44 @@ export function momentUniforms({ environment = [], basis }: TexelCoding, fin: bo
 	return uniforms;
 }
 
-/** λ and Ω as multiply-adds on the GPU's 0..1 texels, per plane: a = texel·(255λ) − λΩ. */
-export function decoder(scale: number[], bias: number[]): { scale: Vector4[]; offset: Vector4[] } {
+/** Contrast of the texels' light over the stored one's: blended between texels, in six numbers, it has seven tenths of the hairs'. */
+export const CONTRAST = 1.4;
+
+/** Coefficient of φ = 1 in a PTM. */
+const CONSTANT = 5;
+
+/**
+ * λ and Ω as multiply-adds on the GPU's 0..1 texels, per plane: a = texel·(255λ) − λΩ.
+ *
+ * @param contrast of polynomials of format 2.x: their mean over a slab, 1, stays
+ */
+export function decoder(
+	{ scale, bias, basis, means }: TexelCoding,
+	contrast: number,
+): { scale: Vector4[]; offset: Vector4[] } {
+	const more = means && basis.kind === 'ptm' && scale.length > CONSTANT ? contrast : 1;
 	const vectors = {
 		scale: [new Vector4(0, 0, 0, 0), new Vector4(0, 0, 0, 0)],
 		offset: [new Vector4(0, 0, 0, 0), new Vector4(0, 0, 0, 0)],
 	};
 	scale.forEach((lambda, i) => {
 		const { plane, channel } = channelOf(i);
-		vectors.scale[plane]?.setComponent(channel, lambda * 255);
-		vectors.offset[plane]?.setComponent(channel, -lambda * (bias[i] ?? 0));
+		const mean = i === CONSTANT ? 1 - more : 0;
+		vectors.scale[plane]?.setComponent(channel, more * lambda * 255);
+		vectors.offset[plane]?.setComponent(channel, mean - more * lambda * (bias[i] ?? 0));
 	});
 	return vectors;
+}
+
+/** Values of the uniforms that decode the texels of all furs. @param contrast see `decoder` */
+export function codings(furs: readonly TexelCoding[], contrast: number): Record<string, unknown> {
+	const each = furs.map((own) => decoder(own, contrast));
+	const [{ scale, offset }] = each as [(typeof each)[0]];
+	return {
+		scale0: scale[0],
+		offset0: offset[0],
+		scale1: new Vector2(scale[1]?.x, scale[1]?.y),
+		offset1: new Vector2(offset[1]?.x, offset[1]?.y),
+		codings: each.flatMap(({ scale, offset }) => [scale[0], offset[0], scale[1], offset[1]]),
+	};
 }

@@ -78,13 +78,12 @@ export class FurFinMaterial extends PeltMaterial {
 					finOpacity: { value: 0.9 },
 					finHeights: { value: shells.uniforms.tiles?.value },
 				},
-				// |n·v| of the faces, between which a fin fades out; half a mip level finer than even, since fins are seen askew.
+				// |n·v| of the faces, between which a fin fades out.
 				defines: {
 					FIN: '',
 					...Object.fromEntries(Object.entries(shells.defines).filter(([part]) => PARTS.includes(part))),
 					FADE_FROM: '0.03',
 					FADE_TO: '0.15',
-					LOD_BIAS: '-0.5',
 				},
 				depthWrite: false,
 				side: DoubleSide,

@@ -10,7 +10,7 @@ import {
 	ZeroFactor,
 } from 'three';
 import { PeltLight } from '../light/PeltLight.ts';
-import type { FurTextures, SlabMeanCurves, TexelCoding } from '../light/texels.ts';
+import { CONTRAST, codings, type FurTextures, type SlabMeanCurves, type TexelCoding } from '../light/texels.ts';
 import { type Stained, stain } from '../weather/stains.ts';
 import { followHue } from './hue.ts';
 import { peltParameters } from './parts/peltParameters.ts';
@@ -21,6 +21,7 @@ export class PeltMaterial extends ShaderMaterial {
 	readonly #followers: PeltMaterial[] = [];
 	readonly #leader: PeltMaterial | undefined;
 	readonly #light: PeltLight;
+	#contrast = CONTRAST;
 	/** Coding of each fur's texels, the coat first. @internal */
 	readonly furs: readonly TexelCoding[];
 
@@ -120,6 +121,24 @@ export class PeltMaterial extends ShaderMaterial {
 
 	set density(ratio: number) {
 		this.#set('density', ratio, ratio !== 1);
+	}
+
+	/**
+	 * Contrast of light from texel to texel of a slab over the stored one's, in a PTM with mean curves; 1.4 by itself, which is
+	 * as much as real hairs have. Costs nothing.
+	 */
+	get contrast(): number {
+		return this.#contrast;
+	}
+
+	set contrast(ratio: number) {
+		for (const material of this.#all) {
+			material.#contrast = ratio;
+			for (const [name, value] of Object.entries(codings(material.furs, ratio))) {
+				const uniform = material.uniforms[name];
+				if (uniform) uniform.value = value;
+			}
+		}
 	}
 
 	/**

@@ -28,7 +28,7 @@ export function cutFor(pixels: number): number {
 
 /** Width of texels on screen, pixels, from which on hairs get crisp, and how much for each pixel more. */
 const CRISP_FROM = 0.3;
-const CRISP_PER_PIXEL = 4;
+const CRISP_PER_PIXEL = 1.5;
 
 /** Largest crispness: beyond, the texels' corners show. */
 const CRISPEST = 2.5;
@@ -42,9 +42,15 @@ export function crispnessFor(pixels: number): number {
 	return Math.min(Math.max(1 + CRISP_PER_PIXEL * (pixels - CRISP_FROM), 1), CRISPEST);
 }
 
+/**
+ * Texels are read this much finer than one a pixel, levels: blended they are as wide as two, and hairs lose a third of
+ * their contrast.
+ */
+export const LOD_BIAS = -0.4;
+
 /** Share of texels of the second level in a picture, 0..1. @param pixels width of a texel of the first on screen */
 export function coarserShare(pixels: number): number {
-	return Math.min(Math.max(-Math.log2(pixels), 0), 1);
+	return Math.min(Math.max(LOD_BIAS - Math.log2(pixels), 0), 1);
 }
 
 /**

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { crispLevels } from '../../../../web/fur/planes/crisp.ts';
 import { textureArray } from '../../../../web/fur/planes/planes.ts';
-import { coarserShare, crispnessFor } from '../../../../web/fur/shells/lod.ts';
+import { coarserShare, crispnessFor, LOD_BIAS } from '../../../../web/fur/shells/lod.ts';
 
 const SIZE = 32;
 
@@ -66,9 +66,10 @@ describe('crisp hairs', () => {
 
 	it('are those close up: from afar the picture stays as it was, and nothing jumps', () => {
 		expect([0.01, 0.1, 0.29].map(crispnessFor)).toEqual([1, 1, 1]);
-		expect(crispnessFor(0.55)).toBeCloseTo(2, 6);
-		expect([1, 5, 100].map(crispnessFor)).toEqual([2.5, 2.5, 2.5]);
-		expect([0.1, 0.5, 1, 4].map(coarserShare)).toEqual([1, 1, 0, 0]);
+		expect(crispnessFor(0.8)).toBeCloseTo(1.75, 6);
+		expect([1.4, 5, 100].map(crispnessFor)).toEqual([2.5, 2.5, 2.5]);
+		// Of the levels that the shader reads, which are finer than one texel a pixel.
+		expect([0.1, 0.5 * 2 ** LOD_BIAS, 1, 4].map(coarserShare)).toEqual([1, 1, 0, 0]);
 		for (let pixels = 0.02; pixels < 4; pixels += 0.01) {
 			expect(Math.abs(crispnessFor(pixels + 0.01) - crispnessFor(pixels))).toBeLessThan(0.05);
 			expect(Math.abs(coarserShare(pixels + 0.01) - coarserShare(pixels))).toBeLessThan(0.05);

@@ -21,10 +21,6 @@ float mudShare = 0.0; // share of mud in the texel's coverage
 #define MUD_SHARE 0.7 // share of mud on dirty hairs without a dirty state
 #endif
 
-#ifndef LOD_BIAS
-#define LOD_BIAS 0.0
-#endif
-
 // All states share one encoding, so bytes can be mixed.
 vec4 furBytes(sampler2DArray plane, vec3 at) {
 #ifdef WET

@@ -14,7 +14,7 @@ import {
 	Vector2,
 } from 'three';
 import { BODY_RADIUS } from '../../light/moments.ts';
-import { basisDefines, decoder, type FurTextures, type TexelCoding } from '../../light/texels.ts';
+import { basisDefines, CONTRAST, codings, type FurTextures, type TexelCoding } from '../../light/texels.ts';
 import bodyLight from '../../shaders/draw/bodyLight.glsl?raw';
 import curvature from '../../shaders/draw/curvature.glsl?raw';
 import lightIn from '../../shaders/draw/light.frag.glsl?raw';
@@ -23,6 +23,7 @@ import output from '../../shaders/draw/output.glsl?raw';
 import colour from '../../shaders/hair/colour.glsl?raw';
 import ptm from '../../shaders/light/ptm.glsl?raw';
 import { stainUniforms } from '../../weather/stains.ts';
+import { LOD_BIAS } from '../lod.ts';
 import { hairChunks, lampChunks, skyChunks, texelChunks } from './chunks.ts';
 
 /**
@@ -38,7 +39,6 @@ export function peltParameters(
 	{ uniforms, defines, vertexShader, fragmentShader, ...parameters }: ShaderMaterialParameters,
 ): ShaderMaterialParameters {
 	const texels = furs[0] as TexelCoding;
-	const { scale, offset } = decoder(texels.scale, texels.bias);
 	const { means, basis } = texels;
 	return {
 		glslVersion: GLSL3,
@@ -48,16 +48,7 @@ export function peltParameters(
 			plane0: { value: null },
 			plane1: { value: null },
 			colourPlane: { value: null },
-			scale0: { value: scale[0] },
-			offset0: { value: offset[0] },
-			scale1: { value: new Vector2(scale[1]?.x, scale[1]?.y) },
-			offset1: { value: new Vector2(offset[1]?.x, offset[1]?.y) },
-			codings: {
-				value: furs.flatMap((own) => {
-					const { scale, offset } = decoder(own.scale, own.bias);
-					return [scale[0], offset[0], scale[1], offset[1]];
-				}),
-			},
+			...Object.fromEntries(Object.entries(codings(furs, CONTRAST)).map(([name, value]) => [name, { value }])),
 			...light,
 			bodyRadius: { value: BODY_RADIUS },
 			lean: { value: new Vector2() },
@@ -79,6 +70,7 @@ export function peltParameters(
 			...(texels.scale.length > 3 && { TWO_PLANES: '' }),
 			...(textures.colour && { COLOUR_PLANE: '' }),
 			SKY: '',
+			LOD_BIAS: LOD_BIAS.toFixed(1),
 			...(furs.some((own) => String(own.scale) + own.bias !== String(texels.scale) + texels.bias) && { CODINGS: '' }),
 			...defines,
 		},
