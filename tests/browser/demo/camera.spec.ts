@@ -74,7 +74,7 @@ test('a link shows the same view again', async ({ page }) => {
 	expect(difference(before, await shown())).toBeLessThan(0.6);
 });
 
-test('a target brings its point to the middle, near it, and stays in the link until another model is shown', async ({ page }) => {
+test('a target is in the middle, near it, and in the link until another model comes', async ({ page }) => {
 	await drawNothing(page);
 	await makeSmall(page);
 	const box = async () => (await page.locator('#picture').getAttribute('data-box'))?.split(',').map(Number) ?? [];
