@@ -2,19 +2,22 @@
  * Reflections of eyes, noses and the like between hairs: a standard material without a map of its surroundings shines where
  * a lamp is mirrored and nowhere else, so an eye with the lamp behind it is a black ball with a grey rim.
  *
- * The sky of the scene's own lights (ambient, hemisphere, probe) is mirrored, with the horizon as an edge. What would come
- * through the fur around such a part is dark, and a rough part such as a lid's rim has no highlights, as skin below fur has none.
+ * The sky of the scene's own lights (ambient, hemisphere, probe) is mirrored, with the horizon as an edge, and less of it where
+ * a part is smooth. What would come through the fur around such a part is dark, and a rough part such as a lid's rim has no
+ * highlights, as skin below fur has none.
  */
 
 import { type Material, type Mesh, MeshStandardMaterial, type WebGLProgramParametersWithUniforms } from 'three';
 
 /** Height, sine, of the mirrored horizon's middle, and half its width where the part is smooth. */
-const HORIZON = { middle: 0.1, width: 0.2 };
+const HORIZON = { middle: 0.1, width: 0.05 };
+/** Share of the sky in what a smooth part mirrors: fur stands around an eye. All of the sky is a grey veil over a black one. */
+const SHEEN = 0.3;
 /**
  * The brightest of the sky as a window, the glint that keeps an eye alive where no lamp is mirrored: `towards` the viewer from
  * straight above, cosines of its soft edge, brightness over the sky's, and roughness up to which it is seen.
  */
-const WINDOW = { towards: 0.9, from: 0.95, to: 0.98, bright: 14, smooth: 0.35 };
+const WINDOW = { towards: 0.9, from: 0.96, to: 0.975, bright: 40, smooth: 0.35 };
 /** Cosines between the mirrored direction and the part's front (+z) between which the fur around it lets light through. */
 const FUR = { from: -0.6, to: 0.3 };
 
@@ -47,8 +50,10 @@ for (int i = 0; i < NUM_HEMI_LIGHTS; i ++) {
 }
 #pragma unroll_loop_end
 #endif
+bool smoothPart = material.roughness <= ${WINDOW.smooth};
+if (smoothPart) mirroredLight *= ${SHEEN};
 float glint = smoothstep(${WINDOW.from}, ${WINDOW.to}, dot(mirrored, window));
-mirroredLight += ${WINDOW.bright.toFixed(1)} * glint * step(material.roughness, ${WINDOW.smooth}) * skyLight;
+mirroredLight += ${WINDOW.bright.toFixed(1)} * (smoothPart ? glint : 0.0) * skyLight;
 float throughFur = dot(vFront, vFront) > 0.5 ? smoothstep(${FUR.from}, ${FUR.to}, dot(mirrored, vFront)) : 1.0;
 float shine = throughFur * (1.0 - pow4(material.roughness));
 radiance += RECIPROCAL_PI * mirroredLight * shine;

@@ -74,6 +74,25 @@ test('a link shows the same view again', async ({ page }) => {
 	expect(difference(before, await shown())).toBeLessThan(0.6);
 });
 
+test('a target is in the middle, near it, and in the link until another model comes', async ({ page }) => {
+	await drawNothing(page);
+	await makeSmall(page);
+	const box = async () => (await page.locator('#picture').getAttribute('data-box'))?.split(',').map(Number) ?? [];
+	await open(page, '?model=torus&still=1&shells=4&camera=0,0,1&target=1,-1,0');
+	// The lower right corner of the box, in the middle of 160 × 120 pixels.
+	const [left = 0, top = 0, width = 0, height = 0] = await box();
+	expect([left + width, top + height]).toEqual([expect.closeTo(80, -1), expect.closeTo(60, -1)]);
+	await page.setViewportSize({ width: 900, height: 600 });
+	await open(page, '?model=torus&still=1&shells=4&camera=0,0,0.1&target=1,-1,0');
+	expect((await box())[2]).toBeGreaterThan(5 * width);
+	await page.keyboard.press('Shift+ArrowUp');
+	await settled(page, 'light');
+	expect(camera(page)[2]).toBeCloseTo(0.1, 2);
+	expect(parameter(page, 'target')).toBe('1,-1,0');
+	await page.getByRole('combobox', { name: 'Model' }).selectOption('Sphere');
+	await expect.poll(() => parameter(page, 'target')).toBeNull();
+});
+
 for (const [width, height] of [
 	[180, 320],
 	[400, 150],

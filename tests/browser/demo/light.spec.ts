@@ -23,6 +23,20 @@ test('a picture with still=1 does not change by itself', async ({ page }) => {
 	expect(difference(before, await picture(page))).toBe(0);
 });
 
+test('a black eye is dark with one bright glint, with the lamp behind it', async ({ page }) => {
+	const near = 'camera=20,10,.08&target=-.593,.468,.732';
+	await open(page, `?model=bunny&colour=050505,0a0a0a&light=.3,.5,-.9&shells=4&${near}&still=1&ui=0`);
+	const { width, height, brightness } = await picture(page);
+	// Within the eye, which is a quarter of the picture wide.
+	const seen = brightness.filter((_, i) => {
+		const [x, y] = [(i % width) / width - 0.37, (Math.floor(i / width) - 0.43 * height) / width];
+		return Math.hypot(x, y) < 0.09;
+	});
+	seen.sort();
+	expect(seen[seen.length >> 1]).toBeLessThan(14);
+	expect(seen.at(-1)).toBeGreaterThan(180);
+});
+
 test('the light drifts until somebody takes it', async ({ page }) => {
 	await open(page, '?model=sphere&shells=4');
 	const before = await picture(page);

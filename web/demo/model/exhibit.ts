@@ -90,6 +90,7 @@ export class Exhibit {
 		this.changed();
 		const { camera } = this.#picture;
 		if (view.camera) camera.chosen = true;
+		camera.target = view.target;
 		camera.orbit = view.camera ?? firstView(undefined).camera;
 		await this.change(async () => {
 			await Promise.all([this.#surround(view.env ?? 'none'), this.#show(name)]);
@@ -126,7 +127,8 @@ export class Exhibit {
 	/** Puts light and camera as they are before a visitor has touched them. */
 	aim(): void {
 		const picture = this.#picture;
-		const { camera, light } = this.#store.get();
+		const { camera, light, target } = this.#store.get();
+		picture.camera.target = target;
 		if (!picture.camera.chosen) picture.camera.orbit = camera ?? this.#firstCamera();
 		picture.setLight(light ?? this.#firstLight(), !light);
 		picture.fit();
@@ -243,8 +245,11 @@ export class Exhibit {
 	#present(model: Model, name: string): void {
 		const picture = this.#picture;
 		const { stage, camera, light, lamp } = picture;
-		const view = this.#store.get();
 		const first = stage.model === undefined;
+		// A point of one body is none of another's.
+		if (!first && name !== this.shown) this.#store.change({ target: undefined });
+		const view = this.#store.get();
+		camera.target = view.target;
 		this.dynamics.clear();
 		this.looks.clear();
 		stage.setModel(model);

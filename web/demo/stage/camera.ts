@@ -14,15 +14,28 @@ import {
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Room } from '../../page/room.ts';
+import type { Model } from '../../scene/model.ts';
 import type { Triple } from '../state/view.ts';
 
 const FIELD_OF_VIEW = 26; // degrees, of the window's height
 /** Radius that fits into the room, in radii of the model: leaves room for fur and lamp. */
 const MARGIN = 1.2;
 const MIN_DISTANCE = 0.25; // in units of the distance at which the model fits
+/** The same from a point aside of the model's middle, such as a paw. */
+const MIN_DISTANCE_ASIDE = 0.05;
 const MAX_DISTANCE = 4;
 
+/** What the camera is fitted to. */
+export interface Framed {
+	centre: Vector3;
+	/** Radius of the sphere that is fitted in: of the body, or of the middle of a crowd. */
+	radius: number;
+	bodyRadius: number;
+	model: Pick<Model, 'box'> | undefined;
+}
+
 const offset = new Vector3();
+const point = new Vector3();
 const spherical = new Spherical();
 const vertex = new Vector3();
 const pixel = new Vector2();
@@ -37,6 +50,8 @@ export class OrbitCamera extends PerspectiveCamera {
 	#asked: Triple | undefined;
 	/** True while the camera is fitted: the orbit stays as it is. */
 	#framing = false;
+	/** Point that is looked at, by shares of the body's box: 0 its middle, 1 and -1 its sides; for the next `frame`. */
+	target: Triple | undefined;
 	/** True once a visitor or a link has chosen the orbit. */
 	chosen = false;
 
@@ -101,19 +116,22 @@ export class OrbitCamera extends PerspectiveCamera {
 	 *
 	 * @param width of the picture in CSS pixels
 	 * @param room part of the picture
-	 * @param closest radius of one body, where `radius` is that of a crowd
 	 */
-	frame(centre: Vector3, radius: number, width: number, height: number, room: Room, closest = radius): void {
+	frame({ centre, radius, bodyRadius, model }: Framed, width: number, height: number, room: Room): void {
 		const orbit = this.orbit;
 		const vertical = Math.tan(MathUtils.degToRad(FIELD_OF_VIEW / 2));
 		const narrow = Math.atan(vertical * Math.min(room.width / height, room.height / height));
 		this.#fit = (MARGIN * radius) / Math.sin(narrow);
 		this.#radius = radius;
-		this.#bodyRadius = closest;
+		this.#bodyRadius = bodyRadius;
 		this.#framing = true;
 		this.#shift(width, height, room);
-		this.#controls.target.copy(centre);
-		this.#controls.minDistance = (this.#fit * MIN_DISTANCE * closest) / radius;
+		const { target } = this.#controls;
+		target.copy(centre);
+		if (model && this.target)
+			target.addScaledVector(model.box.getSize(offset).multiply(point.fromArray(this.target)), 0.5);
+		const nearest = this.target ? MIN_DISTANCE_ASIDE : MIN_DISTANCE;
+		this.#controls.minDistance = (this.#fit * nearest * bodyRadius) / radius;
 		this.#controls.maxDistance = this.#fit * MAX_DISTANCE;
 		this.orbit = orbit;
 		this.#fitDepth();

@@ -161,8 +161,7 @@ export class Picture {
 	#frame(): void {
 		if (!this.#visible) return;
 		const { clientWidth: width, clientHeight: height } = this.canvas;
-		const { centre, radius, bodyRadius } = this.stage;
-		this.camera.frame(centre, radius, width, height, this.room, bodyRadius);
+		this.camera.frame(this.stage, width, height, this.room);
 		this.framed();
 		this.request();
 	}

@@ -109,6 +109,10 @@ export const parameters: Table = {
 			'Azimuth and elevation in degrees; distance, 1 where the model fits what the controls leave of the window',
 		],
 	},
+	target: {
+		value: values.target,
+		doc: ['0.6,-1,0.5', 'Point that the camera looks at: 0,0,0 the middle of the model’s box, 1 and -1 its sides'],
+	},
 	shells: {
 		value: values.whole(256),
 		doc: ['48', 'Number of drawn shells; without it as many as the picture needs'],

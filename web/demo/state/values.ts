@@ -12,6 +12,7 @@ export type Kind =
 	| 'split'
 	| 'light'
 	| 'camera'
+	| 'target'
 	| 'whole'
 	| 'number'
 	| 'flag'
@@ -140,6 +141,17 @@ export const camera: Value<Triple> = {
 	},
 	write: ([azimuth, elevation, distance]) =>
 		`${short(azimuth, 2)},${short(elevation, 2)},${Number(distance.toPrecision(4))}`,
+};
+
+/** A point by shares of a box, from its middle to its sides and as far again. */
+export const target: Value<Triple> = {
+	kind: 'target',
+	limits: [],
+	read: (text) => {
+		const point = numbers(text, 3);
+		return point?.every((share) => Math.abs(share) <= 2) ? (point as Triple) : undefined;
+	},
+	write: (point) => point.map((share) => short(share, 3)).join(),
 };
 
 export const colours: Value<NonNullable<View['colour']>> = {

@@ -32,6 +32,8 @@ export interface View {
 	readonly lights?: number | undefined;
 	/** azimuth -180..180 degrees, elevation -90..90 degrees, distance 0.001..10: small near a body of a large crowd */
 	readonly camera?: Triple | undefined;
+	/** point that the camera looks at: 0 the middle of the model's box, 1 and -1 its sides */
+	readonly target?: Triple | undefined;
 	readonly shells?: number | undefined;
 	readonly fins?: boolean | undefined;
 	readonly length?: number | undefined;

@@ -136,6 +136,7 @@ export const en = {
 		split: (names: string) => `METHOD,SHARE: one of ${names}, and 0 to 1`,
 		light: 'a direction x,y,z',
 		camera: 'azimuth,elevation,distance: degrees, degrees within ±90, 0.001 to 10',
+		target: 'x,y,z: 0 the middle, 1 and -1 the sides of the model’s box, each within ±2',
 		whole: (min: string, max: string) => `a whole number from ${min} to ${max}`,
 		number: (min: string, max: string) => `a number from ${min} to ${max}`,
 		flag: '0 or 1',

@@ -143,6 +143,7 @@ export const zh: Words = {
 		split: (names) => ` METHOD,SHARE：方法为以下之一：${names}，比例为 0 到 1`,
 		light: '方向 x,y,z',
 		camera: '方位角、仰角、距离：度、±90 以内的度数、0.001 到 10',
+		target: ' x,y,z：0 为模型包围盒的中心，1 与 -1 为两侧，各在 ±2 以内',
 		whole: (min, max) => ` ${min} 到 ${max} 的整数`,
 		number: (min, max) => ` ${min} 到 ${max} 的数`,
 		flag: ' 0 或 1',

@@ -20,7 +20,7 @@ describe('a view and its address', () => {
 		{ model: 'fox', clip: 'Walk', time: 0.4, speed: 0.5, still: true, ui: true },
 		{ clip: 'Läuft & springt, 50 %', time: 0, speed: 3, still: false, ui: true },
 		{ time: 3599.125, still: false, ui: true },
-		{ model: '../out/fox/', camera: [-179.9, 90, 0.01234], still: false, ui: false },
+		{ model: '../out/fox/', camera: [-179.9, 90, 0.01234], target: [0.5, -2, 0], still: false, ui: false },
 	];
 
 	it.each(views)('survive the round trip: %j', (view) => {
@@ -38,7 +38,7 @@ describe('a view and its address', () => {
 
 	it('are readable: the example of the documentation', () => {
 		const search =
-			'?model=bunny&preset=fox&method=eigen&split=lengyel,0.5&light=0.303,0.808,0.505&lights=3&camera=30,12,1&shells=48&fins=0&length=1.2&density=0.8&colour=33221a,e8b98a&planes=64&env=sunset&crowd=5&wind=0.4,90&wet=0.75&dirt=0.3&turn=1&clip=Walk&time=0.4&speed=0.5&still=1&ui=0&lang=zh';
+			'?model=bunny&preset=fox&method=eigen&split=lengyel,0.5&light=0.303,0.808,0.505&lights=3&camera=30,12,1&target=0.6,-1,0.5&shells=48&fins=0&length=1.2&density=0.8&colour=33221a,e8b98a&planes=64&env=sunset&crowd=5&wind=0.4,90&wet=0.75&dirt=0.3&turn=1&clip=Walk&time=0.4&speed=0.5&still=1&ui=0&lang=zh';
 		expect(formatAddress(parseAddress(search).view)).toBe(search);
 	});
 
@@ -86,6 +86,9 @@ describe('reading an address', () => {
 		'camera=0,91,1',
 		'camera=0,0,0',
 		'camera=0,0,11',
+		'target=0,1',
+		'target=0,2.1,0',
+		'target=paw',
 		'shells=0',
 		'shells=257',
 		'shells=1.5',
