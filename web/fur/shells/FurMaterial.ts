@@ -56,6 +56,8 @@ export interface FurMaterialParameters extends ShaderMaterialParameters {
 	backlight?: number;
 	/** {@inheritDoc FurMaterial.glow} */
 	glow?: number;
+	/** {@inheritDoc FurMaterial.contrast} */
+	contrast?: number;
 	/** {@inheritDoc FurMaterial.density} */
 	density?: number;
 	/** {@inheritDoc FurMaterial.lampsPerFragment} */

@@ -6,7 +6,16 @@ import type { FurMaterial } from './FurMaterial.ts';
 import type { FurShells } from './FurShells.ts';
 
 /** Settings of the light. */
-const LIGHT = ['gloss', 'sharpness', 'backlight', 'glow', 'environment', 'lampsPerFragment', 'multisampled'] as const;
+const LIGHT = [
+	'gloss',
+	'sharpness',
+	'backlight',
+	'glow',
+	'contrast',
+	'environment',
+	'lampsPerFragment',
+	'multisampled',
+] as const;
 /** Settings of the hairs of one pelt. */
 const HAIRS = ['density', 'tipShare', 'rampPower', 'bodyRadius'] as const;
 const COLOURS = ['skinColor', 'root', 'tip', 'tip2'] as const;
