@@ -16,6 +16,7 @@ import {
 	Texture,
 	Vector3,
 } from 'three';
+import { markThin, type Span } from './thin.ts';
 
 /** One draw of a body. */
 export interface Piece {
@@ -25,6 +26,8 @@ export interface Piece {
 	matrix: Matrix4;
 	/** The mesh, or the first of several merged ones. */
 	mesh: Mesh;
+	/** Whether parts of it are thin, by `markThin`. */
+	thin: boolean;
 	/** Update to its meshes' present colours: skin is darker below wet fur. */
 	follow(): void;
 	/** Frees this piece but not the mesh. */
@@ -65,6 +68,7 @@ export function gatherPieces(meshes: readonly Mesh[], placement: (mesh: Mesh) =>
 			geometry: mesh.geometry,
 			material: mesh.material,
 			matrix: placement(mesh),
+			thin: false,
 			follow() {},
 			dispose() {},
 		})),
@@ -118,6 +122,7 @@ function merge(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Pie
 	const normals = new Float32Array(total * 3);
 	const colours = new BufferAttribute(new Float32Array(total * 3), 3);
 	const parts: Part[] = [];
+	const spans: Span[] = [];
 	const coordinates = new Float32Array(total * 2);
 	const corners: number[] = [];
 	const inverse = matrix.clone().invert();
@@ -129,6 +134,7 @@ function merge(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Pie
 		const { index } = piece.geometry;
 		const [position, normal] = [piece.geometry.getAttribute('position'), piece.geometry.getAttribute('normal')];
 		parts.push(new Part(piece, vertex));
+		spans.push([vertex, position.count]);
 		const count = index?.count ?? position.count;
 		for (let i = 0; i < count; i++) corners.push(vertex + (index?.getX(i) ?? i));
 		for (let i = 0; i < position.count; i++, vertex++) {
@@ -151,6 +157,7 @@ function merge(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Pie
 	geometry.setAttribute('color', colours);
 	geometry.setAttribute('uv', new BufferAttribute(coordinates, 2));
 	geometry.setIndex(corners);
+	const thin = markThin(geometry, spans);
 
 	const { material, palette } = sharedMaterial(meshes.map((piece) => piece.material as MeshStandardMaterial));
 	const follow = () => {
@@ -162,6 +169,7 @@ function merge(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Pie
 		geometry,
 		material,
 		matrix,
+		thin,
 		follow,
 		dispose() {
 			geometry.dispose();
