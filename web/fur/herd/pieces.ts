@@ -16,7 +16,7 @@ import {
 	Texture,
 	Vector3,
 } from 'three';
-import { markThin, type Span } from './thin.ts';
+import { markThin } from './thin.ts';
 
 /** One draw of a body. */
 export interface Piece {
@@ -59,7 +59,10 @@ export function gatherPieces(meshes: readonly Mesh[], placement: (mesh: Mesh) =>
 		plain.filter((mesh) => mesh.geometry.hasAttribute('skinIndex') === moved),
 	);
 	const shared = groups.filter((group) => group.length > 1);
-	const merged = shared.map((group) => merge(group, placement));
+	const merged = shared.map((group) => {
+		const piece = merge(group, placement);
+		return { ...piece, thin: markThin(piece.geometry, group) };
+	});
 	const alone = meshes.filter((mesh) => !shared.some((group) => group.includes(mesh)));
 	return [
 		...merged,
@@ -114,7 +117,7 @@ class Part {
 }
 
 /** Merge in the axes of the first mesh, whose vertices keep their positions to the bit. */
-function merge(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Piece {
+function merge(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Omit<Piece, 'thin'> {
 	const [mesh] = meshes as [Mesh];
 	const matrix = placement(mesh);
 	const total = meshes.reduce((sum, { geometry }) => sum + geometry.getAttribute('position').count, 0);
@@ -122,7 +125,6 @@ function merge(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Pie
 	const normals = new Float32Array(total * 3);
 	const colours = new BufferAttribute(new Float32Array(total * 3), 3);
 	const parts: Part[] = [];
-	const spans: Span[] = [];
 	const coordinates = new Float32Array(total * 2);
 	const corners: number[] = [];
 	const inverse = matrix.clone().invert();
@@ -134,7 +136,6 @@ function merge(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Pie
 		const { index } = piece.geometry;
 		const [position, normal] = [piece.geometry.getAttribute('position'), piece.geometry.getAttribute('normal')];
 		parts.push(new Part(piece, vertex));
-		spans.push([vertex, position.count]);
 		const count = index?.count ?? position.count;
 		for (let i = 0; i < count; i++) corners.push(vertex + (index?.getX(i) ?? i));
 		for (let i = 0; i < position.count; i++, vertex++) {
@@ -157,7 +158,6 @@ function merge(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Pie
 	geometry.setAttribute('color', colours);
 	geometry.setAttribute('uv', new BufferAttribute(coordinates, 2));
 	geometry.setIndex(corners);
-	const thin = markThin(geometry, spans);
 
 	const { material, palette } = sharedMaterial(meshes.map((piece) => piece.material as MeshStandardMaterial));
 	const follow = () => {
@@ -169,7 +169,6 @@ function merge(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Pie
 		geometry,
 		material,
 		matrix,
-		thin,
 		follow,
 		dispose() {
 			geometry.dispose();

@@ -1,10 +1,12 @@
 /** Thin parts of a body in a herd, such as whiskers, which would fall into dots where they are narrower than a pixel. */
 
 import {
+	Box3,
 	BufferAttribute,
 	type BufferGeometry,
 	type IUniform,
 	type Material,
+	type Mesh,
 	Vector3,
 	type WebGLProgramParametersWithUniforms,
 } from 'three';
@@ -15,9 +17,6 @@ const THIN = 0.1;
 /** Widths in pixels at which a thin part is gone, and up to which it is shorter than it was made. */
 const [GONE, WHOLE] = [0.2, 0.8];
 
-/** Vertices of one part: the first and how many. */
-export type Span = readonly [first: number, count: number];
-
 const DECLARED = /* glsl */ `#include <common>
 attribute vec4 spine; // nearest point on the part's long axis; half of its width in the middle, 0 for a part that is not thin
 attribute vec3 spineRoot; // end of that axis at the body
@@ -25,15 +24,26 @@ uniform float pictureHeight; // pixels
 #define THIN_GONE ${GONE}
 #define THIN_WHOLE ${WHOLE}`;
 
-const at = (positions: BufferAttribute, [first, count]: Span): Vector3[] =>
-	Array.from({ length: count }, (_, i) => new Vector3().fromBufferAttribute(positions, first + i));
+/** Vertices of each mesh, which lie in a geometry one mesh after the other, and the first one's place. */
+function partsOf(positions: BufferAttribute, meshes: readonly Mesh[]): { first: number; points: Vector3[] }[] {
+	let end = 0;
+	return meshes.map(({ geometry }) => {
+		const { count } = geometry.getAttribute('position');
+		const first = end;
+		end += count;
+		return {
+			first,
+			points: Array.from({ length: count }, (_, i) => new Vector3().fromBufferAttribute(positions, first + i)),
+		};
+	});
+}
 
-const mean = (points: readonly Vector3[]): Vector3 =>
-	points.reduce((sum, point) => sum.add(point), new Vector3()).divideScalar(Math.max(points.length, 1));
+const middleOf = (points: readonly Vector3[]): Vector3 =>
+	new Box3().setFromPoints([...points]).getCenter(new Vector3());
 
 /** Middle, unit axis, half length and half width of a part. */
 function axisOf(points: readonly Vector3[]): { middle: Vector3; axis: Vector3; length: number; width: number } {
-	const middle = mean(points);
+	const middle = middleOf(points);
 	const axis = points.reduce((far, point) => {
 		const from = point.clone().sub(middle);
 		return from.lengthSq() > far.lengthSq() ? from : far;
@@ -44,24 +54,22 @@ function axisOf(points: readonly Vector3[]): { middle: Vector3; axis: Vector3; l
 	return { middle, axis, length, width: Math.max(...asides) };
 }
 
-/** Gives a geometry of several parts the axes of those that are thin. @returns whether there are any */
-export function markThin(geometry: BufferGeometry, spans: readonly Span[]): boolean {
+/** Gives a geometry that several meshes are merged in the axes of those that are thin. @returns whether there are any */
+export function markThin(geometry: BufferGeometry, meshes: readonly Mesh[]): boolean {
 	const positions = geometry.getAttribute('position') as BufferAttribute;
-	const parts = spans
-		.map((span) => ({ span, points: at(positions, span) }))
-		.map((part) => ({ ...part, ...axisOf(part.points) }));
+	const parts = partsOf(positions, meshes).map((part) => ({ ...part, ...axisOf(part.points) }));
 	const thin = parts.filter(({ width, length }) => width < THIN * length);
 	if (thin.length === 0) return false;
 	const others = parts.filter((part) => !thin.includes(part));
-	const body = mean((others.length ? others : parts).flatMap(({ points }) => points));
+	const body = middleOf((others.length ? others : parts).flatMap(({ points }) => points));
 	const spines = new Float32Array(4 * positions.count);
 	const roots = new Float32Array(3 * positions.count);
-	for (const { span, points, middle, axis, length, width } of thin) {
+	for (const { first, points, middle, axis, length, width } of thin) {
 		const inwards = Math.sign(body.clone().sub(middle).dot(axis)) || 1;
 		const root = middle.clone().addScaledVector(axis, inwards * length);
 		for (const [i, point] of points.entries()) {
 			const along = point.clone().sub(middle).dot(axis);
-			const vertex = span[0] + i;
+			const vertex = first + i;
 			spines.set([...middle.clone().addScaledVector(axis, along), width], 4 * vertex);
 			root.toArray(roots, 3 * vertex);
 		}
