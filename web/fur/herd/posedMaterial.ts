@@ -24,15 +24,12 @@ mat4 boneMatW = getBoneMatrix(skinIndex.w + firstJoint());`;
 
 /** Makes a material of three's draw each instance of an InstancedMesh in a pose of its own. */
 function poseInstances(material: Material): void {
-	const before = material.onBeforeCompile;
-	const key = material.customProgramCacheKey();
-	material.onBeforeCompile = (shader, renderer) => {
-		before.call(material, shader, renderer);
+	material.onBeforeCompile = (shader) => {
 		shader.vertexShader = shader.vertexShader
 			.replace('#include <skinning_pars_vertex>', POSED_INSTANCE)
 			.replace('#include <skinbase_vertex>', POSED_JOINTS);
 	};
-	material.customProgramCacheKey = () => `${key} posed`;
+	material.customProgramCacheKey = () => 'posed instances';
 }
 
 /** Copy of a material for bodies in poses of their own. */
