@@ -70,6 +70,8 @@ export interface Wanted {
 	shiny?: boolean;
 	/** on a ground, with a lamp that casts shadows */
 	shadow?: boolean;
+	/** without whiskers, which in a herd are a pixel wide at least */
+	shorn?: boolean;
 }
 
 export interface Drawn {
@@ -83,6 +85,13 @@ export interface Drawn {
 	shells: number;
 	/** uploads of buffers meanwhile */
 	uploads: number;
+}
+
+function removeWhiskers(root: Object3D): void {
+	const found: Object3D[] = [];
+	root.traverse((part) => part.name.startsWith('whisker') && found.push(part));
+	if (found.length === 0) throw new Error('got a body without whiskers, expected some');
+	for (const part of found) part.removeFromParent();
 }
 
 class Herd {
@@ -107,6 +116,7 @@ class Herd {
 			this.lamp.position.multiplyScalar(5);
 			fitFurShadow(this.lamp, new Sphere(new Vector3(), 4), fur.asset.length);
 		}
+		if (wanted.shorn) removeWhiskers(fur.skin.parent ?? fur.skin);
 		if (fur.fins) fur.fins.visible = wanted.fins ?? true;
 		this.camera = wanted.parallel
 			? new OrthographicCamera(-2, 2, 2, -2, 0.05, 200)

@@ -246,7 +246,7 @@ export class Exhibit {
 		const picture = this.#picture;
 		const { stage, camera, light, lamp } = picture;
 		const first = stage.model === undefined;
-		// A point of one body is none of another's.
+		// Clear it: the point is none of another body's.
 		if (!first && name !== this.shown) this.#store.change({ target: undefined });
 		const view = this.#store.get();
 		camera.target = view.target;

@@ -25,7 +25,7 @@ const MIN_DISTANCE = 0.25; // in units of the distance at which the model fits
 const MIN_DISTANCE_ASIDE = 0.05;
 const MAX_DISTANCE = 4;
 
-/** What the camera is fitted to. */
+/** Body or crowd that the camera is fitted to. */
 export interface Framed {
 	centre: Vector3;
 	/** Radius of the sphere that is fitted in: of the body, or of the middle of a crowd. */

@@ -1,4 +1,4 @@
-import { type Camera, Frustum, Matrix4, Object3D, type OrthographicCamera, Sphere, Vector4 } from 'three';
+import { type Camera, Frustum, Matrix4, Object3D, type OrthographicCamera, Sphere } from 'three';
 import type { Fur } from '../Fur.ts';
 import { tileOf } from '../format.ts';
 import { coarserShare, crispnessFor, cutFor, pixelsPerUnit, shellsFor } from '../shells/lod.ts';
@@ -16,7 +16,6 @@ const matrix = new Matrix4();
 const own = new Matrix4();
 const frustum = new Frustum();
 const sphere = new Sphere();
-const viewport = new Vector4();
 const eye: Eye = [0, 0, 0, 1];
 
 /**
@@ -120,8 +119,8 @@ export class FurInstances extends Object3D {
 		this.fewestShells = fur.asset.layers / 2;
 		this.#fit();
 
-		this.#skin = new HerdSkin(root, capacity, this.#bounds, this.#poses, (renderer) => {
-			this.height = renderer.getCurrentViewport(viewport).w;
+		this.#skin = new HerdSkin(root, capacity, this.#bounds, this.#poses, (height) => {
+			this.height = height;
 		});
 		this.#finMaterial = fins && new BodyMaterial(fins.material);
 		// Equally distant objects are drawn by age: create the coarsest level first.

@@ -1,12 +1,4 @@
-import {
-	InstancedMesh,
-	type Material,
-	Matrix4,
-	type Mesh,
-	type Object3D,
-	type Sphere,
-	type WebGLRenderer,
-} from 'three';
+import { InstancedMesh, type Material, Matrix4, type Mesh, type Object3D, type Sphere, Vector4 } from 'three';
 import type { Jointed } from '../body/FurPose.ts';
 import { FurFins } from '../shells/FurFins.ts';
 import { FurShells } from '../shells/FurShells.ts';
@@ -15,8 +7,10 @@ import { hung } from './hung.ts';
 import { Places } from './Places.ts';
 import { gatherPieces, type Piece, placement } from './pieces.ts';
 import { PosedMaterial } from './posedMaterial.ts';
+import { keepThin } from './thin.ts';
 
 const total = new Matrix4();
+const viewport = new Vector4();
 
 /** Whether joints move its vertices. */
 const isJointed = ({ geometry }: Pick<Mesh, 'geometry'>): boolean => geometry.hasAttribute('skinIndex');
@@ -43,15 +37,16 @@ export class HerdSkin {
 	 * @param capacity largest number of bodies
 	 * @param bounds of all bodies
 	 * @param poses of a body that has joints
-	 * @param drawn called before each draw
+	 * @param drawn called before each draw with the height of the picture, pixels
 	 */
 	constructor(
 		root: Object3D,
 		capacity: number,
 		bounds: Sphere,
 		poses: HerdPoses | undefined,
-		drawn: (renderer: WebGLRenderer) => void,
+		drawn: (height: number) => void,
 	) {
+		const height = { value: 0 };
 		const meshes: Mesh[] = [];
 		root.traverse((part) => {
 			if ((part as Mesh).isMesh && !(part instanceof FurShells || part instanceof FurFins)) meshes.push(part as Mesh);
@@ -62,6 +57,7 @@ export class HerdSkin {
 		this.#pieces = gatherPieces(hanging, axes).map((piece) => {
 			const { geometry, material, mesh: own } = piece;
 			const posed = poses && isJointed(piece) ? new PosedMaterial(material as Material) : undefined;
+			if (piece.thin) keepThin(posed?.material ?? (material as Material), height);
 			const mesh = new InstancedMesh(geometry, posed?.material ?? material, 0);
 			const places = new Places(capacity);
 			mesh.instanceMatrix = places;
@@ -70,7 +66,10 @@ export class HerdSkin {
 			mesh.receiveShadow = own.receiveShadow;
 			mesh.frustumCulled = false;
 			mesh.boundingSphere = bounds;
-			mesh.onBeforeRender = drawn;
+			mesh.onBeforeRender = (renderer) => {
+				height.value = renderer.getCurrentViewport(viewport).w;
+				drawn(height.value);
+			};
 			if (own.morphTargetInfluences) mesh.morphTargetInfluences = own.morphTargetInfluences;
 			if (posed) {
 				poses?.carry(mesh as Jointed);

@@ -16,6 +16,7 @@ import {
 	Texture,
 	Vector3,
 } from 'three';
+import { markThin } from './thin.ts';
 
 /** One draw of a body. */
 export interface Piece {
@@ -25,6 +26,8 @@ export interface Piece {
 	matrix: Matrix4;
 	/** The mesh, or the first of several merged ones. */
 	mesh: Mesh;
+	/** Whether parts of it are thin, by `markThin`. */
+	thin: boolean;
 	/** Update to its meshes' present colours: skin is darker below wet fur. */
 	follow(): void;
 	/** Frees this piece but not the mesh. */
@@ -56,7 +59,10 @@ export function gatherPieces(meshes: readonly Mesh[], placement: (mesh: Mesh) =>
 		plain.filter((mesh) => mesh.geometry.hasAttribute('skinIndex') === moved),
 	);
 	const shared = groups.filter((group) => group.length > 1);
-	const merged = shared.map((group) => merge(group, placement));
+	const merged = shared.map((group) => {
+		const piece = merge(group, placement);
+		return { ...piece, thin: markThin(piece.geometry, group) };
+	});
 	const alone = meshes.filter((mesh) => !shared.some((group) => group.includes(mesh)));
 	return [
 		...merged,
@@ -65,6 +71,7 @@ export function gatherPieces(meshes: readonly Mesh[], placement: (mesh: Mesh) =>
 			geometry: mesh.geometry,
 			material: mesh.material,
 			matrix: placement(mesh),
+			thin: false,
 			follow() {},
 			dispose() {},
 		})),
@@ -110,7 +117,7 @@ class Part {
 }
 
 /** Merge in the axes of the first mesh, whose vertices keep their positions to the bit. */
-function merge(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Piece {
+function merge(meshes: readonly Mesh[], placement: (mesh: Mesh) => Matrix4): Omit<Piece, 'thin'> {
 	const [mesh] = meshes as [Mesh];
 	const matrix = placement(mesh);
 	const total = meshes.reduce((sum, { geometry }) => sum + geometry.getAttribute('position').count, 0);
