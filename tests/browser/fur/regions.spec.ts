@@ -115,6 +115,7 @@ test('a herd of one body of two furs is that body, shining and in shadow', async
 		places: [[0, -0.3, 0, 0.4, 0.9]] as [number, number, number, number, number][],
 		shiny: true,
 		shadow: true,
+		shorn: true,
 	};
 	const [plain, herd] = await page.evaluate(
 		([url, how]) => Promise.all([loaded.draw(url, { ...how, as: 'plain' }), loaded.draw(url, how)]),

@@ -6,6 +6,7 @@ import {
 	HemisphereLight,
 	Mesh,
 	MeshStandardMaterial,
+	type Object3D,
 	PerspectiveCamera,
 	PlaneGeometry,
 	Scene,
@@ -62,4 +63,16 @@ export function toBase64(bytes: Uint8Array): string {
 	let text = '';
 	for (let i = 0; i < bytes.length; i += 0x8000) text += String.fromCharCode(...bytes.subarray(i, i + 0x8000));
 	return btoa(text);
+}
+
+/** Takes the whiskers off a body: in a herd they are a pixel wide at least. @returns what puts them back */
+export function removeWhiskers(root: Object3D): () => void {
+	const found: Object3D[] = [];
+	root.traverse((part) => part.name.startsWith('whisker') && found.push(part));
+	if (found.length === 0) throw new Error('got a body without whiskers, expected some');
+	const homes = found.map(({ parent }) => parent);
+	for (const part of found) part.removeFromParent();
+	return () => {
+		for (const [i, part] of found.entries()) homes[i]?.add(part);
+	};
 }

@@ -11,7 +11,7 @@ import {
 } from 'three';
 import { dressFur, type Fur, FurInstances, furMethod } from '../../../web/fur/index.ts';
 import { loadFur, renderFloats } from '../../../web/measure/studio.ts';
-import { psnr, Stand } from './Stand.ts';
+import { psnr, removeWhiskers, Stand } from './Stand.ts';
 
 const SIZE = 120;
 const renderer = new WebGLRenderer({ antialias: false });
@@ -61,6 +61,8 @@ export async function wardrobe(body: string, same: string, other: string) {
 	lengyel.apply();
 	const local = stand.draw();
 	lengyel.dispose();
+	const putBack = removeWhiskers(own.skin.parent ?? own.skin);
+	const shorn = stand.draw();
 	const herd = new FurInstances(fox, 1, [8]);
 	herd.height = SIZE;
 	own.skin.parent?.removeFromParent();
@@ -68,6 +70,7 @@ export async function wardrobe(body: string, same: string, other: string) {
 	const one = stand.draw();
 	herd.dispose();
 	stand.scene.add(own.skin.parent ?? own.skin);
+	putBack();
 	fox.visible = false;
 	own.visible = true;
 	const last = stand.draw();
@@ -85,7 +88,7 @@ export async function wardrobe(body: string, same: string, other: string) {
 		bareIsSmaller: outline(bare) < 0.9 * outline(first),
 		other: psnr(foxy, first),
 		method: psnr(local, foxy),
-		herd: psnr(one, foxy),
+		herd: psnr(one, shorn),
 		last: apart(last, first),
 		kept,
 		error: gl.getError(),

@@ -19,7 +19,7 @@ import {
 } from 'three';
 import { type Fur, FurInstances, fitFurShadow } from '../../../web/fur/index.ts';
 import { loadFur, renderFloats } from '../../../web/measure/studio.ts';
-import { toBase64 } from './Stand.ts';
+import { removeWhiskers, toBase64 } from './Stand.ts';
 
 const renderer = new WebGLRenderer({ antialias: false });
 renderer.info.autoReset = false;
@@ -85,13 +85,6 @@ export interface Drawn {
 	shells: number;
 	/** uploads of buffers meanwhile */
 	uploads: number;
-}
-
-function removeWhiskers(root: Object3D): void {
-	const found: Object3D[] = [];
-	root.traverse((part) => part.name.startsWith('whisker') && found.push(part));
-	if (found.length === 0) throw new Error('got a body without whiskers, expected some');
-	for (const part of found) part.removeFromParent();
 }
 
 class Herd {
