@@ -23,7 +23,7 @@ const npm = (...args: string[]) =>
 const BYTES = { app: 4.5e3, still: 42.6e3, fins: 48e3, character: 51e3, checked: 63.2e3 };
 
 /** Bytes of `<fur-view>` with three.js inside, through gzip. */
-const VIEW = 263e3;
+const VIEW = 264e3;
 
 /** A folder of someone else's, in which the package is installed as it would be from a registry. */
 let app = '';
