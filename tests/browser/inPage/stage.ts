@@ -52,15 +52,10 @@ const stage = {
 	},
 
 	/** The light of every texel of a golden asset under each of the lights, base64 of float32 [light, layer, row, column]. */
-	async light(
-		url: string,
-		lights: number[][],
-		attributes: Record<string, number[]> = {},
-		contrast = 1,
-	): Promise<string> {
+	async light(url: string, lights: number[][], given: Record<string, number[]> = {}, contrast = 1): Promise<string> {
 		const flat = new Flat(await loadFur(url));
 		flat.fur.material.contrast = contrast;
-		for (const [name, value] of Object.entries(attributes)) flat.attribute(name, value);
+		for (const [name, value] of Object.entries(given)) flat.attribute(name, value);
 		const lamp = new DirectionalLight(0xffffff, 4 * Math.PI);
 		flat.add(lamp, lamp.target);
 		const { layers, size } = flat.fur.asset;
