@@ -141,7 +141,8 @@ def test_eigen_finds_the_functions_that_curves_multiply() -> None:
     curves, weights = known()
     lights = hemisphere(64)
     mean = curves.mean(lights, weights)
-    functions = Basis("eigen", 2, RNG.normal(0, 0.2, (4, smooth_terms(2))))
+    terms = smooth_terms(2)
+    functions = Basis("eigen", 2, np.concatenate([np.eye(1, terms), RNG.normal(0, 0.2, (3, terms))]))
     right = RNG.normal(0, 1, (5, 8, 8, 4)) + 2 * np.eye(4)[0]
     samples = np.einsum("nk,nc,kyxc->nkyx", mean, functions(lights), right)
     alpha = np.ones((5, 8, 8))
@@ -157,6 +158,9 @@ def test_eigen_finds_the_functions_that_curves_multiply() -> None:
     assert off(found, mean) < 0.02
     assert off(found, mean) < 0.2 * off(plain, None)
     assert found.coefficients == 4
+    np.testing.assert_array_equal(found(lights)[:, 0], 1)
+    means = fit(samples, found, lights, mean).mean((1, 2)) @ found(lights).T
+    np.testing.assert_allclose(means.T * mean, samples.mean((2, 3)), atol=0.02 * samples.std())
 
 
 def test_bytes_suit_each_slab() -> None:

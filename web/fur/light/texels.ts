@@ -78,8 +78,11 @@ export function momentUniforms({ environment = [], basis }: TexelCoding, fin: bo
 /** Contrast of the texels' light over the stored one's: blended between texels, in six numbers, it has seven tenths of the hairs'. */
 export const CONTRAST = 1.4;
 
-/** Coefficient of φ = 1 in a PTM. */
-const CONSTANT = 5;
+/** Coefficient of the function 1, the last of a PTM's; -1 in old assets' bases. */
+const constantOf = (basis: Basis): number =>
+	basis.kind === 'ptm'
+		? 5
+		: basis.matrix.findIndex(([one, ...rest]) => one === 1 && rest.every((weight) => weight === 0));
 
 /**
  * λ and Ω as multiply-adds on the GPU's 0..1 texels, per plane: a = texel·(255λ) − λΩ.
@@ -90,14 +93,15 @@ export function decoder(
 	{ scale, bias, basis, means }: TexelCoding,
 	contrast: number,
 ): { scale: Vector4[]; offset: Vector4[] } {
-	const more = means && basis.kind === 'ptm' && scale.length > CONSTANT ? contrast : 1;
+	const constant = constantOf(basis);
+	const more = means && constant >= 0 ? contrast : 1;
 	const vectors = {
 		scale: [new Vector4(0, 0, 0, 0), new Vector4(0, 0, 0, 0)],
 		offset: [new Vector4(0, 0, 0, 0), new Vector4(0, 0, 0, 0)],
 	};
 	scale.forEach((lambda, i) => {
 		const { plane, channel } = channelOf(i);
-		const mean = i === CONSTANT ? 1 - more : 0;
+		const mean = i === constant ? 1 - more : 0;
 		vectors.scale[plane]?.setComponent(channel, more * lambda * 255);
 		vectors.offset[plane]?.setComponent(channel, mean - more * lambda * (bias[i] ?? 0));
 	});

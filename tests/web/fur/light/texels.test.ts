@@ -15,10 +15,9 @@ const means = {
 	weights: [],
 };
 
-/** Light of both texels from (u, v, w), decoded as the shader does. */
-function lights(coding: TexelCoding, [u, v]: readonly [number, number]): number[] {
+/** Σ a·φ of both texels, decoded as the shader does. */
+function sums(coding: TexelCoding, phi: readonly number[]): number[] {
 	const { scale, offset } = decoder(coding, CONTRAST);
-	const phi = [u * u, v * v, u * v, u, v, 1];
 	return BYTES.map((bytes) =>
 		bytes.slice(0, coding.scale.length).reduce((sum, byte, i) => {
 			const { plane, channel } = channelOf(i);
@@ -27,6 +26,9 @@ function lights(coding: TexelCoding, [u, v]: readonly [number, number]): number[
 		}, 0),
 	);
 }
+
+/** The same of a PTM under a light from (u, v, w). */
+const lights = (coding: TexelCoding, [u, v]: readonly [number, number]) => sums(coding, [u * u, v * v, u * v, u, v, 1]);
 
 describe('texels', () => {
 	const plain: TexelCoding = { scale, bias, basis: { kind: 'ptm' } };
@@ -47,7 +49,7 @@ describe('texels', () => {
 	});
 
 	it('that are times a mean curve differ more from it, equally under every light', () => {
-		const curved: TexelCoding = { ...plain, means: means };
+		const curved: TexelCoding = { ...plain, means };
 		for (const way of ways) {
 			const [before, after] = [lights(plain, way), lights(curved, way)];
 			before.forEach((light, i) => {
@@ -56,17 +58,22 @@ describe('texels', () => {
 		}
 	});
 
-	it('of three numbers, or of a basis without a constant, stay as they are', () => {
-		const three: TexelCoding = {
+	it('of a basis with the constant 1 do so, too; of one without they stay as they are', () => {
+		const eigen = (first: number[]): TexelCoding => ({
 			...plain,
 			scale: scale.slice(0, 3),
 			bias: bias.slice(0, 3),
-		};
-		const eigen: TexelCoding = {
-			...plain,
-			basis: { kind: 'eigen', degree: 1, matrix: [] },
-		};
-		for (const coding of [three, eigen])
-			expect(lights({ ...coding, means: means }, [0.6, -0.3])).toEqual(lights(coding, [0.6, -0.3]));
+			basis: { kind: 'eigen', degree: 1, matrix: [first, [0.2, 0.1, 0.9, 0.4, 0, 0.3], [0, 1, 0, 0.5, 0.2, 0]] },
+		});
+		const phi = [1, 0.7, -0.4];
+		const [constant, other] = [
+			[1, 0, 0, 0, 0, 0],
+			[1, 0, 0, 0.1, 0, 0],
+		].map(eigen) as [TexelCoding, TexelCoding];
+		const before = sums(constant, phi);
+		sums({ ...constant, means }, phi).forEach((light, i) => {
+			expect(light - 1).toBeCloseTo(CONTRAST * ((before[i] as number) - 1), 9);
+		});
+		expect(sums({ ...other, means }, phi)).toEqual(before);
 	});
 });
