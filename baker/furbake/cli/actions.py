@@ -29,9 +29,9 @@ from furbake.show.report import STAGES as REPORT_STAGES
 from furbake.show.report import write as write_report
 from furbake.show.swatch import save
 from furbake.study import beside, grooms
-from furbake.study.verify import body
+from furbake.study.verify import body, field
 from furbake.study.verify.colour import colour_lines, verify_colour
-from furbake.study.verify.tables import lines as body_lines
+from furbake.study.verify.figures import lines as body_lines
 from furbake.study.verify.tile import SAMPLES, lines, verify
 
 VERIFY_STAGES = ("strands", "light", "trace")
@@ -175,11 +175,14 @@ def run_verify(args: SimpleNamespace) -> int:
     if args.groom:
         return _verify_groom(args)
     with shown(VERIFY_STAGES, args.quiet) as progress:
-        figures = verify(Path(args.folder), picture=picture, spp=args.spp or SAMPLES, progress=progress)
+        if args.eyes:
+            figures = field.verify_field(Path(args.folder), spp=args.spp or field.SAMPLES, progress=progress)
+        else:
+            figures = verify(Path(args.folder), picture=picture, spp=args.spp or SAMPLES, progress=progress)
     if args.json:
         say(json.dumps(figures))
     elif not args.quiet:
-        say("\n".join(lines(figures)))
+        say("\n".join(field.lines(figures) if args.eyes else lines(figures)))
     return 0
 
 

@@ -65,6 +65,7 @@ VERIFY = [
         "--beside", metavar="DIR", type=PLACE,
         help="another bake of the same body: the page's pictures of both (needs Node), and how far strands differ",
     ),
+    switch("--eyes", "of a flat bake: brightness seen from twelve places under five lights"),
     switch("--scalar", "with --body: trace without LLVM: slow, but it bears any number of hairs"),
     switch("--json", "figures as one JSON object"),
     switch("--quiet", "no progress, no summary"),

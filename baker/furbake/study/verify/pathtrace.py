@@ -33,6 +33,12 @@ LLVM, LLVM_COLOUR = "llvm_ad_mono", "llvm_ad_rgb"
 ABOVE = 8.0
 """Height of the orthographic camera above the skin, tile widths. Fur is at most 4 long."""
 
+FAR = 1e4
+"""Distance up to which a camera sees, tile widths."""
+
+FIELD = 2
+"""Side of what is seen of a field, tile widths."""
+
 
 class VerifyError(ValueError):
     """A bake that cannot be verified; one sentence that says why, and what would help."""
@@ -94,6 +100,27 @@ def write_curves(path: Path, control: Array, around: int) -> None:
 
 
 @dataclass(frozen=True)
+class View:
+    """An orthographic camera at `origin` that sees `width` by `height` around `target`, tile widths."""
+
+    origin: Array
+    target: Array
+    width: float
+    height: float
+
+    def placed(self, to: Any) -> Any:
+        """Mitsuba's transform of it; to : its class of transforms"""
+        upright = abs(self.origin[2] - self.target[2]) > (1 - 1e-6) * np.linalg.norm(self.origin - self.target)
+        up = [0, 1, 0] if upright else [0, 0, 1]
+        looking = to().look_at(origin=self.origin.tolist(), target=self.target.tolist(), up=up)
+        return looking @ to().scale([self.width / 2, self.height / 2, 1])
+
+
+FROM_ABOVE = View(np.array([0.5, 0.5, ABOVE]), np.array([0.5, 0.5, 0.0]), 1, 1)
+"""One tile from straight above."""
+
+
+@dataclass(frozen=True)
 class Tracer:
     """Renders one tile, [0, 1)² in u and v, of the curves in a file.
 
@@ -110,14 +137,24 @@ class Tracer:
 
     def lit(self, light: Array, depth: int = DEPTH, seed: int = 0) -> Array:
         """Radiance under a distant light of irradiance 1 towards `light`, a unit vector: (pixels, pixels)."""
-        emitter = {"type": "directional", "direction": [float(-x) for x in light], "irradiance": _grey(1)}
-        return self._render({"lamp": emitter}, depth, seed)
+        return self._render(_lamp(light), depth, seed)
 
     def covered(self, seed: int = 0) -> Array:
         """Share of every pixel that hides the skin, (pixels, pixels)."""
         return 1 - self._render({}, 1, seed, glow=1.0)
 
-    def _render(self, lights: dict[str, Any], depth: int, seed: int, glow: float = 0.0) -> Array:
+    def field(self, eye: Array, light: Array, height: float, seed: int = 0) -> float:
+        """Mean radiance towards `eye` of fur without end under a distant light of irradiance 1; unit vectors.
+
+        height : of the middle of what is seen, tile widths
+        """
+        middle = np.array([0.5, 0.5, height])
+        view = View(middle + eye * (4 * self.around + ABOVE), middle, FIELD, FIELD * eye[2])
+        return float(self._render(_lamp(light), DEPTH, seed, view=view).mean())
+
+    def _render(
+        self, lights: dict[str, Any], depth: int, seed: int, glow: float = 0.0, view: View | None = None
+    ) -> Array:
         mitsuba = load()
         to = mitsuba.ScalarTransform4f
         side = self.around + 0.5
@@ -128,7 +165,6 @@ class Tracer:
         }
         if glow:
             skin["emitter"] = {"type": "area", "radiance": _grey(glow)}
-        view = to().look_at(origin=[0.5, 0.5, ABOVE], target=[0.5, 0.5, 0], up=[0, 1, 0])
         scene = {
             "type": "scene",
             "integrator": {"type": "path", "max_depth": depth, "rr_depth": 2 * DEPTH},
@@ -140,7 +176,8 @@ class Tracer:
             },
             "eye": {
                 "type": "orthographic",
-                "to_world": view @ to().scale([0.5, 0.5, 1]),
+                "to_world": (view or FROM_ABOVE).placed(to),
+                "far_clip": FAR,
                 "film": {
                     "type": "hdrfilm",
                     "width": self.pixels,
@@ -155,6 +192,11 @@ class Tracer:
         image = np.array(mitsuba.render(mitsuba.load_dict(scene), spp=self.samples, seed=seed), np.float64)
         # The camera's upper edge is the larger v.
         return np.ascontiguousarray(image[::-1, :, 0])
+
+
+def _lamp(light: Array) -> dict[str, Any]:
+    """A distant light of irradiance 1 towards a unit vector."""
+    return {"lamp": {"type": "directional", "direction": [float(-x) for x in light], "irradiance": _grey(1)}}
 
 
 def _grey(value: float) -> dict[str, Any]:

@@ -20,8 +20,8 @@ from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt
 from furbake.options import BakeOptions, OptionError
 from furbake.pelt.hairs.shown import shown_slabs
-from furbake.pelt.hairs.strands import grow
-from furbake.pelt.hairs.volume import fine_shape, pool, voxelise
+from furbake.pelt.hairs.strands import Strands, grow
+from furbake.pelt.hairs.volume import Volume, fine_shape, pool, voxelise
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.texels.fit import Judge
 from furbake.pelt.texels.quantise import srgb_bytes
@@ -111,6 +111,19 @@ def flat_options(record: dict[str, Any], folder: Path) -> BakeOptions:
     return options
 
 
+def grown_again(pelt: Pelt, options: BakeOptions) -> tuple[Strands, Volume, Array]:
+    """Strands of a bake, their oversampled volume and the coverage of its slabs.
+
+    Raises VerifyError where the options do not grow the strands that are stored.
+    """
+    strands = grow(options.coat, pelt.height, options.seed)
+    fine = voxelise(strands, pelt.height, *fine_shape(pelt.layers, pelt.size, pelt.height), options.coat.opacity)
+    alpha = shown_slabs(fine, strands, pelt.layers, pelt.size).coverage
+    if float(np.abs(alpha - pelt.alpha / 255).mean()) > OTHER_STRANDS:
+        raise VerifyError("bake.json: its options do not grow this bake's strands, bake it again with this furbake")
+    return strands, fine, alpha
+
+
 def lights() -> Array:
     """The directions towards the lights of the comparison, (8, 3)."""
     elevation, azimuth = np.radians(ELEVATIONS), 2 * np.pi * TURN * np.arange(len(ELEVATIONS))
@@ -122,11 +135,7 @@ def look(pelt: Pelt, options: BakeOptions, spp: int, depth: int, progress: Progr
     """The tile as the path tracer, the samples and the stored bytes show it."""
     progress("strands", 0.0)
     towards = lights()
-    strands = grow(options.coat, pelt.height, options.seed)
-    fine = voxelise(strands, pelt.height, *fine_shape(pelt.layers, pelt.size, pelt.height), options.coat.opacity)
-    alpha = shown_slabs(fine, strands, pelt.layers, pelt.size).coverage
-    if float(np.abs(alpha - pelt.alpha / 255).mean()) > OTHER_STRANDS:
-        raise VerifyError("bake.json: its options do not grow this bake's strands, bake it again with this furbake")
+    strands, fine, alpha = grown_again(pelt, options)
     light = under(towards, fine, options, lambda fraction: progress("light", fraction))
     stored = pelt.light(towards)
     pixels = min(pelt.size, MAX_PIXELS)
@@ -135,7 +144,7 @@ def look(pelt: Pelt, options: BakeOptions, spp: int, depth: int, progress: Progr
         around = tiles_around(strands, float(towards[:, 2].min()))
         write_curves(curves, control_points(strands), around)
         tracer = Tracer(curves, around, pixels, spp, options.coat.albedo)
-        unit = 4 * np.pi / options.coat.albedo  # the unit of L: 4π·radiance/(albedo·irradiance)
+        unit = unit_of(options)
         covered = tracer.covered()
         traced = []
         for number, direction in enumerate(towards):
@@ -149,6 +158,11 @@ def look(pelt: Pelt, options: BakeOptions, spp: int, depth: int, progress: Progr
         covered=covered,
         coverage=pool(1 - np.prod(1 - alpha, axis=0), pixels),
     )
+
+
+def unit_of(options: BakeOptions) -> float:
+    """L of a radiance under an irradiance of 1: 4π·radiance/(albedo·irradiance)."""
+    return 4 * np.pi / options.coat.albedo
 
 
 def composite(light: NDArray[np.floating], alpha: Array) -> Array:

@@ -16,10 +16,10 @@ from furbake.pipeline import bake
 from furbake.study.verify import apart
 from furbake.study.verify.body import Options, verify_body
 from furbake.study.verify.cells import FIELD_OF_VIEW, Frame
+from furbake.study.verify.figures import lines
 from furbake.study.verify.page import Shown
 from furbake.study.verify.pathtrace import VerifyError
 from furbake.study.verify.sheet import GAP
-from furbake.study.verify.tables import lines
 from furbake.study.verify.truth import Scene, trace
 from helpers.cells import NEAR, cell
 
