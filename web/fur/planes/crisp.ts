@@ -8,7 +8,7 @@ import { alphaChannel } from '../format.ts';
 import type { FurTextures } from '../light/texels.ts';
 
 /** Contrast at which fur hides as much as without; at others it nearly does. */
-const CONTRAST = 3;
+const COVERAGE_CONTRAST = 3;
 
 /**
  * Slabs that a ray to the eye crosses in a shell, where texels are larger than pixels and where they are smaller: magnified
@@ -79,7 +79,7 @@ function between({ texels, width, height, channel }: Slab): Float64Array {
 	return shares;
 }
 
-/** Level c for which clamp((a − c)·CONTRAST + c, 0, 1) hides as much as a does. @param shares of a's values */
+/** Level c for which clamp((a − c)·COVERAGE_CONTRAST + c, 0, 1) hides as much as a does. @param shares of a's values */
 function keptLevel(shares: Float64Array, slabs: number): number {
 	const hidden = (change: (a: number) => number) =>
 		shares.reduce((sum, share, byte) => {
@@ -90,7 +90,7 @@ function keptLevel(shares: Float64Array, slabs: number): number {
 	let [low, high] = [0, 1];
 	for (let step = 0; step < STEPS; step++) {
 		const level = (low + high) / 2;
-		if (hidden((a) => (a - level) * CONTRAST + level) > wanted) low = level;
+		if (hidden((a) => (a - level) * COVERAGE_CONTRAST + level) > wanted) low = level;
 		else high = level;
 	}
 	return (low + high) / 2;
