@@ -11,7 +11,7 @@ import {
 	Matrix3,
 	Matrix4,
 	type Mesh,
-	type MeshStandardMaterial,
+	MeshStandardMaterial,
 	type Object3D,
 	Texture,
 	Vector3,
@@ -189,7 +189,10 @@ function joined(meshes: readonly Mesh[], name: string, total: number): BufferAtt
 	return new BufferAttribute(values, 4);
 }
 
-/** The first material for all of them: colours come by vertex, roughness and metalness by a palette of a texel each. */
+/**
+ * The first material for all of them: colours come by vertex, roughness and metalness by a palette of a texel each. A class of
+ * an application's own, such as one of glossy eyes, changes the shader for all.
+ */
 function sharedMaterial(materials: readonly MeshStandardMaterial[]): {
 	material: MeshStandardMaterial;
 	palette: DataTexture;
@@ -198,7 +201,7 @@ function sharedMaterial(materials: readonly MeshStandardMaterial[]): {
 	const palette = new DataTexture(new Float32Array(texels), materials.length, 1, undefined, FloatType);
 	palette.needsUpdate = true;
 	const [first] = materials as [MeshStandardMaterial];
-	const material = first.clone();
+	const material = (materials.find(({ constructor }) => constructor !== MeshStandardMaterial) ?? first).clone().copy(first);
 	material.color.set(1, 1, 1);
 	material.vertexColors = true;
 	material.roughnessMap = material.metalnessMap = palette;

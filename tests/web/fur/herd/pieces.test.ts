@@ -69,6 +69,17 @@ describe('pieces of a body', () => {
 		expect(corner).toBe(piece.geometry.index?.count);
 	});
 
+	it('share the shader of a class of their own, and the settings of the first', () => {
+		class Glossy extends MeshStandardMaterial {}
+		const [skin, eye] = body();
+		eye.material = new Glossy().copy(eye.material);
+		skin.material.name = 'skin';
+		const [piece] = gatherPieces([skin, eye], placement);
+		expect(piece?.material).toBeInstanceOf(Glossy);
+		expect(piece?.material).toMatchObject({ name: 'skin', vertexColors: true, roughness: 1 });
+		expect(eye.material.vertexColors).toBe(false);
+	});
+
 	it('take over the colours that their meshes get later', () => {
 		const [skin, eye] = body();
 		const [piece] = gatherPieces([skin, eye], placement);
