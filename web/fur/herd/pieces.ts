@@ -201,7 +201,8 @@ function sharedMaterial(materials: readonly MeshStandardMaterial[]): {
 	const palette = new DataTexture(new Float32Array(texels), materials.length, 1, undefined, FloatType);
 	palette.needsUpdate = true;
 	const [first] = materials as [MeshStandardMaterial];
-	const material = (materials.find(({ constructor }) => constructor !== MeshStandardMaterial) ?? first).clone().copy(first);
+	const special = materials.find((one) => one.constructor !== MeshStandardMaterial);
+	const material = (special ?? first).clone().copy(first);
 	material.color.set(1, 1, 1);
 	material.vertexColors = true;
 	material.roughnessMap = material.metalnessMap = palette;
