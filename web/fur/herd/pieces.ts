@@ -16,6 +16,7 @@ import {
 	Texture,
 	Vector3,
 } from 'three';
+import { MatteMaterial } from '../body/skin/MatteMaterial.ts';
 import { markThin } from './thin.ts';
 
 /** One draw of a body. */
@@ -35,6 +36,9 @@ export interface Piece {
 }
 
 const KNOWN = new Set(['position', 'normal', 'tangent', 'color', 'uv', 'skinIndex', 'skinWeight']);
+
+/** Classes whose shader gives way to one of an application's own; rough skin is as matte in any that ends highlights alike. */
+const COMMON = new Set<unknown>([MeshStandardMaterial, MatteMaterial]);
 
 /** Whether vertices can carry all of the material: colour, roughness and metalness. */
 function isPlain({ material, geometry, customDepthMaterial }: Mesh): boolean {
@@ -201,7 +205,7 @@ function sharedMaterial(materials: readonly MeshStandardMaterial[]): {
 	const palette = new DataTexture(new Float32Array(texels), materials.length, 1, undefined, FloatType);
 	palette.needsUpdate = true;
 	const [first] = materials as [MeshStandardMaterial];
-	const special = materials.find((one) => one.constructor !== MeshStandardMaterial);
+	const special = materials.find((one) => !COMMON.has(one.constructor));
 	const material = (special ?? first).clone().copy(first);
 	material.color.set(1, 1, 1);
 	material.vertexColors = true;

@@ -10,6 +10,7 @@ import {
 	Vector3,
 } from 'three';
 import { describe, expect, it } from 'vitest';
+import { MatteMaterial } from '../../../../web/fur/body/skin/MatteMaterial.ts';
 import { gatherPieces } from '../../../../web/fur/herd/pieces.ts';
 
 const placement = (mesh: Mesh) => {
@@ -73,6 +74,7 @@ describe('pieces of a body', () => {
 		class Glossy extends MeshStandardMaterial {}
 		const [skin, eye] = body();
 		eye.material = new Glossy().copy(eye.material);
+		skin.material = MatteMaterial.of(skin.material);
 		skin.material.name = 'skin';
 		const [piece] = gatherPieces([skin, eye], placement);
 		expect(piece?.material).toBeInstanceOf(Glossy);
