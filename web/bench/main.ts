@@ -73,7 +73,6 @@ async function start(): Promise<void> {
 	quick.disabled = true;
 	element('progress').hidden = false;
 	bar.value = 0;
-	complain('');
 	setState('running');
 	try {
 		const wanted = quick.checked === asked ? options : quick.checked ? QUICK : DEFAULTS;
@@ -97,8 +96,12 @@ async function start(): Promise<void> {
 
 element('controls').addEventListener('submit', (event) => {
 	event.preventDefault();
-	if (running) running.abort();
-	else void start();
+	if (running) {
+		running.abort();
+		return;
+	}
+	complain('');
+	void start();
 });
 element('download').addEventListener('click', () => {
 	download(new Blob([json()], { type: 'application/json' }), 'furbake-bench.json');

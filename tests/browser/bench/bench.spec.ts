@@ -121,7 +121,11 @@ test('nothing is measured unasked, and what the address says wrong is told, in e
 });
 
 test('a measurement can be stopped', async ({ page }) => {
-	await page.goto(`${site}bench.html?size=96x64&triangles=512&methods=unlit`);
+	await page.goto(`${site}bench.html?run=1&rounds=many&size=96x64&triangles=512&methods=unlit`);
+	await expect.poll(() => state(page)).toBe('running');
+	await expect(page.locator('#problem'), 'told although it has started').toHaveText(/rounds=many/);
+	await page.getByRole('button', { name: 'Stop' }).click();
+	await expect.poll(() => state(page)).toBe('ready');
 	await page.getByRole('button', { name: 'Measure' }).click();
 	await expect.poll(() => state(page)).toBe('running');
 	await page.getByRole('button', { name: 'Stop' }).click();

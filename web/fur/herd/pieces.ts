@@ -11,11 +11,12 @@ import {
 	Matrix3,
 	Matrix4,
 	type Mesh,
-	type MeshStandardMaterial,
+	MeshStandardMaterial,
 	type Object3D,
 	Texture,
 	Vector3,
 } from 'three';
+import { MatteMaterial } from '../body/skin/MatteMaterial.ts';
 import { markThin } from './thin.ts';
 
 /** One draw of a body. */
@@ -35,6 +36,9 @@ export interface Piece {
 }
 
 const KNOWN = new Set(['position', 'normal', 'tangent', 'color', 'uv', 'skinIndex', 'skinWeight']);
+
+/** Classes whose shader gives way to one of an application's own; rough skin is as matte in any that ends highlights alike. */
+const COMMON = new Set<unknown>([MeshStandardMaterial, MatteMaterial]);
 
 /** Whether vertices can carry all of the material: colour, roughness and metalness. */
 function isPlain({ material, geometry, customDepthMaterial }: Mesh): boolean {
@@ -189,7 +193,10 @@ function joined(meshes: readonly Mesh[], name: string, total: number): BufferAtt
 	return new BufferAttribute(values, 4);
 }
 
-/** The first material for all of them: colours come by vertex, roughness and metalness by a palette of a texel each. */
+/**
+ * The first material for all of them: colours come by vertex, roughness and metalness by a palette of a texel each. A class of
+ * an application's own, such as one of glossy eyes, changes the shader for all.
+ */
 function sharedMaterial(materials: readonly MeshStandardMaterial[]): {
 	material: MeshStandardMaterial;
 	palette: DataTexture;
@@ -198,7 +205,8 @@ function sharedMaterial(materials: readonly MeshStandardMaterial[]): {
 	const palette = new DataTexture(new Float32Array(texels), materials.length, 1, undefined, FloatType);
 	palette.needsUpdate = true;
 	const [first] = materials as [MeshStandardMaterial];
-	const material = first.clone();
+	const special = materials.find((one) => !COMMON.has(one.constructor));
+	const material = (special ?? first).clone().copy(first);
 	material.color.set(1, 1, 1);
 	material.vertexColors = true;
 	material.roughnessMap = material.metalnessMap = palette;

@@ -22,14 +22,17 @@ mat4 boneMatY = getBoneMatrix(skinIndex.y + firstJoint());
 mat4 boneMatZ = getBoneMatrix(skinIndex.z + firstJoint());
 mat4 boneMatW = getBoneMatrix(skinIndex.w + firstJoint());`;
 
-/** Makes a material of three's draw each instance of an InstancedMesh in a pose of its own. */
+/** Makes a material draw each instance of an InstancedMesh in a pose of its own; shaders that its class changes, stay so. */
 function poseInstances(material: Material): void {
-	material.onBeforeCompile = (shader) => {
+	const before = material.onBeforeCompile;
+	const key = material.customProgramCacheKey();
+	material.onBeforeCompile = (shader, renderer) => {
+		before.call(material, shader, renderer);
 		shader.vertexShader = shader.vertexShader
 			.replace('#include <skinning_pars_vertex>', POSED_INSTANCE)
 			.replace('#include <skinbase_vertex>', POSED_JOINTS);
 	};
-	material.customProgramCacheKey = () => 'posed instances';
+	material.customProgramCacheKey = () => `${key} posed instances`;
 }
 
 /** Copy of a material for bodies in poses of their own. */

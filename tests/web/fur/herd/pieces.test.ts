@@ -10,6 +10,7 @@ import {
 	Vector3,
 } from 'three';
 import { describe, expect, it } from 'vitest';
+import { MatteMaterial } from '../../../../web/fur/body/skin/MatteMaterial.ts';
 import { gatherPieces } from '../../../../web/fur/herd/pieces.ts';
 
 const placement = (mesh: Mesh) => {
@@ -67,6 +68,18 @@ describe('pieces of a body', () => {
 		}
 		expect(vertex).toBe(position?.count);
 		expect(corner).toBe(piece.geometry.index?.count);
+	});
+
+	it('share the shader of a class of their own, and the settings of the first', () => {
+		class Glossy extends MeshStandardMaterial {}
+		const [skin, eye] = body();
+		eye.material = new Glossy().copy(eye.material);
+		skin.material = MatteMaterial.of(skin.material);
+		skin.material.name = 'skin';
+		const [piece] = gatherPieces([skin, eye], placement);
+		expect(piece?.material).toBeInstanceOf(Glossy);
+		expect(piece?.material).toMatchObject({ name: 'skin', vertexColors: true, roughness: 1 });
+		expect(eye.material.vertexColors).toBe(false);
 	});
 
 	it('take over the colours that their meshes get later', () => {
