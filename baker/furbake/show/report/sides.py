@@ -13,7 +13,7 @@ from furbake.show.report.section import section
 SIDES = ("front", "left", "back", "right")
 """Sides that the page draws, in reading order."""
 
-SIZE = 400
+SIZE = 360
 """Side of a picture, pixels; shown at half of it and more."""
 
 BACKDROP = "#161310"
