@@ -37,7 +37,7 @@ export interface Piece {
 
 const KNOWN = new Set(['position', 'normal', 'tangent', 'color', 'uv', 'skinIndex', 'skinWeight']);
 
-/** Classes whose shader gives way to one of an application's own; rough skin is as matte in any that ends highlights alike. */
+/** Classes that a merged piece need not keep: one of an application's own, such as a glossy eye's, takes their place. */
 const COMMON = new Set<unknown>([MeshStandardMaterial, MatteMaterial]);
 
 /** Whether vertices can carry all of the material: colour, roughness and metalness. */
@@ -194,8 +194,8 @@ function joined(meshes: readonly Mesh[], name: string, total: number): BufferAtt
 }
 
 /**
- * The first material for all of them: colours come by vertex, roughness and metalness by a palette of a texel each. A class of
- * an application's own, such as one of glossy eyes, changes the shader for all.
+ * The first material for all of them, in the class of one that is not `COMMON`, if any: colours come by vertex, roughness and
+ * metalness by a palette of a texel each.
  */
 function sharedMaterial(materials: readonly MeshStandardMaterial[]): {
 	material: MeshStandardMaterial;

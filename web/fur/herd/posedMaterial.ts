@@ -22,7 +22,7 @@ mat4 boneMatY = getBoneMatrix(skinIndex.y + firstJoint());
 mat4 boneMatZ = getBoneMatrix(skinIndex.z + firstJoint());
 mat4 boneMatW = getBoneMatrix(skinIndex.w + firstJoint());`;
 
-/** Makes a material draw each instance of an InstancedMesh in a pose of its own; shaders that its class changes, stay so. */
+/** Makes a material draw each instance of an InstancedMesh in a pose of its own, beside what its class does to the shader. */
 function poseInstances(material: Material): void {
 	const before = material.onBeforeCompile;
 	const key = material.customProgramCacheKey();

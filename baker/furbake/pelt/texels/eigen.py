@@ -50,11 +50,11 @@ def eigen_of_slabs(samples: NDArray[np.floating], alpha: Array, lights: Array, m
     for k in range(layers):
         weighted = samples[:, k].reshape(count, -1) * np.sqrt(alpha[k], dtype=samples.dtype).ravel()
         grams[k] = weighted @ weighted.T
-    apart = np.eye(count) - 1 / count
+    terms, apart = smooth(lights), np.eye(count) - 1 / count
     curves = _strongest(apart @ _evened(grams, mean) @ apart, coefficients - 1)
     basis = _with_constant(_smoothed(curves, lights))
     for _ in range(ROUNDS):
-        basis = _round(basis(lights), grams, mean, smooth(lights))
+        basis = _round(basis(lights), grams, mean, terms)
     return basis
 
 

@@ -14,6 +14,7 @@ from furbake.asset.stored import read_pelt, skin_colour
 from furbake.pelt.texels.quantise import srgb_bytes
 from furbake.study.verify.body import Options, Progress, prepared, traced_pictures
 from furbake.study.verify.cells import Cell, Floats
+from furbake.study.verify.figures import heading
 from furbake.study.verify.page import Shown, show
 from furbake.study.verify.truth import Scene, Traced
 
@@ -97,10 +98,8 @@ def write_colours(path: Path, shown: Shown, traced: list[Traced], cells: list[Ce
 
 def colour_lines(found: dict[str, Any]) -> list[str]:
     """All figures as Markdown, a line per cell."""
-    width, height = found["size"]
-    what = f"{found['model']}: {found['hairs']} hairs, {width} x {height} pixels, {found['spp']} paths a pixel"
     text = [
-        f"{what}; mean colours by {found['method']}, page over truth",
+        f"{heading(found)}; mean colours by {found['method']}, page over truth",
         "",
         "| cell | hue: page, truth | apart | saturation: page, truth | apart | luminance: page, truth | apart |",
         "|---|---|---|---|---|---|---|",

@@ -19,7 +19,7 @@ from furbake.pelt.eye import factor, surge
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.seen import ShownTexels
 from furbake.study.verify.pathtrace import FIELD, Tracer, VerifyError, control_points, load, tiles_around, write_curves
-from furbake.study.verify.tile import Progress, flat_options, grown_again, unit_of
+from furbake.study.verify.tile import Progress, directions, flat_options, grown_again, unit_of
 
 Array = NDArray[np.float64]
 
@@ -39,9 +39,7 @@ MEAN, WORST = 0.15, 0.3
 
 def towards(places: tuple[tuple[int, int], ...]) -> Array:
     """Unit vectors of elevations and azimuths in degrees, (n, 3)."""
-    elevation, azimuth = np.radians(np.array(places, np.float64)).T
-    level = np.cos(elevation)
-    return np.stack([level * np.cos(azimuth), level * np.sin(azimuth), np.sin(elevation)], -1)
+    return directions(*np.radians(np.array(places, np.float64)).T)
 
 
 def verify_field(
@@ -114,5 +112,5 @@ def lines(found: dict[str, Any]) -> list[str]:
         row = "  ".join(f"{ratio:>8.2f}" for ratio in ratios)
         text.append(f"{eye['elevation']:>2}° {eye['azimuth']:>3}°  {row}")
     off = found["off"]
-    text.append(f"off by {100 * off['mean']:.1f} % on the mean (15 asked), {100 * off['worst']:.0f} % at worst (30)")
-    return text
+    mean, worst = (f"{100 * off[name]:.1f} % ({100 * asked:.0f})" for name, asked in (("mean", MEAN), ("worst", WORST)))
+    return [*text, f"off by {mean} on the mean, {worst} at worst; in brackets what is asked"]

@@ -100,12 +100,16 @@ def _quarter(picture: NDArray[Any]) -> Floats:
     return np.asarray(cut.reshape(height, COARSE, width, COARSE).mean(axis=(1, 3)))
 
 
+def heading(found: dict[str, Any]) -> str:
+    """What was compared, in words."""
+    width, height = found["size"]
+    return f"{found['model']}: {found['hairs']} hairs, {width} x {height} pixels, {found['spp']} paths a pixel"
+
+
 def lines(found: dict[str, Any]) -> list[str]:
     """All figures, a line each: every cell by every method, then a table of brightness by n·l for each cell."""
-    width, height = found["size"]
-    what = f"{found['model']}: {found['hairs']} hairs, {width} x {height} pixels, {found['spp']} paths a pixel"
     text = [
-        f"{what}; brightness is page over truth",
+        f"{heading(found)}; brightness is page over truth",
         "",
         "| cell | method | r | r, quarter | SSIM | SSIM, quarter | brightness | fine contrast |",
         "|---|---|---|---|---|---|---|---|",

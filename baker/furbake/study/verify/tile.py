@@ -126,9 +126,13 @@ def grown_again(pelt: Pelt, options: BakeOptions) -> tuple[Strands, Volume, Arra
 
 def lights() -> Array:
     """The directions towards the lights of the comparison, (8, 3)."""
-    elevation, azimuth = np.radians(ELEVATIONS), 2 * np.pi * TURN * np.arange(len(ELEVATIONS))
+    return directions(np.radians(ELEVATIONS), 2 * np.pi * TURN * np.arange(len(ELEVATIONS)))
+
+
+def directions(elevation: NDArray[np.floating], azimuth: NDArray[np.floating]) -> Array:
+    """Unit vectors of elevations above the plane and azimuths from u, radians, (n,) each: (n, 3)."""
     level = np.cos(elevation)
-    return np.stack([level * np.cos(azimuth), level * np.sin(azimuth), np.sin(elevation)], -1)
+    return np.asarray(np.stack([level * np.cos(azimuth), level * np.sin(azimuth), np.sin(elevation)], -1), np.float64)
 
 
 def look(pelt: Pelt, options: BakeOptions, spp: int, depth: int, progress: Progress) -> Views:

@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import sys
-import warnings
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -40,14 +39,9 @@ def test_options_out_of_range_are_refused(tmp_path: Path, options: Options, says
         verify_body(tmp_path, options)
 
 
+@pytest.mark.usefixtures("mitsuba")
 class TestWithMitsuba:
-    """Proofs that need the path tracer; skipped where it is not installed."""
-
-    @pytest.fixture(autouse=True)
-    def _mitsuba(self) -> None:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            pytest.importorskip("mitsuba")
+    """Proofs that need the path tracer."""
 
     @staticmethod
     def hair(radius: float) -> Groom:

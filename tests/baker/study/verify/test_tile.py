@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import sys
-import warnings
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,19 +9,11 @@ import pytest
 
 from furbake import BakeOptions
 from furbake.asset.planes import read_png
-from furbake.pelt.hairs.strands import Coat, Hairs, Strands, grow
+from furbake.pelt.hairs.strands import Coat, Hairs, grow
 from furbake.pipeline import bake
 from furbake.study.verify.pathtrace import Tracer, VerifyError, control_points, tiles_around, write_curves
 from furbake.study.verify.tile import Views, figures, flat_options, lights, lines, side_by_side, verify
-
-
-def hair(*points: tuple[float, float, float], radius: float = 0.02) -> Strands:
-    """One hair of 9 points through the given ones."""
-    at = np.linspace(0, 1, 9)
-    knots = np.linspace(0, 1, len(points))
-    line = np.stack([np.interp(at, knots, axis) for axis in np.array(points).T], -1)[None]
-    flat = np.ones((1, 9))
-    return Strands(points=line, radius=radius * flat, tint=flat, hue=0 * flat)
+from helpers.hairs import hair
 
 
 def blurred(images: np.ndarray) -> Views:
@@ -141,14 +132,9 @@ def test_strands_of_another_seed_are_refused(
         verify(tmp_path / "a")
 
 
+@pytest.mark.usefixtures("mitsuba")
 class TestWithMitsuba:
-    """Proofs that need the path tracer; skipped where it is not installed."""
-
-    @pytest.fixture(autouse=True)
-    def _mitsuba(self) -> None:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            pytest.importorskip("mitsuba")
+    """Proofs that need the path tracer."""
 
     def test_row_is_v_and_column_is_u(self, tmp_path: Path) -> None:
         strands = hair((0.2, 0.7, 0.1), (0.2, 0.7, 0.11), (0.45, 0.7, 0.12))
