@@ -101,7 +101,7 @@ def _quarter(picture: NDArray[Any]) -> Floats:
 
 
 def heading(found: dict[str, Any]) -> str:
-    """What was compared, in words."""
+    """Model, hairs, size and paths of a comparison, in words."""
     width, height = found["size"]
     return f"{found['model']}: {found['hairs']} hairs, {width} x {height} pixels, {found['spp']} paths a pixel"
 
