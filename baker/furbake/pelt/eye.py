@@ -69,6 +69,9 @@ LIGHT_HEIGHTS_FLAT = (0.9, 0.6, 0.3, 0.15)
 FAINT = 0.1
 """Share of the greatest brightness that is added to the scale of relative errors."""
 
+GRAZING = 0.25
+"""Power of n·v by which pairs on bodies count, which show little of what is seen at a grazing angle."""
+
 EACH_SLAB = 0.6
 """Weight of a slab's own error beside that of the sum of them."""
 
@@ -165,10 +168,10 @@ class Pairs:
     weight: Array
 
     def counted(self, flat: bool) -> Pairs:
-        """The same with weights for relative errors; bodies show little of what is seen at a grazing angle."""
+        """The same with weights for relative errors; flat fur is seen from everywhere alike."""
         whole = self.hairs.sum(-1)
         weight = self.weight / (whole + FAINT * whole.max())
-        return replace(self, weight=weight if flat else weight * np.sqrt(self.eyes[:, 2]))
+        return replace(self, weight=weight if flat else weight * self.eyes[:, 2] ** GRAZING)
 
 
 def fit_pairs(pairs: Pairs, lean: Array) -> EyeLaw:

@@ -98,10 +98,12 @@ class ShownTexels:
         """Visible share of the slabs per area of skin, (K, N, N), for an eye at v where they are.
 
         A shell hides 1 − (1 − α)^(1/n·v). What is above a point is met along a straight ray over a ball of radius β,
-        as in `Rays`; shells are not thinned as hairs are that diverge.
+        as in `Rays`, and hairs diverge: shells hide 1 − (1 − α)^((β/(β + s))²) there, seen from straight above.
         """
         layers, size, _ = self.coverage.shape
         radius = self.beta + (np.arange(layers) + 0.5) / layers
+        fewer = ((self.beta / radius) ** 2).astype(np.float32)[:, None, None]
+        coverage = -np.expm1(np.log1p(-self.coverage) * fewer)
         across = float(np.sqrt(max(1 - eye[2] ** 2, 0)))
         way = eye[:2] / max(across, 1e-9) * self.height * size
         found = np.empty_like(self.coverage)
@@ -109,10 +111,10 @@ class ShownTexels:
             rise = np.sqrt(np.maximum(1 - (r / radius[k + 1 :] * across) ** 2, 0))
             t = radius[k + 1 :] * rise - r * eye[2]
             feet = self.beta * np.arctan2(t * across, r + t * eye[2])
-            clear = np.log1p(-moved(self.coverage[k], np.full(2, BETWEEN))) / np.float32(eye[2])
+            clear = np.log1p(-moved(coverage[k], np.full(2, BETWEEN))) / np.float32(eye[2])
             own = -np.expm1(clear)
             depth = np.zeros_like(own)
-            for shell, foot, up in zip(self.coverage[k + 1 :], feet, rise, strict=True):
+            for shell, foot, up in zip(coverage[k + 1 :], feet, rise, strict=True):
                 depth += np.log1p(-moved(shell, way * foot + BETWEEN)) / np.float32(up)
             found[k] = np.exp(depth) * own * np.float32(eye[2] * (r / self.beta) ** 2)
         return found

@@ -130,20 +130,21 @@ def test_images_are_read_between_texels() -> None:
 
 @pytest.mark.parametrize("beta", [None, 4.0])
 def test_even_shells_hide_what_is_behind_them(make_pelt: Callable[..., Pelt], beta: float | None) -> None:
-    """Against the shells that a ray meets one after the other, of one coverage everywhere."""
+    """Against the shells that a ray meets one after the other, of one coverage everywhere, which hairs leave apart."""
     pelt = make_pelt()
-    coverage = np.linspace(0.5, 0.1, pelt.layers)
-    even = np.broadcast_to(np.round(255 * coverage)[:, None, None], pelt.alpha.shape)
+    stored = np.round(255 * np.linspace(0.5, 0.1, pelt.layers))
+    even = np.broadcast_to(stored[:, None, None], pelt.alpha.shape)
     pelt = replace(pelt, alpha=even.astype(np.uint8))
     eye = np.array([0.48, 0.64, 0.6])
     radius = (1e5 if beta is None else beta) + (np.arange(pelt.layers) + 0.5) / pelt.layers
+    area = (radius / (radius[0] - 0.5 / pelt.layers)) ** 2
+    coverage = 1 - (1 - stored / 255) ** (1 / area)
     expected = []
     for k, r in enumerate(radius):
         clear = 1.0
         for alpha, outer in zip(coverage[k + 1 :], radius[k + 1 :], strict=True):
-            clear *= (1 - np.round(255 * alpha) / 255) ** (1 / np.sqrt(1 - (0.8 * r / outer) ** 2))
-        own = 1 - (1 - np.round(255 * coverage[k]) / 255) ** (1 / 0.6)
-        expected.append(clear * own * 0.6 * (r / (radius[0] - 0.5 / pelt.layers)) ** 2)
+            clear *= (1 - alpha) ** (1 / np.sqrt(1 - (0.8 * r / outer) ** 2))
+        expected.append(clear * (1 - (1 - coverage[k]) ** (1 / 0.6)) * 0.6 * area[k])
     see = ShownTexels(pelt, ABOVE[None], beta).visible(eye)
     np.testing.assert_allclose(see.mean((1, 2)), expected, rtol=1e-3)
     np.testing.assert_allclose(np.ptp(see, (1, 2)), 0, atol=1e-5)

@@ -5,7 +5,7 @@ import type { Page } from '@playwright/test';
 import { wayOf } from '../../../web/fur/light/bent.ts';
 import { expect, test } from '../harness.ts';
 import type { Stage } from '../inPage/stage.ts';
-import { openStage, repository, served } from '../library.ts';
+import { floats, openStage, repository, served } from '../library.ts';
 
 declare const stage: Stage;
 
@@ -103,4 +103,25 @@ test('the factor is never less than a tenth', async ({ page }) => {
 	if (dark[0]) dark[0][0] = -10;
 	const [plain = '', held = ''] = await open([{}, { eye: dark }]);
 	expect((await lit(page, held, [0, 0, 1])) / (await lit(page, plain, [0, 0, 1]))).toBeCloseTo(0.1, 3);
+});
+
+test('a fin has no surge, and shows at most what an upright hair sends back to a lamp beside the eye', async ({
+	page,
+}) => {
+	const open = await openEyes(page);
+	const bright = zeros();
+	if (bright[0]) bright[0][0] = 10;
+	const urls = await open([{}, { eye: bright }, { eye: zeros(), surge: [2, 2, 0.4] }]);
+	const [plain, most, surging] = await Promise.all(
+		urls.map(async (url) => {
+			const { light } = await page.evaluate((u) => stage.fin(u, [[0, 0.6, 0.8]]), url);
+			return floats(light).reduce((sum, one) => sum + (one > 0 ? one : 0), 0);
+		}),
+	);
+	expect(plain).toBeGreaterThan(1);
+	// A Lambertian cylinder sends sin φ + (π − φ)·cos φ to an eye at φ from the lamp.
+	const steps = Array.from({ length: 1000 }, (_, i) => (Math.PI * (i + 0.5)) / 1000);
+	const mean = steps.reduce((sum, phi) => sum + Math.sin(phi) + (Math.PI - phi) * Math.cos(phi), 0) / 1000;
+	expect((most ?? 0) / (plain ?? 1)).toBeCloseTo(Math.PI / mean, 2);
+	expect((surging ?? 0) / (plain ?? 1)).toBeCloseTo(1, 3);
 });

@@ -56,6 +56,32 @@ test('a shell between slabs shows the nearer one, sheared so that hairs run on; 
 	}
 });
 
+test('hairs stand apart above a round skin, and no closer above a hollow one', async ({ page }) => {
+	await openStage(page);
+	const folder = 'tests/golden/ptm-6-curves';
+	const { fur } = await readAsset(folder);
+	const top = fur.layers - 1;
+	const s = (top + 0.5) / fur.layers;
+	const draw = async (curvature: number[], length = 1) => {
+		const attributes = { curvature: curvature.map((value) => value / fur.length), _fur: [1, length, 1, 0] };
+		const { alpha } = await page.evaluate(([url, layer, a]) => stage.vertices(url, layer, a, { ambient: 1 }), [
+			served(`${folder}/model.gltf`),
+			top,
+			attributes as Record<string, number[]>,
+		] as const);
+		return alpha;
+	};
+	const plain = await draw([0, 0, 0]);
+	const fewer = (area: number) => plain.map((alpha) => expect.closeTo(1 - (1 - alpha) ** (1 / area), 3));
+	expect(Math.max(...plain)).toBeGreaterThan(0.5);
+	// A ball as large as the hair is long twice, and a cylinder, whose axis is at 30° to the first level axis.
+	expect(await draw([0.5, 0.5, 0])).toEqual(fewer((1 + 0.5 * s) ** 2));
+	expect(await draw([0.5 * 0.25, 0.5 * 0.75, -0.5 * Math.sqrt(3 / 16)])).toEqual(fewer(1 + 0.5 * s));
+	expect(await draw([0.5, 0.5, 0], 0.5)).toEqual(fewer((1 + 0.25 * s) ** 2));
+	expect(await draw([-0.5, -0.5, 0])).toEqual(plain);
+	expect(await draw([9, 9, 0])).toEqual(fewer(4));
+});
+
 /** Of two pictures over a mid grey as a display shows them, dB. */
 function psnr(a: Float32Array, b: Float32Array): number {
 	const shown = (rgba: Float32Array, i: number) => {

@@ -8,6 +8,7 @@ import {
 	UniformsUtils,
 	type WebGLRenderer,
 } from 'three';
+import curvature from '../shaders/draw/curvature.glsl?raw';
 import output from '../shaders/draw/output.glsl?raw';
 import colour from '../shaders/hair/colour.glsl?raw';
 import frame from '../shaders/hair/frame.glsl?raw';
@@ -50,6 +51,7 @@ export class BaselineMaterial extends ShaderMaterial {
 				...hairChunks(),
 				frame,
 				drift,
+				curvature,
 				shell,
 				colour,
 				hairOut,

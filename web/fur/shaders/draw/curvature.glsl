@@ -20,3 +20,10 @@ float furReach(float lengthShare) {
 #endif
 	return furLength * lengthShare * length(bodyModel()[0].xyz);
 }
+
+// Hairs in an area at height s over those in it at the skin: they diverge. bend: as furCurvature, whose light knows no smaller
+// body than β = 1 either.
+float divergence(vec3 bend, vec3 comb, float s) {
+	float rise = s / furTrim * furRise(comb);
+	return 1.0 / clamp(1.0 + rise * (bend.x + bend.y) + rise * rise * (bend.x * bend.y - bend.z * bend.z), 1.0, 4.0);
+}

@@ -60,11 +60,12 @@ void main() {
 	float fade = finFade(facesTowards(viewer, upright, across), dot(across, viewer));
 #endif
 
-	vFade = fade + 2.0 * float(furRegion);
 	vAt = uv * vec2(furTiles, finHeights * furTrim);
 	// An invisible quad collapses to its root and has no fragments.
 	float s = fade > 0.0 ? min(vAt.y, furTrim) : 0.0;
 	vec3 comb = finComb(frame * vec3(_edge.z, 0.0, _edge.w));
+	vec3 bend = furCurvature(_fur.y);
+	vFade = fade * divergence(bend, comb, s) + 2.0 * float(furRegion);
 	vec3 pointVS = (placement * vec4(furPoint(rootPosition, n, comb, _fur.y * finLength, s), 1.0)).xyz;
 	gl_Position = projectionMatrix * vec4(pointVS, 1.0);
 #ifdef ROOTS
@@ -78,5 +79,5 @@ void main() {
 	vSkin.rgb *= furTraits.y;
 #endif
 	float slab = clamp(s * float(LAYERS) - 0.5, 0.0, float(LAYERS) - 1.0);
-	passLight(fade > 0.0, FurPoint(turn * frame, comb * frame, pointVS, furReach(_fur.y), s, slab, furCurvature(_fur.y)), _fur.z);
+	passLight(fade > 0.0, FurPoint(turn * frame, comb * frame, pointVS, furReach(_fur.y), s, slab, bend), _fur.z);
 }

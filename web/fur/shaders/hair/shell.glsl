@@ -156,7 +156,7 @@ ShellPoint shellPoint() {
 	if (below > 0.0 && i < lowest + 2.0) slabs = i == lowest ? many * (lowest + 1.0 - below) : slabs + many * (below - lowest);
 #endif
 	point.slab = slab;
-	vWeight = _fur.x * FUR_SHARE * slabs * combedCover(point, slope);
+	vWeight = _fur.x * FUR_SHARE * slabs * combedCover(point, slope) * divergence(furCurvature(_fur.y), point.comb, point.s);
 #ifdef PARTED
 	drifted *= furWidth;
 #ifndef TIGHT

@@ -39,6 +39,9 @@ Eye eyeAt(FurPoint point, Bending bending) {
 }
 
 #define MIN_SEEN 0.1
+#ifdef FIN
+#define MOST_SEEN 2.47 // π²/4: light that an upright Lambertian hair sends back to the lamp, over the mean of all ways around it
+#endif
 
 #ifdef EYE
 // Terms in the order of the format, with a = level·l, b = leaning·l: q, a, q·b, p·b; q·z, q·b², p, a²; p·a·b, a·z, q·b·z, q·a·b.
@@ -56,7 +59,11 @@ vec3 napTowards(Eye from, vec3 lightTS) {
 
 // Excess of light beside the eye. up: height of the eye over the horizon
 float surgeFrom(float up) {
+#ifdef FIN
+	return 0.0; // tips at the outline stand in no shadow
+#else
 	return furSurge.x + furSurge.y * (1.0 - up * up);
+#endif
 }
 
 // Factor of the light of a lamp beside the eye.
@@ -67,7 +74,12 @@ float surgeTowards(Eye from, vec3 lightVS) {
 
 float napAt(Arrival at, float s) {
 	s /= furTrim;
-	return max(at.nap.x + s * (at.nap.y + s * at.nap.z), MIN_SEEN) * at.surge;
+	float nap = at.nap.x + s * (at.nap.y + s * at.nap.z);
+#ifdef FIN
+	// The law is found for shells, of which the highest hardly count in what is seen.
+	nap = min(nap, MOST_SEEN);
+#endif
+	return max(nap, MIN_SEEN) * at.surge;
 }
 #else
 vec3 napTowards(Eye from, vec3 lightTS) {
