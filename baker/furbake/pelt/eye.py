@@ -80,7 +80,7 @@ RIDGE = 3e-4
 
 
 def terms(lights: Array, eyes: Array, lean: Array) -> Array:
-    """[q, a, q·b, p·b, q·z, q·b², p, a², p·a·b, a·z, q·b·z, q·a·b] of pairs of unit vectors (..., 3), (..., 12).
+    """[q, a, q·b, p·b, q·z, q·b², p, a², p·a·b, q·p, q·b·z, q·a·b] of pairs of unit vectors (..., 3), (..., 12).
 
     a = l_h·v_h of the level parts, b = l·m and p = v·m along the lean m, z = l_z, q = |v_h|². What is below the
     horizon is held on it.
@@ -89,7 +89,7 @@ def terms(lights: Array, eyes: Array, lean: Array) -> Array:
     light, eye = np.broadcast_arrays(*(held(way.reshape(-1, 3)).reshape(way.shape) for way in (lights, eyes)))
     a, z = (light[..., :2] * eye[..., :2]).sum(-1), light[..., 2]
     b, p, q = light[..., :2] @ m, eye[..., :2] @ m, 1 - eye[..., 2] ** 2
-    each = (q, a, q * b, p * b, q * z, q * b * b, p, a * a, p * a * b, a * z, q * b * z, q * a * b)
+    each = (q, a, q * b, p * b, q * z, q * b * b, p, a * a, p * a * b, q * p, q * b * z, q * a * b)
     return np.stack(each, -1)
 
 

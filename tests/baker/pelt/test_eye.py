@@ -46,7 +46,7 @@ def test_terms() -> None:
     """In the order of the format; nothing of an eye straight above, and what is below the horizon is held on it."""
     light, eye, lean = np.array([0.36, -0.48, 0.8]), np.array([0.6, 0.64, 0.48]), np.array([3.0, 4.0])
     a, b, p, z, q = 0.36 * 0.6 - 0.48 * 0.64, 0.36 * 0.6 - 0.48 * 0.8, 0.36 + 0.64 * 0.8, 0.8, 1 - 0.48**2
-    expected = [q, a, q * b, p * b, q * z, q * b * b, p, a * a, p * a * b, a * z, q * b * z, q * a * b]
+    expected = [q, a, q * b, p * b, q * z, q * b * b, p, a * a, p * a * b, q * p, q * b * z, q * a * b]
     np.testing.assert_allclose(terms(light, eye, lean), expected, atol=1e-12)
     assert not terms(rings((0.5, -0.2), 5), ABOVE, lean).any()
     low, level = np.array([0.48, 0.64, -0.6]), np.array([0.6, 0.8, 0.0])

@@ -70,7 +70,7 @@ test('every number meets its term and power of the height', async ({ page }) => 
 		l[2],
 		1 - v[2] ** 2,
 	];
-	const terms = [q, a, q * b, p * b, q * z, q * b * b, p, a * a, p * a * b, a * z, q * b * z, q * a * b];
+	const terms = [q, a, q * b, p * b, q * z, q * b * b, p, a * a, p * a * b, q * p, q * b * z, q * a * b];
 	const s = 3.5 / 4;
 	// One number by itself, such that the light is 1.25 times what it was.
 	const laws = terms.map((term, f) => {

@@ -44,12 +44,12 @@ Eye eyeAt(FurPoint point, Bending bending) {
 #endif
 
 #ifdef EYE
-// Terms in the order of the format, with a = level·l, b = leaning·l: q, a, q·b, p·b; q·z, q·b², p, a²; p·a·b, a·z, q·b·z, q·a·b.
+// Terms in the order of the format, with a = level·l, b = leaning·l: q, a, q·b, p·b; q·z, q·b², p, a²; p·a·b, q·p, q·b·z, q·a·b.
 
 // Share of a lamp's light for the eye, by 1, s, s². lightTS: not below the horizon
 vec3 napTowards(Eye from, vec3 lightTS) {
 	float q = from.q, p = from.p, a = dot(from.level, lightTS), b = dot(leanTS(), lightTS), z = lightTS.UP;
-	vec4 first = vec4(q, a, q * b, p * b), second = vec4(q * z, q * b * b, p, a * a), third = vec4(p * a * b, a * z, q * b * z, q * a * b);
+	vec4 first = vec4(q, a, q * b, p * b), second = vec4(q * z, q * b * b, p, a * a), third = vec4(p * a * b, q * p, q * b * z, q * a * b);
 	vec3 nap = vec3(1.0, 0.0, 0.0);
 	nap.x += dot(first, ofFur(eye, 9, 0)) + dot(second, ofFur(eye, 9, 1)) + dot(third, ofFur(eye, 9, 2));
 	nap.y += dot(first, ofFur(eye, 9, 3)) + dot(second, ofFur(eye, 9, 4)) + dot(third, ofFur(eye, 9, 5));

@@ -10,9 +10,9 @@ Quadratic seenByEye(FurPoint point, Eye from) {
 	vec4 first = ofFur(eye, 9, 0) + s * (ofFur(eye, 9, 3) + s * ofFur(eye, 9, 6));
 	vec4 second = ofFur(eye, 9, 1) + s * (ofFur(eye, 9, 4) + s * ofFur(eye, 9, 7));
 	vec4 third = ofFur(eye, 9, 2) + s * (ofFur(eye, 9, 5) + s * ofFur(eye, 9, 8));
-	seen.even += first.x * q + second.z * p;
+	seen.even += first.x * q + second.z * p + third.y * q * p;
 	seen.gradient = first.y * level + (first.z * q + first.w * p) * leaning + second.x * q * upright;
-	seen.form = outerProduct(second.w * level + (third.x * p + third.w * q) * leaning + third.y * upright, level);
+	seen.form = outerProduct(second.w * level + (third.x * p + third.w * q) * leaning, level);
 	seen.form += outerProduct(q * (second.y * leaning + third.z * upright), leaning);
 #endif
 	return seen;
