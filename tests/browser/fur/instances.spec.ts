@@ -54,9 +54,10 @@ for (const [what, wanted] of [
 		const one = await draw(page, bunny, { ...wanted, shorn: true });
 		const { worst, psnr } = compare(plain, one, wanted.shadow ? 12 : 4);
 		// Rounding decides which side of a shadow's edge a few fragments are on; highlights are up to 3 times as bright.
-		// Joints of one body are rounded otherwise than those of many, by .012 at most; the more combed hairs hide, the more it shows.
+		// Joints of one body are rounded otherwise than those of many, by .012 at most; the more combed hairs hide, and
+		// the more light depends on the eye, the more it shows.
 		// Smooth parts are drawn with the skin, whose highlights end with its smoothness.
-		expect(psnr).toBeGreaterThan(wanted.shadow ? 55 : wanted.shiny ? 55.5 : 56);
+		expect(psnr).toBeGreaterThan(wanted.shadow ? 55 : wanted.shiny ? 53 : 54);
 		expect(worst).toBeLessThan(wanted.shadow ? 0.2 : 0.1);
 		expect(floats(one.picture).some((value, i) => i % 4 < 3 && value > 0.3)).toBe(true);
 	});
