@@ -74,7 +74,7 @@ test('hairs stand apart above a round skin, and no closer above a hollow one', a
 	const plain = await draw([0, 0, 0]);
 	const fewer = (area: number) => plain.map((alpha) => expect.closeTo(1 - (1 - alpha) ** (1 / area), 3));
 	expect(Math.max(...plain)).toBeGreaterThan(0.5);
-	// A ball as large as the hair is long twice, and a cylinder, whose axis is at 30° to the first level axis.
+	// A ball of two hairs' length in radius; a cylinder, whose curved way is at 60° to the first level axis.
 	expect(await draw([0.5, 0.5, 0])).toEqual(fewer((1 + 0.5 * s) ** 2));
 	expect(await draw([0.5 * 0.25, 0.5 * 0.75, -0.5 * Math.sqrt(3 / 16)])).toEqual(fewer(1 + 0.5 * s));
 	expect(await draw([0.5, 0.5, 0], 0.5)).toEqual(fewer((1 + 0.25 * s) ** 2));
