@@ -53,8 +53,8 @@ several furs on one body, fins as edges of bodies that move."""
 
 QUANTIZATION = "KHR_mesh_quantization"
 
-LAWS = ("bent", "eye")
-"""Numbers of the fur as a whole, where it has any."""
+LAWS = {"bent": "bent", "eye": "eye", "fin_eye": "finEye"}
+"""Numbers of the fur as a whole, where it has any: their names in a pelt and in the file."""
 
 STATE = ("wetness", "dirt", "length", "shade", "gloss", "sharpness")
 """Numbers of a pelt's state."""
@@ -238,7 +238,7 @@ def extension(
         "basis": basis,
         **lit,
         "drift": [numbers(row) for row in pelt.drift],
-        **{name: [numbers(row) for row in law] for name in LAWS if (law := getattr(pelt, name)) is not None},
+        **{name: [numbers(row) for row in law] for of, name in LAWS.items() if (law := getattr(pelt, of)) is not None},
         **({} if pelt.surge is None else {"surge": numbers(pelt.surge)}),
         **({} if pelt.spread is None else {"spread": numbers(np.array([pelt.spread]))[0]}),
         "ramp": {

@@ -11,6 +11,7 @@ from furbake.asset.gltf import STATE
 from furbake.asset.planes import PlaneError, Planes, Texels, unpack, unpack_fin
 from furbake.asset.read import Asset, AssetError
 from furbake.pelt.curves import KNOTS, RADII, Curves, lean_direction
+from furbake.pelt.eye import TERMS
 from furbake.pelt.hairs.ramp import Ramp
 from furbake.pelt.hairs.states import PeltState
 from furbake.pelt.light.paths import BODY_RADIUS
@@ -91,7 +92,8 @@ def _pelt(fur: dict[str, Any], asset: Asset, index: int) -> Pelt:
         fin=_fin(stored["fin"], asset) if "fin" in stored else None,
         direction=texels.direction,
         bent=_array(fur["bent"], 3, 8) if "bent" in fur else None,
-        eye=_array(fur["eye"], 3, 12) if "eye" in fur else None,
+        eye=_law(fur, "eye"),
+        fin_eye=_law(fur, "finEye"),
         surge=_array(fur["surge"], 3) if "surge" in fur else None,
         spread=float(fur["spread"]) if "spread" in fur else None,
         curves=curves,
@@ -150,6 +152,14 @@ def _images(stored: dict[str, Any], asset: Asset) -> Planes:
     """The planes of a state, or of its fin."""
     colour, direction = (asset.image(stored[role]) if role in stored else None for role in ("colour", "direction"))
     return Planes(tuple(asset.image(index) for index in stored["planes"]), colour, direction)
+
+
+def _law(fur: dict[str, Any], name: str) -> Floats | None:
+    """Weights (3, 16) of a law of light and eye, where the fur has it; the last terms may be missing."""
+    if name not in fur:
+        return None
+    rows = _array(fur[name], 3, len(fur[name][0]))
+    return np.pad(rows, [(0, 0), (0, TERMS - rows.shape[1])])
 
 
 def _array(values: Any, *shape: int) -> Floats:

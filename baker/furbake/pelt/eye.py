@@ -37,7 +37,7 @@ from furbake.pelt.texels.basis import held
 
 Array = NDArray[np.float64]
 
-TERMS = 12
+TERMS = 16
 
 SIZE = 32
 """Texels a side for which numbers are found: larger tiles of the same hairs have much the same."""
@@ -80,7 +80,8 @@ RIDGE = 3e-4
 
 
 def terms(lights: Array, eyes: Array, lean: Array) -> Array:
-    """[q, a, q·b, p·b, q·z, q·b², p, a², p·a·b, q·p, q·b·z, q·a·b] of pairs of unit vectors (..., 3), (..., 12).
+    """[q, a, q·b, p·b, q·z, q·b², p, a², p·a·b, q·p, q·b·z, q·a·b, a·z, p·z, q·z², q·p·b] of pairs of unit vectors
+    (..., 3), (..., 16).
 
     a = l_h·v_h of the level parts, b = l·m and p = v·m along the lean m, z = l_z, q = |v_h|². What is below the
     horizon is held on it.
@@ -90,6 +91,7 @@ def terms(lights: Array, eyes: Array, lean: Array) -> Array:
     a, z = (light[..., :2] * eye[..., :2]).sum(-1), light[..., 2]
     b, p, q = light[..., :2] @ m, eye[..., :2] @ m, 1 - eye[..., 2] ** 2
     each = (q, a, q * b, p * b, q * z, q * b * b, p, a * a, p * a * b, q * p, q * b * z, q * a * b)
+    each += (a * z, p * z, q * z * z, q * p * b)
     return np.stack(each, -1)
 
 
@@ -117,7 +119,7 @@ def rings(heights: tuple[float, ...], spokes: int, turn: float = 0.4) -> Array:
 
 @dataclass(frozen=True)
 class EyeLaw:
-    """Numbers of the law: weights (3, 12) of its terms for s⁰, s¹, s², and of the surge, A, B and w."""
+    """Numbers of the law: weights (3, 16) of its terms for s⁰, s¹, s², and of the surge, A, B and w."""
 
     weights: Array
     surge: Array
@@ -142,7 +144,7 @@ def fit_eye(pelt: Pelt, strands: Strands, coat: Coat, *, flat: bool = False) -> 
         hairs, seen_hairs = zip(*workers.map(lit.towards, eyes, met), strict=True)
         texels, seen_texels = zip(*workers.map(shown.towards, eyes, met), strict=True)
     # Fur is opaque either way: the light of what an eye sees of it is compared, not how much it sees.
-    level = np.array(seen_texels) / np.maximum(seen_hairs, DARK)
+    level = np.array(seen_texels) / np.maximum(np.sum(seen_hairs, 1), DARK)
     count = [len(some) for some in met]
     pairs = Pairs(
         lights[np.concatenate(met)],
@@ -210,7 +212,7 @@ def fit_surge(lights: Array, eyes: Array, shown: Array, wanted: Array, weight: A
 
 
 def solve(hairs: Array, texels: Array, found: Array, weight: Array) -> Array:
-    """Numbers that bring what texels show to what hairs show, both (n, K), by terms (n, 12); weight : (n,)."""
+    """Numbers that bring what texels show to what hairs show, both (n, K), by terms (n, 16); weight : (n,)."""
     middle = (np.arange(hairs.shape[-1]) + 0.5) / hairs.shape[-1]
     over_s = np.polynomial.legendre.legvander(2 * middle - 1, 2)
     off = (hairs - texels) * weight[:, None]

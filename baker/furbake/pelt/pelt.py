@@ -58,7 +58,8 @@ class Pelt:
     spread : of the hairs' slopes, as of `spread_of`, or None: combed hairs hide as much as others
     fin : its side view, or None
     bent : (3, 8) numbers of the law of bent hairs, or None
-    eye, surge : (3, 12) and (3,) numbers of the law of light and eye, or None
+    eye, surge : (3, 16) and (3,) numbers of the law of light and eye, or None
+    fin_eye : (3, 16) numbers of the same law for fins, or None
     direction : (K, N, N, 3) bytes of the hairs' mean tangent, or None
     curves, weights : the slabs' mean curves, of all states, and the (K, Q) weights of this one; None: the texels'
         polynomials alone
@@ -81,6 +82,7 @@ class Pelt:
     bent: Floats | None = None
     eye: Floats | None = None
     surge: Floats | None = None
+    fin_eye: Floats | None = None
     spread: float | None = None
     curves: Curves | None = None
     weights: Floats | None = None

@@ -56,8 +56,8 @@ class LitHairs:
         slabs = Slabs(sigma, stored.thick, self.tangent)
         self.arriving = between_hairs(slabs, light, albedo=coat.albedo, skin=skin)
 
-    def towards(self, eye: Array, some: NDArray[np.intp]) -> tuple[Array, float]:
-        """Light of the slabs towards an eye under `some` of the lights, (m, K), and what it sees of all hairs."""
+    def towards(self, eye: Array, some: NDArray[np.intp]) -> tuple[Array, Array]:
+        """Light of the slabs towards an eye under `some` of the lights, (m, K), and what it sees of their hairs, (K,)."""
         clear, hairs = self.beam.reach(eye)[0], Cylinders(self.beam.along(eye))
         depth = -np.log(np.maximum(clear, DARK))
         see = clear * self.beam.breadth * np.maximum(hairs.sin_view, THINNEST) * np.float32(self.beam.slab)
@@ -74,7 +74,7 @@ class LitHairs:
         onwards = np.maximum(sent(self.arriving, self.tangent, eye)[:, some], 0)
         blocks = pool(see.reshape(self.layers, -1, *see.shape[1:]).sum(1), self.size // 2)
         more = (blocks * doubled(np.moveaxis(onwards, 1, 0))).mean((-1, -2), dtype=np.float64)
-        return np.stack(once) + more, float(see.mean((-1, -2), dtype=np.float64).sum())
+        return np.stack(once) + more, _sums(see, self.layers)
 
 
 class ShownTexels:

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from furbake.cache.entries import Cache
 from furbake.options import BakeOptions
@@ -25,6 +26,8 @@ from furbake.pelt.pelt import FinPelt, Pelt
 from furbake.pelt.texels.basis import Basis
 from furbake.tile.tile import Fitted
 
+Floats = NDArray[np.float64]
+
 CLASSES = (Pelt, FinPelt, Basis, Curves, Multiple, PeltState, Ramp)
 
 ROOMS = ("pelt", "tile")
@@ -32,7 +35,7 @@ ROOMS = ("pelt", "tile")
 
 LIBRARIES = ("numpy", "scipy")
 
-Sides = list[tuple[FinPelt, dict[str, float]]]
+Sides = list[tuple[FinPelt, Floats | None, dict[str, float]]]
 
 
 class KeptPelts:
@@ -56,12 +59,12 @@ class KeptPelts:
         if sides is None or len(sides) != len(fitted):
             return None
         return [
-            (replace(pelt, fin=fin), figures | {"fin": found})
-            for (pelt, figures), (fin, found) in zip(fitted, sides, strict=True)
+            (replace(pelt, fin=fin, fin_eye=eye), figures | {"fin": found})
+            for (pelt, figures), (fin, eye, found) in zip(fitted, sides, strict=True)
         ]
 
     def keep_fins(self, fitted: Fitted) -> None:
-        self.cache.put(f"{self.key}-fins", [(pelt.fin, figures["fin"]) for pelt, figures in fitted])
+        self.cache.put(f"{self.key}-fins", [(pelt.fin, pelt.fin_eye, figures["fin"]) for pelt, figures in fitted])
 
 
 def pelt_key(options: BakeOptions, height: float, strands: Strands | None = None) -> str:

@@ -11,6 +11,7 @@ from typing import Any
 from furbake.options import BakeOptions
 from furbake.pelt.bent import fit_bends
 from furbake.pelt.eye import EyeLaw, fit_eye
+from furbake.pelt.fin_eye import fit_fin_eye
 from furbake.pelt.hairs.shown import spread_of
 from furbake.pelt.hairs.states import Fur, chosen, in_state
 from furbake.pelt.hairs.strands import Strands, grow
@@ -90,10 +91,13 @@ class Tile:
         """The same pelts with their fins."""
         volumes = ((fur, self._volume(fur, dry)) for fur in self.furs)
         sides = fit_sides(volumes, [pelt for pelt, _ in fitted], self.options)
-        return [
+        (pelt, figures), *others = [
             (replace(pelt, fin=fin), figures | {"fin": found})
             for (pelt, figures), (fin, found) in zip(fitted, sides, strict=True)
         ]
+        if pelt.eye is not None and not self.options.flat:
+            pelt = replace(pelt, fin_eye=fit_fin_eye(pelt, self.strands, self.options.coat))
+        return [(pelt, figures), *others]
 
     def _volume(self, fur: Fur, dry: Volume) -> Volume:
         """Oversampled volume of a state. Only the dry one is kept: all of them at once take much memory."""

@@ -153,6 +153,8 @@ export interface FurAsset {
 	bent?: number[][];
 	/** Light seen from aside: rows for 1, s and s², in each the weights of twelve terms. */
 	eye?: number[][];
+	/** The same for fins, which any eye sees as one on the horizon does; without it that of the shells. */
+	finEye?: number[][];
 	/** Surge of light of a lamp beside the eye: excess seen from above, further excess from aside, width in radians. */
 	surge?: [number, number, number];
 	/** Mean distance of the hairs' slopes from the mean slope at their height. */
@@ -185,7 +187,7 @@ export interface FurAsset {
 
 /** Fur of a region of a body; the rest is as of the coat. */
 export interface RegionFur
-	extends Pick<FurAsset, 'height' | 'curves' | 'drift' | 'bent' | 'eye' | 'surge' | 'spread' | 'ramp' | 'pelts'> {
+	extends Pick<FurAsset, 'height' | 'curves' | 'drift' | 'bent' | 'eye' | 'finEye' | 'surge' | 'spread' | 'ramp' | 'pelts'> {
 	/** Name of the region. */
 	name: string;
 	/** Width of its tile over that of the coat's. */

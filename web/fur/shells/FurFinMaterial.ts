@@ -64,6 +64,7 @@ export class FurFinMaterial extends PeltMaterial {
 		const shared = SHARED.filter((name) => name in shells.uniforms).map(
 			(name) => [name, shells.uniforms[name]] as [string, IUniform],
 		);
+		const { finEye } = shells.uniforms;
 		super(
 			shells.furs.map(({ means, pelts }) => ({ ...(pelts?.[0]?.fin ?? fin), means, pelts })),
 			textures,
@@ -73,14 +74,16 @@ export class FurFinMaterial extends PeltMaterial {
 				fragmentShader: [fragmentMain, ends].join('\n'),
 				uniforms: {
 					...Object.fromEntries(shared),
+					...(finEye && { eye: finEye }),
 					...morphUniforms(),
-					finLength: { value: 1.05 },
+					finLength: { value: 1 },
 					finOpacity: { value: 0.9 },
 					finHeights: { value: shells.uniforms.tiles?.value },
 				},
 				// |n·v| of the faces, between which a fin fades out.
 				defines: {
 					FIN: '',
+					...(finEye && { FIN_EYE: '' }),
 					...Object.fromEntries(Object.entries(shells.defines).filter(([part]) => PARTS.includes(part))),
 					FADE_FROM: '0.03',
 					FADE_TO: '0.15',

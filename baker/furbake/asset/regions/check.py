@@ -39,7 +39,7 @@ def regions(asset: Asset) -> Iterator[str]:
 
 def _stackable(coat: dict[str, object], fur: dict[str, object], name: str) -> Iterator[str]:
     """A fur with the states and planes of the coat."""
-    for key in ("eye", "bent"):
+    for key in ("eye", "finEye", "bent"):
         if (key in coat) != (key in fur):
             yield f"{name}: {'no ' if key in coat else 'an '}{key}, expected it in all furs or none"
     own, wanted = (

@@ -2,7 +2,7 @@
 // sides of them. By the law of pelt/eye.py, with numbers fitted by each bake.
 
 #ifdef EYE
-uniform vec4 eye[9 * FURS]; // weights of twelve terms, fur after fur, three vectors for each of 1, s, s²
+uniform vec4 eye[12 * FURS]; // weights of sixteen terms, fur after fur, four vectors for each of 1, s, s²; a fin's are its own
 #if FURS > 1
 uniform vec4 surges[FURS]; // surge of each fur
 #define furSurge ofFur(surges, 1, 0)
@@ -33,27 +33,30 @@ Eye eyeAt(FurPoint point, Bending bending) {
 	}
 	if (bending.there) from.level = unbent(from.level, bending);
 	from.level.UP = 0.0;
+#ifdef FIN_EYE
+	from.level /= max(length(from.level), 1e-4);
+#endif
 	from.q = dot(from.level, from.level);
 	from.p = dot(from.level, leanTS());
 	return from;
 }
 
 #define MIN_SEEN 0.1
-#ifdef FIN
+#if defined(FIN) && !defined(FIN_EYE)
 #define MOST_SEEN 2.47 // π²/4: light that an upright Lambertian hair sends back to the lamp, over the mean of all ways around it
 #endif
 
 #ifdef EYE
-// Terms in the order of the format, with a = level·l, b = leaning·l: q, a, q·b, p·b; q·z, q·b², p, a²; p·a·b, q·p, q·b·z, q·a·b.
+// Terms in the order of the format, with a = level·l, b = leaning·l: q, a, q·b, p·b; q·z, q·b², p, a²; p·a·b, q·p, q·b·z, q·a·b;
+// a·z, p·z, q·z², q·p·b.
 
 // Share of a lamp's light for the eye, by 1, s, s². lightTS: not below the horizon
 vec3 napTowards(Eye from, vec3 lightTS) {
 	float q = from.q, p = from.p, a = dot(from.level, lightTS), b = dot(leanTS(), lightTS), z = lightTS.UP;
-	vec4 first = vec4(q, a, q * b, p * b), second = vec4(q * z, q * b * b, p, a * a), third = vec4(p * a * b, q * p, q * b * z, q * a * b);
+	mat4 terms = mat4(vec4(q, a, q * b, p * b), vec4(q * z, q * b * b, p, a * a), vec4(p * a * b, q * p, q * b * z, q * a * b), vec4(a * z, p * z, q * z * z, q * p * b));
 	vec3 nap = vec3(1.0, 0.0, 0.0);
-	nap.x += dot(first, ofFur(eye, 9, 0)) + dot(second, ofFur(eye, 9, 1)) + dot(third, ofFur(eye, 9, 2));
-	nap.y += dot(first, ofFur(eye, 9, 3)) + dot(second, ofFur(eye, 9, 4)) + dot(third, ofFur(eye, 9, 5));
-	nap.z += dot(first, ofFur(eye, 9, 6)) + dot(second, ofFur(eye, 9, 7)) + dot(third, ofFur(eye, 9, 8));
+	for (int i = 0; i < 4; i++)
+		nap += vec3(dot(terms[i], ofFur(eye, 12, i)), dot(terms[i], ofFur(eye, 12, 4 + i)), dot(terms[i], ofFur(eye, 12, 8 + i)));
 	return nap;
 }
 
@@ -75,7 +78,7 @@ float surgeTowards(Eye from, vec3 lightVS) {
 float napAt(Arrival at, float s) {
 	s /= furTrim;
 	float nap = at.nap.x + s * (at.nap.y + s * at.nap.z);
-#ifdef FIN
+#if defined(FIN) && !defined(FIN_EYE)
 	// The law is found for shells, of which the highest hardly count in what is seen.
 	nap = min(nap, MOST_SEEN);
 #endif

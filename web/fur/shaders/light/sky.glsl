@@ -7,13 +7,14 @@ Quadratic seenByEye(FurPoint point, Eye from) {
 	vec3 level = from.level, leaning = leanTS(), upright = vec3(0.0);
 	upright.UP = 1.0;
 	float q = from.q, p = from.p, s = point.s / furTrim;
-	vec4 first = ofFur(eye, 9, 0) + s * (ofFur(eye, 9, 3) + s * ofFur(eye, 9, 6));
-	vec4 second = ofFur(eye, 9, 1) + s * (ofFur(eye, 9, 4) + s * ofFur(eye, 9, 7));
-	vec4 third = ofFur(eye, 9, 2) + s * (ofFur(eye, 9, 5) + s * ofFur(eye, 9, 8));
+	vec4 first = ofFur(eye, 12, 0) + s * (ofFur(eye, 12, 4) + s * ofFur(eye, 12, 8));
+	vec4 second = ofFur(eye, 12, 1) + s * (ofFur(eye, 12, 5) + s * ofFur(eye, 12, 9));
+	vec4 third = ofFur(eye, 12, 2) + s * (ofFur(eye, 12, 6) + s * ofFur(eye, 12, 10));
+	vec4 last = ofFur(eye, 12, 3) + s * (ofFur(eye, 12, 7) + s * ofFur(eye, 12, 11));
 	seen.even += first.x * q + second.z * p + third.y * q * p;
-	seen.gradient = first.y * level + (first.z * q + first.w * p) * leaning + second.x * q * upright;
-	seen.form = outerProduct(second.w * level + (third.x * p + third.w * q) * leaning, level);
-	seen.form += outerProduct(q * (second.y * leaning + third.z * upright), leaning);
+	seen.gradient = first.y * level + (first.z * q + first.w * p + last.w * q * p) * leaning + (second.x * q + last.y * p) * upright;
+	seen.form = outerProduct(second.w * level + (third.x * p + third.w * q) * leaning + last.x * upright, level);
+	seen.form += outerProduct(q * (second.y * leaning + third.z * upright), leaning) + outerProduct(last.z * q * upright, upright);
 #endif
 	return seen;
 }

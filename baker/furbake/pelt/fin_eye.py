@@ -1,0 +1,62 @@
+"""The law of light and eye for fins, which are seen from the side alone.
+
+Fins stand where the skin turns away from the eye, so that any eye is on their horizon: of the terms of `eye.terms`, with
+q = 1, there are numbers for fins of their own. They bring the fins' mean light, height by height, to what the hairs of
+the fine volume send to a level eye; a fin's texels are lit as an eye straight above sees them.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from furbake.pelt.eye import FAINT, LIGHT_HEIGHTS, SIZE, rings, solve, terms
+from furbake.pelt.fin import overlap, polynomial, row_means
+from furbake.pelt.hairs.strands import Coat, Strands
+from furbake.pelt.hairs.volume import fine_shape, voxelise
+from furbake.pelt.pelt import Pelt
+from furbake.pelt.seen import DARK, LitHairs
+from furbake.pelt.texels.fit import relight
+
+Array = NDArray[np.float64]
+
+EYES = (0.0, 180.0)
+"""Azimuths of the level eyes, degrees from the tile's u, across which fins stand."""
+
+SPOKES = 8
+"""Lights in each ring of `LIGHT_HEIGHTS`."""
+
+HIDDEN = 0.1
+"""Share of the mean slab that is added to what is seen of each: deep ones hardly are, and have a sound light, too."""
+
+
+def fit_fin_eye(pelt: Pelt, strands: Strands, coat: Coat) -> Array:
+    """Weights (3, 16) of the law for the fins of this dry fur, for s⁰, s¹, s². The pelt has fins and mean curves."""
+    size, layers = min(pelt.size, SIZE), pelt.layers
+    fine = voxelise(strands, pelt.height, *fine_shape(layers, size, pelt.height), coat.opacity)
+    lights, azimuth = rings(LIGHT_HEIGHTS, SPOKES), np.radians(EYES)
+    eyes = np.stack([np.cos(azimuth), np.sin(azimuth), np.zeros_like(azimuth)], -1)
+    lit, light = LitHairs(fine, layers, size, lights, coat), fin_light(pelt, lights)
+    hairs, texels = [], []
+    for eye in eyes:
+        sent, seen = lit.towards(eye, np.arange(len(lights)))
+        share = np.where(seen > DARK * seen.sum(), seen / seen.sum() + HIDDEN / layers, 0)
+        hairs.append(sent / np.maximum(seen, 1e-30) * share)
+        texels.append(light * share)
+    wanted = np.concatenate(hairs)
+    whole = wanted.sum(-1)
+    # A fin's hairs lean along it.
+    along = np.array([0.0, np.hypot(*fine.drift[-1])])
+    found = terms(np.tile(lights, (len(eyes), 1)), np.repeat(eyes, len(lights), 0), along)
+    return np.round(solve(wanted, np.concatenate(texels), found, 1 / (whole + FAINT * whole.max())), 3)
+
+
+def fin_light(pelt: Pelt, lights: Array) -> Array:
+    """Mean L of a fin's texels at the heights of the slabs, lights (n, 3) in the tile's frame → (n, K)."""
+    fin = pelt.fin
+    assert fin is not None
+    rows = len(fin.alpha)
+    alpha = fin.alpha / 255
+    light = relight(fin.values, polynomial, lights, row_means(pelt, rows, lights))
+    means = (light * alpha).sum(-1) / np.maximum(alpha.sum(-1), 1e-9)
+    return np.asarray(means @ overlap(rows, pelt.layers).T)
