@@ -100,9 +100,16 @@ class Pelt:
             return None
         return self.curves.mean(lights, self.weights, beta)
 
-    def light(self, lights: Floats, beta: float = BODY_RADIUS) -> Single:
-        """L of the stored texels on a body of radius β, (n, K, N, N). Without mean curves lights have lz ≥ 0."""
-        return relight(self.values, self.basis, lights, self.mean(lights, beta))
+    def light(self, lights: Floats, beta: float = BODY_RADIUS, contrast: float = 1.0) -> Single:
+        """L of the stored texels on a body of radius β, (n, K, N, N). Without mean curves lights have lz ≥ 0.
+
+        contrast : how many times as much as stored they differ from their slab's mean curve, where they have one
+        """
+        values, mean, constant = self.values, self.mean(lights, beta), self.basis.constant
+        if mean is not None and constant is not None and contrast != 1:
+            values = contrast * values
+            values[..., constant] += 1 - contrast
+        return relight(values, self.basis, lights, mean)
 
     @property
     def layers(self) -> int:

@@ -28,6 +28,9 @@ Single = NDArray[np.float32]
 DARK = 1e-6
 """Least T that is distinguished from 0."""
 
+CONTRAST = 1.4
+"""Contrast of the texels' light on a page over the stored one: `CONTRAST` of web/fur/light/texels.ts."""
+
 SHOWN_SIZE = 64
 """Texels a side that are composited at most: a page shows larger tiles by their smaller levels."""
 
@@ -85,7 +88,7 @@ class ShownTexels:
         size = min(pelt.size, SHOWN_SIZE)
         self.height, self.beta = pelt.height, FLAT if beta is None else beta
         self.coverage = np.minimum(pool(pelt.alpha.astype(np.float32) / 255, size), np.float32(MAX_COVERAGE))
-        light = pelt.light(lights) if beta is None else pelt.light(lights, beta)
+        light = pelt.light(lights, BODY_RADIUS if beta is None else beta, CONTRAST)
         self.light = moved(pool(light, size), np.full(2, BETWEEN))
 
     def towards(self, eye: Array, some: NDArray[np.intp]) -> tuple[Array, float]:

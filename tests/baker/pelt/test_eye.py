@@ -16,7 +16,7 @@ from furbake.asset.stored import read_pelt
 from furbake.asset.validate import validate
 from furbake.options import BakeOptions, preset
 from furbake.pelt.bent import MIN_FACTOR
-from furbake.pelt.eye import WIDTHS, Pairs, factor, fit_eye, fit_pairs, fit_surge, rings, surge, terms
+from furbake.pelt.eye import TERMS, WIDTHS, Pairs, factor, fit_eye, fit_pairs, fit_surge, rings, surge, terms
 from furbake.pelt.hairs.strands import Strands
 from furbake.pelt.hairs.volume import Volume
 from furbake.pelt.light.fibre import ABOVE
@@ -47,6 +47,7 @@ def test_terms() -> None:
     light, eye, lean = np.array([0.36, -0.48, 0.8]), np.array([0.6, 0.64, 0.48]), np.array([3.0, 4.0])
     a, b, p, z, q = 0.36 * 0.6 - 0.48 * 0.64, 0.36 * 0.6 - 0.48 * 0.8, 0.36 + 0.64 * 0.8, 0.8, 1 - 0.48**2
     expected = [q, a, q * b, p * b, q * z, q * b * b, p, a * a, p * a * b, q * p, q * b * z, q * a * b]
+    expected += [a * z, p * z, q * z * z, q * p * b]
     np.testing.assert_allclose(terms(light, eye, lean), expected, atol=1e-12)
     assert not terms(rings((0.5, -0.2), 5), ABOVE, lean).any()
     low, level = np.array([0.48, 0.64, -0.6]), np.array([0.6, 0.8, 0.0])
@@ -55,7 +56,7 @@ def test_terms() -> None:
 
 
 def test_factor_is_held() -> None:
-    numbers = np.zeros((3, 12))
+    numbers = np.zeros((3, TERMS))
     numbers[0, 0] = -10.0
     eyes = rings((0.5,), 3)
     told = factor(np.repeat(ABOVE[None], 4, 0), eyes, np.zeros(2), MIDDLE, numbers)
@@ -110,7 +111,7 @@ def test_both_factors_are_found_together() -> None:
     lights = np.concatenate([np.repeat(ways[0], len(ways[1]), 0), near[0]])
     eyes = np.concatenate([np.tile(ways[1], (len(ways[0]), 1)), near[1]])
     texels = 0.2 + np.random.default_rng(2).random((len(lights), 6))
-    weights, peak = np.zeros((3, 12)), np.array([0.4, 0.3, WIDTHS[18]])
+    weights, peak = np.zeros((3, TERMS)), np.array([0.4, 0.3, WIDTHS[18]])
     weights[0, :2] = -0.3, 0.25
     hairs = texels * factor(lights, eyes, np.zeros(2), MIDDLE, weights) * surge(lights, eyes, peak)[:, None]
     law = fit_pairs(Pairs(lights, eyes, hairs, texels, 1 / hairs.sum(-1)), np.zeros(2))
@@ -162,7 +163,7 @@ def test_numbers_mend_what_eyes_aside_see(small: Small) -> None:
         (hairs, all_hairs), (texels, all_texels) = (of.towards(eye, np.arange(len(lights))) for of in (lit, shown))
         pairs = lights, np.repeat(eye[None], len(lights), 0)
         told = factor(*pairs, fine.drift[-1] / fine.height, MIDDLE, law.weights) * surge(*pairs, law.surge)[:, None]
-        seen = hairs.sum(-1) / all_hairs
+        seen = hairs.sum(-1) / all_hairs.sum()
         before.append(np.abs(np.log(texels.sum(-1) / all_texels / seen)))
         after.append(np.abs(np.log((texels * told).sum(-1) / all_texels / seen)))
     assert np.mean(after) < 0.4 * np.mean(before)
@@ -203,16 +204,24 @@ def test_a_bake_stores_them_beside_mean_curves(tmp_path: Path, tiny: BakeOptions
 def test_stored_and_read_back(tmp_path: Path, make_pelt: Callable[..., Pelt]) -> None:
     surface = builtin("plane")
     charts, fur = surface.natural.charts(1.0), VertexFur.even(len(surface.vertices))
-    numbers = np.round(np.random.default_rng(1).normal(size=(3, 12)), 3)
+    numbers, of_fins = np.round(np.random.default_rng(1).normal(size=(2, 3, TERMS)), 3)
+    of_fins[:, 12:] = 0
     peak = np.array([0.25, -0.125, 0.0625])
-    write_gltf(
-        tmp_path, FurModel(surface, charts, fur, (replace(make_pelt(), eye=numbers, surge=peak, spread=0.25),), 0.5)
-    )
+    made = replace(make_pelt(), eye=numbers, fin_eye=of_fins, surge=peak, spread=0.25)
+    write_gltf(tmp_path, FurModel(surface, charts, fur, (made,), 0.5))
+    shorten(tmp_path, "finEye")
     pelt = read_pelt(read_asset(tmp_path))
     np.testing.assert_array_equal(pelt.eye, numbers)
+    np.testing.assert_array_equal(pelt.fin_eye, of_fins)
     np.testing.assert_array_equal(pelt.surge, peak)
     assert pelt.spread == 0.25
-    document = json.loads((tmp_path / "model.gltf").read_text("utf-8"))
-    document["extensions"][EXTENSION]["eye"].pop()
-    (tmp_path / "model.gltf").write_text(json.dumps(document), "utf-8")
+    shorten(tmp_path, "eye", 11)
     assert any("eye" in problem for problem in validate(tmp_path))
+
+
+def shorten(folder: Path, name: str, terms: int = 12) -> None:
+    """Leave the first terms of a stored law."""
+    document = json.loads((folder / "model.gltf").read_text("utf-8"))
+    fur = document["extensions"][EXTENSION]
+    fur[name] = [row[:terms] for row in fur[name]]
+    (folder / "model.gltf").write_text(json.dumps(document), "utf-8")

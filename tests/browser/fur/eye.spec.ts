@@ -12,7 +12,7 @@ declare const stage: Stage;
 type Vector = [number, number, number];
 
 const golden = 'tests/golden/ptm-6-curves';
-const zeros = () => [0, 1, 2].map(() => new Array<number>(12).fill(0));
+const zeros = () => [0, 1, 2].map(() => new Array<number>(16).fill(0));
 const dot = (a: Vector, b: Vector) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
 /** T, B and N of skin that is turned against the plane, in the plane's own axes: it is seen along the third. */
@@ -71,6 +71,7 @@ test('every number meets its term and power of the height', async ({ page }) => 
 		1 - v[2] ** 2,
 	];
 	const terms = [q, a, q * b, p * b, q * z, q * b * b, p, a * a, p * a * b, q * p, q * b * z, q * a * b];
+	terms.push(a * z, p * z, q * z * z, q * p * b);
 	const s = 3.5 / 4;
 	// One number by itself, such that the light is 1.25 times what it was.
 	const laws = terms.map((term, f) => {
@@ -124,4 +125,20 @@ test('a fin has no surge, and shows at most what an upright hair sends back to a
 	const mean = steps.reduce((sum, phi) => sum + Math.sin(phi) + (Math.PI - phi) * Math.cos(phi), 0) / 1000;
 	expect((most ?? 0) / (plain ?? 1)).toBeCloseTo(Math.PI / mean, 2);
 	expect((surging ?? 0) / (plain ?? 1)).toBeCloseTo(1, 3);
+});
+
+test('a fin with numbers of its own shows light by them, and its eye is on the horizon', async ({ page }) => {
+	const open = await openEyes(page);
+	const [finEye, bright] = [zeros(), zeros()];
+	if (finEye[0] && bright[0]) [finEye[0][0], bright[0][0]] = [0.25, 2];
+	const urls = await open([{ eye: zeros() }, { eye: bright, finEye }]);
+	for (const tilt of [0, 0.1]) {
+		const [plain = 0, own = 0] = await Promise.all(
+			urls.map(async (url) => {
+				const { light } = await page.evaluate(([u, t]) => stage.fin(u, [[0, 0.6, 0.8]], t), [url, tilt] as const);
+				return floats(light).reduce((sum, one) => sum + (one > 0 ? one : 0), 0);
+			}),
+		);
+		expect(own / plain, `${tilt}`).toBeCloseTo(1.25, 3);
+	}
 });

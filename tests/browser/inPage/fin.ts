@@ -54,9 +54,10 @@ export const finStage = {
 	/**
 	 * The only fin of an asset, one tile wide over the origin in the plane z = 0, under each of the lights.
 	 *
+	 * @param tilt of the fin about its root, radians
 	 * @returns L and coverage, [light, row, column], rows from root to tip
 	 */
-	async fin(url: string, lights: number[][]): Promise<{ light: string; alpha: string }> {
+	async fin(url: string, lights: number[][], tilt = 0): Promise<{ light: string; alpha: string }> {
 		const fur = await loadFur(url);
 		const { fins, asset } = fur;
 		const fin = asset.pelts[0]?.fin;
@@ -64,9 +65,9 @@ export const finStage = {
 		const scene = new Scene();
 		const lamp = new DirectionalLight(0xffffff, 4 * Math.PI);
 		scene.add(fins, lamp);
+		fins.rotation.x = tilt;
 		fins.material.blending = NoBlending;
 		fur.material.contrast = 1;
-		fins.material.finLength = 1;
 		const camera = new OrthographicCamera(-0.5, 0.5, asset.length, 0, 0.1, 10);
 		camera.position.z = 5;
 		const target = new WebGLRenderTarget(fin.width, fin.height, { type: FloatType });
@@ -121,7 +122,6 @@ export const finStage = {
 		scene.add(fins, lamp);
 		fins.material.blending = NoBlending;
 		fur.material.contrast = 1;
-		fins.material.finLength = 1;
 		const tall = fur.shells.material.furLength;
 		const camera = new OrthographicCamera(-0.5, 0.5, tall, 0, 0.1, 10);
 		camera.position.z = 5;

@@ -7,7 +7,7 @@ const way = (around: number, up: number): Way => {
 };
 const above: Way = [0, 0, 1];
 const rows = (weights: Record<number, [number, number, number]>) =>
-	[0, 1, 2].map((row) => Array.from({ length: 12 }, (_, f) => weights[f]?.[row] ?? 0));
+	[0, 1, 2].map((row) => Array.from({ length: 16 }, (_, f) => weights[f]?.[row] ?? 0));
 
 describe('the law of light and eye', () => {
 	it('has the terms of the bake, in its order', () => {
@@ -15,13 +15,15 @@ describe('the law of light and eye', () => {
 			[0.6, 0, 0.8],
 			[0.36, 0.48, 0.8],
 		];
-		// q, a, q·b, p·b, q·z, q·b², p, a², p·a·b, a·z, q·b·z, q·a·b with a = .216, b = .6, p = .36, z = .8, q = .36.
-		const terms = [0.36, 0.216, 0.216, 0.216, 0.288, 0.1296, 0.36, 0.046656, 0.046656, 0.1728, 0.1728, 0.046656];
+		// q, a, q·b, p·b, q·z, q·b², p, a², p·a·b, q·p, q·b·z, q·a·b, a·z, p·z, q·z², q·p·b with a = .216, b = .6, p = .36, z = .8, q = .36.
+		const terms = [0.36, 0.216, 0.216, 0.216, 0.288, 0.1296, 0.36, 0.046656, 0.046656, 0.1296, 0.1728, 0.046656];
+		terms.push(0.1728, 0.288, 0.2304, 0.07776);
+		expect(termsOf(light, eye)).toHaveLength(terms.length);
 		for (const [f, term] of termsOf(light, eye).entries()) expect(term, `term ${f}`).toBeCloseTo(terms[f] ?? 0, 10);
 	});
 
 	it('is 1 straight above, whatever the numbers', () => {
-		const numbers = [0, 1, 2].map((row) => Array.from({ length: 12 }, (_, f) => Math.sin(5 * row + f)));
+		const numbers = [0, 1, 2].map((row) => Array.from({ length: 16 }, (_, f) => Math.sin(5 * row + f)));
 		for (const light of [above, way(40, 10), way(200, 60)])
 			expect(factorOf(numbers, light, above, 0.7)).toBeCloseTo(1, 10);
 	});

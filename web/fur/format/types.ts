@@ -151,9 +151,9 @@ export interface FurAsset {
 	drift: [number, number][];
 	/** Light on bent hairs: rows for 1, s and s², in each the weights of eight terms; absent: weights for any fur. */
 	bent?: number[][];
-	/** Light seen from aside: rows for 1, s and s², in each the weights of twelve terms. */
+	/** Light seen from aside: rows for 1, s and s², in each the weights of sixteen terms, of which the last four may be missing. */
 	eye?: number[][];
-	/** The same for fins, which any eye sees as one on the horizon does; without it that of the shells. */
+	/** The same for fins, which any eye sees as one on the horizon does; without it they go by `eye`. */
 	finEye?: number[][];
 	/** Surge of light of a lamp beside the eye: excess seen from above, further excess from aside, width in radians. */
 	surge?: [number, number, number];

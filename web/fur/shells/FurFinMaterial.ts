@@ -11,7 +11,7 @@ import { morphUniforms } from './parts/morphs.ts';
 
 /** Properties that a FurFinMaterial has beside those of every material. */
 export interface FurFinMaterialParameters extends ShaderMaterialParameters {
-	/** Height of the fins over the fur's beside them, a factor: hairs that stand out make the outline. */
+	/** Height of the fins over the fur's beside them, a factor. */
 	finLength?: number;
 	/** Factor of their coverage, 0..1. */
 	finOpacity?: number;

@@ -62,6 +62,14 @@ class Basis:
     def coefficients(self) -> int:
         return PTM_TERMS if self.matrix is None else len(self.matrix)
 
+    @property
+    def constant(self) -> int | None:
+        """Coefficient of the function 1, where there is one."""
+        if self.matrix is None:
+            return PTM_TERMS - 1
+        found = np.flatnonzero((self.matrix[:, 0] == 1) & ~self.matrix[:, 1:].any(1))
+        return int(found[0]) if len(found) else None
+
 
 PTM = Basis("ptm")
 

@@ -4,11 +4,19 @@ import { eyeUniforms, surgeShare } from '../../../../web/fur/light/eye.ts';
 
 describe('eyeUniforms', () => {
 	it('puts four numbers in a vector, row after row', () => {
-		const eye = [0, 1, 2].map((row) => Array.from({ length: 12 }, (_, i) => 12 * row + i));
+		const eye = [0, 1, 2].map((row) => Array.from({ length: 16 }, (_, i) => 16 * row + i));
 		const uniforms = eyeUniforms([{ eye, surge: [0.3, 0.2, 0.1] }]);
 		const vectors = uniforms.eye?.value as Vector4[];
 		expect(vectors.flatMap((vector) => vector.toArray())).toEqual(eye.flat());
 		expect(uniforms.surge?.value.toArray()).toEqual([0.3, 0.2, 0.1, surgeShare(0.1)]);
+	});
+
+	it('reads terms that are missing as 0, of shells and fins', () => {
+		const eye = [0, 1, 2].map((row) => Array.from({ length: 12 }, (_, i) => 1 + 12 * row + i));
+		const { finEye } = eyeUniforms([{ eye, finEye: eye }]);
+		const vectors = finEye?.value as Vector4[];
+		expect(vectors.flatMap((vector) => vector.toArray())).toEqual(eye.flatMap((row) => [...row, 0, 0, 0, 0]));
+		expect(eyeUniforms([{ eye }]).finEye).toBeUndefined();
 	});
 
 	it("knows the surge's share of a half sphere", () => {
@@ -22,7 +30,7 @@ describe('eyeUniforms', () => {
 	});
 
 	it('has no surge where none was baked, and nothing without a law', () => {
-		const eye = [0, 1, 2].map(() => new Array<number>(12).fill(0));
+		const eye = [0, 1, 2].map(() => new Array<number>(16).fill(0));
 		expect(eyeUniforms([{ eye }]).surge?.value.x).toBe(0);
 		expect(eyeUniforms([{}])).toEqual({});
 	});
