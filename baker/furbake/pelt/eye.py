@@ -42,7 +42,7 @@ TERMS = 16
 SIZE = 32
 """Texels a side for which numbers are found: larger tiles of the same hairs have much the same."""
 
-EYE_HEIGHTS, LIGHT_HEIGHTS = (0.85, 0.5, 0.12), (0.9, 0.6, 0.3, 0.05, -0.25)
+EYE_HEIGHTS, LIGHT_HEIGHTS = (0.85, 0.5, 0.12), (0.9, 0.6, 0.3, 0.05, -0.1, -0.25)
 """v·n and l·n of the rings of eyes and lights that the fit sees beside those straight above."""
 
 NEAR_HEIGHTS, NEAR_ANGLES = (0.95, 0.6, 0.25), (0, 5, 12, 20)
@@ -66,11 +66,8 @@ SPOKES = 5
 LIGHT_HEIGHTS_FLAT = (0.9, 0.6, 0.3, 0.15)
 """`LIGHT_HEIGHTS` of flat fur, which has no end: light along it reaches nothing."""
 
-FAINT = 0.1
+FAINT = 0.05
 """Share of the greatest brightness that is added to the scale of relative errors."""
-
-GRAZING = 0.25
-"""Power of n·v by which pairs on bodies count, which show little of what is seen at a grazing angle."""
 
 EACH_SLAB = 0.6
 """Weight of a slab's own error beside that of the sum of them."""
@@ -153,7 +150,7 @@ def fit_eye(pelt: Pelt, strands: Strands, coat: Coat, *, flat: bool = False) -> 
         np.concatenate(texels),
         np.repeat([1.0] * len(far) + [NEAR_WEIGHT] * len(near), count),
     )
-    return None if not pairs.hairs.max() > 0 else fit_pairs(pairs.counted(flat), lean)
+    return None if not pairs.hairs.max() > 0 else fit_pairs(pairs.counted(), lean)
 
 
 @dataclass(frozen=True)
@@ -169,11 +166,10 @@ class Pairs:
     texels: Array
     weight: Array
 
-    def counted(self, flat: bool) -> Pairs:
-        """The same with weights for relative errors; flat fur is seen from everywhere alike."""
+    def counted(self) -> Pairs:
+        """The same with weights for relative errors."""
         whole = self.hairs.sum(-1)
-        weight = self.weight / (whole + FAINT * whole.max())
-        return replace(self, weight=weight if flat else weight * self.eyes[:, 2] ** GRAZING)
+        return replace(self, weight=self.weight / (whole + FAINT * whole.max()))
 
 
 def fit_pairs(pairs: Pairs, lean: Array) -> EyeLaw:
