@@ -26,7 +26,15 @@ export function fursOf({ regions, ...coat }: FurAsset): [FurAsset, ...FurAsset[]
 		coat,
 		...furs.map(
 			({ name: _, tile: __, ...own }) =>
-				({ ...coat, eye: undefined, finEye: undefined, surge: undefined, spread: undefined, bent: undefined, ...own }) as FurAsset,
+				({
+					...coat,
+					eye: undefined,
+					finEye: undefined,
+					surge: undefined,
+					spread: undefined,
+					bent: undefined,
+					...own,
+				}) as FurAsset,
 		),
 	];
 }

@@ -87,9 +87,8 @@ def terms(lights: Array, eyes: Array, lean: Array) -> Array:
     light, eye = np.broadcast_arrays(*(held(way.reshape(-1, 3)).reshape(way.shape) for way in (lights, eyes)))
     a, z = (light[..., :2] * eye[..., :2]).sum(-1), light[..., 2]
     b, p, q = light[..., :2] @ m, eye[..., :2] @ m, 1 - eye[..., 2] ** 2
-    each = (q, a, q * b, p * b, q * z, q * b * b, p, a * a, p * a * b, q * p, q * b * z, q * a * b)
-    each += (a * z, p * z, q * z * z, q * p * b)
-    return np.stack(each, -1)
+    first = (q, a, q * b, p * b, q * z, q * b * b, p, a * a, p * a * b, q * p, q * b * z, q * a * b)
+    return np.stack([*first, a * z, p * z, q * z * z, q * p * b], -1)
 
 
 def factor(lights: Array, eyes: Array, lean: Array, s: Array, numbers: Array) -> Array:

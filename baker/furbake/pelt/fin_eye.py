@@ -1,8 +1,8 @@
 """The law of light and eye for fins, which are seen from the side alone.
 
-Fins stand where the skin turns away from the eye, so that any eye is on their horizon: of the terms of `eye.terms`, with
-q = 1, there are numbers for fins of their own. They bring the fins' mean light, height by height, to what the hairs of
-the fine volume send to a level eye; a fin's texels are lit as an eye straight above sees them.
+Fins stand where the skin turns away from the eye, so that any eye is on their horizon. Their own weights of `eye.terms`
+bring the mean light of their texels, height by height, to what the hairs of the fine volume send to a level eye; the
+texels are lit as an eye straight above sees them.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from furbake.pelt.eye import FAINT, LIGHT_HEIGHTS, SIZE, rings, solve, terms
 from furbake.pelt.fin import overlap, polynomial, row_means
 from furbake.pelt.hairs.strands import Coat, Strands
 from furbake.pelt.hairs.volume import fine_shape, voxelise
-from furbake.pelt.pelt import Pelt
+from furbake.pelt.pelt import FinPelt, Pelt
 from furbake.pelt.seen import DARK, LitHairs
 from furbake.pelt.texels.fit import relight
 
@@ -30,13 +30,13 @@ HIDDEN = 0.1
 """Share of the mean slab that is added to what is seen of each: deep ones hardly are, and have a sound light, too."""
 
 
-def fit_fin_eye(pelt: Pelt, strands: Strands, coat: Coat) -> Array:
-    """Weights (3, 16) of the law for the fins of this dry fur, for s⁰, s¹, s². The pelt has fins and mean curves."""
+def fit_fin_eye(pelt: Pelt, fin: FinPelt, strands: Strands, coat: Coat) -> Array:
+    """Weights (3, 16) of the law for the fins of this dry fur, for s⁰, s¹, s². The pelt has mean curves."""
     size, layers = min(pelt.size, SIZE), pelt.layers
     fine = voxelise(strands, pelt.height, *fine_shape(layers, size, pelt.height), coat.opacity)
     lights, azimuth = rings(LIGHT_HEIGHTS, SPOKES), np.radians(EYES)
     eyes = np.stack([np.cos(azimuth), np.sin(azimuth), np.zeros_like(azimuth)], -1)
-    lit, light = LitHairs(fine, layers, size, lights, coat), fin_light(pelt, lights)
+    lit, light = LitHairs(fine, layers, size, lights, coat), fin_light(pelt, fin, lights)
     hairs, texels = [], []
     for eye in eyes:
         sent, seen = lit.towards(eye, np.arange(len(lights)))
@@ -51,12 +51,9 @@ def fit_fin_eye(pelt: Pelt, strands: Strands, coat: Coat) -> Array:
     return np.round(solve(wanted, np.concatenate(texels), found, 1 / (whole + FAINT * whole.max())), 3)
 
 
-def fin_light(pelt: Pelt, lights: Array) -> Array:
+def fin_light(pelt: Pelt, fin: FinPelt, lights: Array) -> Array:
     """Mean L of a fin's texels at the heights of the slabs, lights (n, 3) in the tile's frame → (n, K)."""
-    fin = pelt.fin
-    assert fin is not None
-    rows = len(fin.alpha)
-    alpha = fin.alpha / 255
+    rows, alpha = len(fin.alpha), fin.alpha / 255
     light = relight(fin.values, polynomial, lights, row_means(pelt, rows, lights))
     means = (light * alpha).sum(-1) / np.maximum(alpha.sum(-1), 1e-9)
     return np.asarray(means @ overlap(rows, pelt.layers).T)

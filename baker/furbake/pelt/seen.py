@@ -60,7 +60,7 @@ class LitHairs:
         self.arriving = between_hairs(slabs, light, albedo=coat.albedo, skin=skin)
 
     def towards(self, eye: Array, some: NDArray[np.intp]) -> tuple[Array, Array]:
-        """Light of the slabs towards an eye under `some` of the lights, (m, K), and what it sees of their hairs, (K,)."""
+        """Light of the slabs towards an eye under `some` of the lights, (m, K), and what it sees of their hairs."""
         clear, hairs = self.beam.reach(eye)[0], Cylinders(self.beam.along(eye))
         depth = -np.log(np.maximum(clear, DARK))
         see = clear * self.beam.breadth * np.maximum(hairs.sin_view, THINNEST) * np.float32(self.beam.slab)

@@ -95,8 +95,8 @@ class Tile:
             (replace(pelt, fin=fin), figures | {"fin": found})
             for (pelt, figures), (fin, found) in zip(fitted, sides, strict=True)
         ]
-        if pelt.eye is not None and not self.options.flat:
-            pelt = replace(pelt, fin_eye=fit_fin_eye(pelt, self.strands, self.options.coat))
+        if pelt.fin is not None and pelt.eye is not None and not self.options.flat:
+            pelt = replace(pelt, fin_eye=fit_fin_eye(pelt, pelt.fin, self.strands, self.options.coat))
         return [(pelt, figures), *others]
 
     def _volume(self, fur: Fur, dry: Volume) -> Volume:

@@ -35,10 +35,11 @@ def test_numbers_bring_fins_to_the_hairs_that_level_eyes_see(baked: tuple[Tile, 
     """Under lights that no fit has seen, with the law of shells and with that of fins; twice the same numbers."""
     tile, ((pelt, _),) = baked
     assert pelt.eye is not None
+    assert pelt.fin is not None
     assert pelt.fin_eye is not None
     fine = voxelise(tile.strands, pelt.height, *fine_shape(6, 16, pelt.height), SMALL.coat.opacity)
     lights, along = rings((0.75, 0.45, 0.15), 6, 0.7)[1:], np.array([0.0, 1.0])
-    lit, light = LitHairs(fine, 6, 16, lights, SMALL.coat), fin_light(pelt, lights)
+    lit, light = LitHairs(fine, 6, 16, lights, SMALL.coat), fin_light(pelt, pelt.fin, lights)
     off: dict[str, list[float]] = {"eye": [], "fin_eye": []}
     for side in (1.0, -1.0):
         eye = np.array([side, 0.0, 0.0])
@@ -49,7 +50,7 @@ def test_numbers_bring_fins_to_the_hairs_that_level_eyes_see(baked: tuple[Tile, 
             found.append(float(np.sqrt(np.mean(np.log(ratio) ** 2))))
     assert np.mean(off["fin_eye"]) < 0.25
     assert np.mean(off["fin_eye"]) < 0.75 * np.mean(off["eye"])
-    np.testing.assert_array_equal(fit_fin_eye(pelt, tile.strands, SMALL.coat), pelt.fin_eye)
+    np.testing.assert_array_equal(fit_fin_eye(pelt, pelt.fin, tile.strands, SMALL.coat), pelt.fin_eye)
 
 
 @pytest.mark.parametrize(("changed", "there"), [({}, True), ({"curves": "none"}, False), ({"fins": False}, False)])

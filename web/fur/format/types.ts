@@ -187,7 +187,10 @@ export interface FurAsset {
 
 /** Fur of a region of a body; the rest is as of the coat. */
 export interface RegionFur
-	extends Pick<FurAsset, 'height' | 'curves' | 'drift' | 'bent' | 'eye' | 'finEye' | 'surge' | 'spread' | 'ramp' | 'pelts'> {
+	extends Pick<
+		FurAsset,
+		'height' | 'curves' | 'drift' | 'bent' | 'eye' | 'finEye' | 'surge' | 'spread' | 'ramp' | 'pelts'
+	> {
 	/** Name of the region. */
 	name: string;
 	/** Width of its tile over that of the coat's. */
