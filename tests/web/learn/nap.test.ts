@@ -15,7 +15,7 @@ describe('the law of light and eye', () => {
 			[0.6, 0, 0.8],
 			[0.36, 0.48, 0.8],
 		];
-		// q, a, q·b, p·b, q·z, q·b², p, a², p·a·b, q·p, q·b·z, q·a·b, a·z, p·z, q·z², q·p·b with a = .216, b = .6, p = .36, z = .8, q = .36.
+		// In the order that `termsOf` tells, with a = .216, b = .6, p = .36, z = .8, q = .36.
 		const terms = [0.36, 0.216, 0.216, 0.216, 0.288, 0.1296, 0.36, 0.046656, 0.046656, 0.1296, 0.1728, 0.046656];
 		terms.push(0.1728, 0.288, 0.2304, 0.07776);
 		expect(termsOf(light, eye)).toHaveLength(terms.length);

@@ -8,7 +8,10 @@ export type Way = readonly [number, number, number];
 /** Smallest factor. */
 const MIN_FACTOR = 0.1;
 
-/** [q, a, q·b, p·b, q·z, q·b², p, a², p·a·b, q·p, q·b·z, q·a·b, a·z, p·z, q·z², q·p·b] of a light and an eye; neither is below the horizon. */
+/**
+ * [q, a, q·b, p·b, q·z, q·b², p, a², p·a·b, q·p, q·b·z, q·a·b, a·z, p·z, q·z², q·p·b] of a light and an eye; neither is below
+ * the horizon.
+ */
 export function termsOf(light: Way, eye: Way): number[] {
 	const a = light[0] * eye[0] + light[1] * eye[1];
 	const [b, p, z, q] = [light[0], eye[0], light[2], 1 - eye[2] ** 2];
