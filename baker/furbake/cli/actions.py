@@ -167,6 +167,10 @@ def run_groom(args: SimpleNamespace) -> int:
 
 def run_verify(args: SimpleNamespace) -> int:
     """Compare a bake with a path tracer."""
+    for other in ("body", "beside", "groom", "out"):
+        if args.eyes and getattr(args, other):
+            flag = "-o" if other == "out" else f"--{other}"
+            raise OptionError(f"verify: got --eyes and {flag}, expected --eyes alone: it draws no picture")
     picture = Path(args.out) if args.out else None
     if args.body:
         return _verify_body(args, picture)

@@ -141,6 +141,8 @@ BAD_COMMANDS = {
     ("swatch", "nope", "-o", "x.png", "--light", "1,2"): "light: got '1,2', expected three numbers X,Y,Z",
     ("report", "nope"): "nope: no such folder, expected a folder that furbake wrote",
     ("verify", "nope"): "nope: no such folder, expected a folder that furbake wrote",
+    ("verify", "nope", "--eyes", "-o", "x.png"): "verify: got --eyes and -o, expected --eyes alone: it draws no picture",
+    ("verify", "nope", "--body", "--eyes"): "verify: got --eyes and --body, expected --eyes alone",
     ("compare", "cat"): "preset: got 'cat', expected one of",
     ("compare", "paper", "--lights", "3"): "lights: got 3, expected 8 to 1024",
     ("compare", "paper", "--size", "60"): "size: got 60, expected a power of two",

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import gaussian_filter, map_coordinates
 from scipy.spatial import cKDTree
 
 Array = NDArray[np.float64]
@@ -79,6 +78,8 @@ def spread_out(points: Array, radius: Array, bend: Array, reach: float) -> Array
     A pit shows the tile's repeat first. bend : (P,) share of a tip's displacement along the hair;
     reach : how far crowding is felt, tile widths; tufts are smaller and stay.
     """
+    from scipy.ndimage import gaussian_filter, map_coordinates  # noqa: PLC0415 — 0.3 s, for this alone
+
     n, points = EVENING_GRID, points.copy()
     upper = radius * (points[..., 2] > 0.45 * points[..., 2].max())
     for _ in range(EVENING_ROUNDS):

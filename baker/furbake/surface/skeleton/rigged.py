@@ -6,7 +6,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 from scipy.spatial.transform import Rotation
 
 from furbake.surface.mesh import MeshError, Surface
@@ -113,6 +112,8 @@ def _slopes(times: Floats, values: Floats) -> Floats:
     """(K, n) change per second at the keys of a curve without overshoot, which closes where its ends are equal."""
     if len(times) < 2:
         return np.zeros_like(values)
+    from scipy.interpolate import PchipInterpolator  # noqa: PLC0415 — 0.1 s, for this alone
+
     if len(times) > 2 and np.abs(values[0] - values[-1]).max() <= LOOPS * max(np.abs(values).max(), 1e-300):
         span = times[-1] - times[0]
         times = np.concatenate([[times[-2] - span], times, [times[1] + span]])
