@@ -170,7 +170,7 @@ def run_verify(args: SimpleNamespace) -> int:
     for other in ("body", "beside", "groom", "out"):
         if args.eyes and getattr(args, other):
             flag = "-o" if other == "out" else f"--{other}"
-            raise OptionError(f"verify: got --eyes and {flag}, expected --eyes alone: it draws no picture")
+            raise OptionError(f"verify: got --eyes and {flag}, expected --eyes alone")
     picture = Path(args.out) if args.out else None
     if args.body:
         return _verify_body(args, picture)

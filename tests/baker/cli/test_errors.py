@@ -147,7 +147,7 @@ BAD_COMMANDS = {
         "--eyes",
         "-o",
         "x.png",
-    ): "verify: got --eyes and -o, expected --eyes alone: it draws no picture",
+    ): "verify: got --eyes and -o, expected --eyes alone",
     ("verify", "nope", "--body", "--eyes"): "verify: got --eyes and --body, expected --eyes alone",
     ("compare", "cat"): "preset: got 'cat', expected one of",
     ("compare", "paper", "--lights", "3"): "lights: got 3, expected 8 to 1024",
