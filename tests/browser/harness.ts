@@ -48,7 +48,7 @@ export function state(page: Page): Promise<string | undefined> {
 /** Opens the demo and waits until it shows its first whole picture, or fails. */
 export async function open(page: Page, query: string, address = site): Promise<void> {
 	await page.goto(address + query);
-	await page.waitForFunction(() => document.documentElement.dataset.state !== 'loading', null, { timeout: 60_000 });
+	await page.waitForFunction(() => document.documentElement.dataset.state !== 'loading', null, { timeout: 120_000 });
 }
 
 /** A parameter of the address, when the page has written its last word there. */

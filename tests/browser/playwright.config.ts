@@ -21,10 +21,11 @@ export default defineConfig({
 	workers: 2,
 	fullyParallel: false,
 	forbidOnly: Boolean(process.env.CI),
-	timeout: 90_000,
+	// A machine may be several times as slow as another, and its software rasteriser with it.
+	timeout: 240_000,
 	// A browser that hangs says nothing of the page; the last line of the run tells what passed at the second try.
 	retries: 1,
-	expect: { timeout: 30_000 },
+	expect: { timeout: 90_000 },
 	reporter: 'list',
 	use: {
 		// Every pixel of a frame is drawn by the processor.

@@ -238,7 +238,7 @@ test('the bunny’s head turns to the lamp while its clip is held, and rests the
 	page,
 }) => {
 	await shrinkPicture(page, 160, 120, [0, 100], '#hint, #notices, #overlay .graphs');
-	await open(page, '?shells=2&planes=64&light=-1,0.2,0.3&time=0');
+	await open(page, '?shells=2&fins=0&planes=64&light=-1,0.2,0.3&time=0');
 	const shot = async () => {
 		await expect(figures(page)).toContainText('at rest');
 		return page.locator('#picture').screenshot();

@@ -61,7 +61,6 @@ test('a lost context comes back while frames run, and the page goes on', async (
 });
 
 test('50 rounds of loading and disposing leave the GPU as many objects as before', async ({ page }) => {
-	test.setTimeout(200_000);
 	await page.setViewportSize({ width: 900, height: 500 });
 	// Objects are counted where they are made, whatever is drawn with them.
 	await drawNothing(page);

@@ -90,7 +90,6 @@ const states: [query: string, steps: [name: string, value: string | boolean][]][
 ];
 
 test('every control changes the picture, and every state comes back from its link', async ({ page }) => {
-	test.setTimeout(240_000);
 	await makeSmall(page);
 	await open(page, '?model=torus-512&still=1');
 	const first = await shot(page);

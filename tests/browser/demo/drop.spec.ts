@@ -91,7 +91,6 @@ test('what is dropped or chosen is shown, or a sentence says why not and the mod
 	page,
 	watch,
 }) => {
-	test.setTimeout(180_000);
 	await page.addInitScript(() => {
 		const counts: Addresses = { made: 0, revoked: 0 };
 		const { createObjectURL, revokeObjectURL } = URL;

@@ -179,7 +179,7 @@ test('rain wets the fur under the brush, and there alone; the link says what it 
 		const [first, second] = compare(before, await shot(page), isIn).means;
 		return second / first;
 	};
-	await expect.poll(share, { intervals: [50], timeout: 60_000 }).toBeLessThan(0.8);
+	await expect.poll(share, { intervals: [50] }).toBeLessThan(0.8);
 	await page.mouse.up();
 	await away(page);
 	await frame(page);

@@ -68,7 +68,6 @@ test('a moving light uploads neither texture nor buffer', async ({ page }) => {
 });
 
 test('steady frames under a moving light allocate nothing', async ({ page }) => {
-	test.setTimeout(200_000);
 	// The page's own memory knows nothing of pixels.
 	await drawNothing(page);
 	await hasten(page);
@@ -78,7 +77,6 @@ test('steady frames under a moving light allocate nothing', async ({ page }) => 
 });
 
 test('frames of fur in the wind allocate nothing', async ({ page }) => {
-	test.setTimeout(200_000);
 	await hasten(page);
 	await openModule(page, site, served('tests/browser/inPage/breeze.ts'));
 	await page.evaluate((url) => loaded.blow(url), served('public/models/torus-512/model.gltf'));

@@ -42,7 +42,7 @@ test.afterEach(async () => {
 /** Opens a page that says by its state when it is ready. */
 async function open(query: string): Promise<void> {
 	await page.goto(site + query);
-	await page.waitForFunction(() => document.documentElement.dataset.state !== 'loading', { timeout: 60_000 });
+	await page.waitForFunction(() => document.documentElement.dataset.state !== 'loading', { timeout: 120_000 });
 	expect(await state()).toBe('ready');
 }
 
@@ -73,7 +73,7 @@ test('every figure of Learn is drawn, and a parabola is fitted by hand', async (
 	for (const figure of figures) {
 		await figure.evaluate((element) => element.scrollIntoView({ behavior: 'instant' }));
 		const drawn = () => figure.evaluate((element) => (element as HTMLElement).dataset.state);
-		await expect.poll(drawn, { timeout: 60_000 }).toMatch(/ready|failed/);
+		await expect.poll(drawn).toMatch(/ready|failed/);
 		expect(await drawn(), await figure.evaluate((element) => (element as HTMLElement).dataset.figure)).toBe('ready');
 	}
 	const own = () => page.$eval('[data-own]', (readout) => Number(readout.getAttribute('data-own')));
@@ -115,7 +115,7 @@ test('the tag is lit by drags, and each view has its own light', async () => {
 		await import(`${document.baseURI.replace(/[^/]*$/, '')}fur-view.js`);
 	});
 	const ready = () => (document.querySelector('fur-view') as { state?: string } | null)?.state === 'ready';
-	await page.waitForFunction(ready, { timeout: 60_000 });
+	await page.waitForFunction(ready, { timeout: 120_000 });
 	await expect.poll(async () => (([left, right]) => left - right)(await halves())).toBeGreaterThan(3);
 	await page.mouse.move(60, 45);
 	await page.mouse.down();

@@ -4,7 +4,6 @@ import type { Page } from '@playwright/test';
 import { expect, open, test } from '../harness.ts';
 import { changes, figure, show } from './figures.ts';
 
-test.setTimeout(60_000);
 test.use({ viewport: { width: 1100, height: 760 } });
 
 /** Opens the lesson with these figures alone. */

@@ -41,7 +41,6 @@ async function findings(page: Page): Promise<string[]> {
 for (const [file, query, width, height] of PAGES) {
 	for (const language of ['en', 'zh']) {
 		test(`axe finds nothing serious on ${file} in ${language}, in either scheme`, async ({ page }) => {
-			test.setTimeout(150_000);
 			// It looks at elements; no pixel of a picture is one.
 			await drawNothing(page);
 			await page.setViewportSize({ width, height });

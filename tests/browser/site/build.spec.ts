@@ -108,7 +108,7 @@ test('the built lesson shows its figures', async ({ page }) => {
 
 test('the built bench measures', async ({ page }) => {
 	await page.goto(`${host.address}bench.html?run=1&size=48x32&rounds=1&triangles=512&parts=results&methods=unlit,ptm`);
-	await expect.poll(() => state(page), { timeout: 60_000 }).toBe('done');
+	await expect.poll(() => state(page)).toBe('done');
 	await expect(page.locator('table').first()).toContainText('PTM');
 });
 

@@ -206,18 +206,17 @@ test('the example, built by another app, grows fur under the pointer as lamp', a
 		build: { modulePreload: { polyfill: false }, chunkSizeWarningLimit: 1200 },
 	});
 	host = await serveFolder(join(app, 'dist'), '/');
-	const slow = { timeout: 60_000 };
 	/** The picture once the model is in it. */
 	const shown = async () => {
 		await page.goto(host.address);
 		await page.locator('canvas').waitFor();
 		await page.mouse.move(20, 40);
-		await expect.poll(async () => covered(await picture(page)), slow).toBeGreaterThan(0.1);
+		await expect.poll(async () => covered(await picture(page))).toBeGreaterThan(0.1);
 		return picture(page);
 	};
 	const furry = await shown();
 	await page.mouse.move(220, 40);
-	await expect.poll(async () => difference(furry, await picture(page)), slow).toBeGreaterThan(2);
+	await expect.poll(async () => difference(furry, await picture(page))).toBeGreaterThan(2);
 
 	await page.route('**/model.gltf', async (route) => {
 		const { extensions: _, ...plain } = await (await route.fetch()).json();

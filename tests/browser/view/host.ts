@@ -67,7 +67,7 @@ export async function until(page: Page, state: FurView['state'], selector = 'fur
 	await page.waitForFunction(
 		([selector, state]) => document.querySelector<FurView>(selector as string)?.state === state,
 		[selector, state],
-		{ timeout: 60_000 },
+		{ timeout: 120_000 },
 	);
 }
 
