@@ -6,8 +6,8 @@ import json
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext
-from dataclasses import dataclass, field, replace
-from functools import cached_property
+from dataclasses import dataclass, field
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -17,27 +17,22 @@ from furbake.asset.regions.parted import chosen_fins
 from furbake.asset.regions.record import RegionFur, Regions, shaped
 from furbake.asset.rig.motion import Motion
 from furbake.asset.store import atomic_file, atomic_folder
+from furbake.beside import Beside
 from furbake.body.body import Body, prepare
 from furbake.identity import bake_key, describe_input, library_versions
 from furbake.imported.stored import write_strands
 from furbake.options import BakeOptions, OptionError
-from furbake.pelt.hairs.strands import Strands
-from furbake.pelt.hairs.volume import Volume
 from furbake.pelt.pelt import Pelt
 from furbake.surface.place.fins import Fins, build_fins
 from furbake.surface.rig.follow import follow
 from furbake.surface.roots.look import textured
 from furbake.surface.roots.picture import Roots, picture_of_roots
 from furbake.surface.shapes import is_builtin
-from furbake.tile.kept import KeptPelts
-from furbake.tile.lighting import Sampled, write_samples
-from furbake.tile.measured import measured_pelts
-from furbake.tile.tile import Fitted, Spread, Tile
+from furbake.tile.lighting import write_samples
+from furbake.tile.pelts import Pelts
+from furbake.tile.tile import Fitted, Spread
 
 STAGES = ("mesh", "strands", "volume", "light", "fit", "fins", "write")
-
-HEIGHT_DIGITS = 12
-"""Digits of a tile's height: bodies of other sizes have the same pelt."""
 
 Progress = Callable[[str, float], None]
 Notify = Callable[[str], None]
@@ -78,6 +73,7 @@ def bake(
     samples: Path | None = None,
     cache: Path | None = None,
     spread: Spread | None = None,
+    helped: bool = True,
     progress: Progress = lambda stage, fraction: None,
     notify: Notify = lambda notice: None,
 ) -> BakeResult:
@@ -86,6 +82,7 @@ def bake(
     samples : optional file for the physics itself, for others to check; the light is then sampled anew
     cache : optional folder of finished pelts: one of this very fur is taken from there, else kept there
     spread : who lets the light through the hairs, if not this process
+    helped : a second process does a part of a long bake, where several cores may be used
     progress : called with a stage of `STAGES` and the fraction of it that is done
     notify : called with each notice of the result once the mesh is read, before the light is sampled
 
@@ -94,19 +91,18 @@ def bake(
     options = options or BakeOptions()
     _check(options, samples, spread)
     clock = _Clock(progress)
-    with atomic_folder(out, force) as folder, atomic_file(samples) if samples else nullcontext() as archive:
+    archive_file = atomic_file(samples) if samples else nullcontext()
+    with atomic_folder(out, force) as folder, archive_file as archive, Beside(apart=helped) as beside:
         with clock.stage("mesh"):
             body = prepare(model, options)
         notices = (*body.skin.notices, *body.notices)
         given, options = options, body.dressed(options)
         for notice in notices:
             notify(notice)
-        coat = body.regions[0] if body.regions else None
-        height = body.length / body.tile if coat is None else coat.height
-        pelts = _Pelts(clock, options.of_tile(), height, cache, spread, body.strands)
-        others = [
-            _Pelts(clock, part.options.of_tile(), part.height, cache, spread, part.strands) for part in body.regions[1:]
-        ]
+        make = partial(Pelts, clock.stage, beside, cache, spread)
+        height = body.regions[0].height if body.regions else body.length / body.tile
+        pelts = make(options.of_tile(), height, body.strands)
+        others = [make(part.options.of_tile(), part.height, part.strands) for part in body.regions[1:]]
         fitted = pelts.fitted(anew=samples is not None)
         worn = [each.fitted(anew=False) for each in others]
         for notice in pelts.notices:
@@ -118,13 +114,11 @@ def bake(
                 worn = [each.with_fins(made) for each, made in zip(others, worn, strict=True)]
         with clock.stage("write"):
             record = _record(model, given, options, body, fitted) | _worn(body, worn)
-            furry = replace(
-                _furry(model, options, body, fitted, fins), regions=_regions(body, fitted[0][0], worn, quads)
-            )
+            furry = _furry(model, options, body, fitted, fins, _regions(body, fitted[0][0], worn, quads))
             record["asset"] = write_gltf(folder, furry, options.meshopt, cache)
-            for number, strands in enumerate((body.strands, *(part.strands for part in body.regions[1:]))):
-                if strands is not None:
-                    record["asset"]["bytes"] |= write_strands(folder, strands, number)
+            for number, each in enumerate((pelts, *others)):
+                if each.strands is not None:
+                    record["asset"]["bytes"] |= write_strands(folder, each.strands, number)
             (folder / "bake.json").write_text(json.dumps(record, indent=1) + "\n", "utf-8")
             if archive is not None:
                 write_samples(archive, pelts.sampled[0], pelts.tile.strands)
@@ -140,7 +134,9 @@ def _check(options: BakeOptions, samples: Path | None, spread: Spread | None) ->
         raise OptionError(f"samples: got {samples} beside a swatch, expected fur that is grown")
 
 
-def _furry(model: str, options: BakeOptions, body: Body, fitted: Fitted, fins: Fins | None) -> FurModel:
+def _furry(
+    model: str, options: BakeOptions, body: Body, fitted: Fitted, fins: Fins | None, regions: Regions | None
+) -> FurModel:
     """All that the folder shows."""
     return FurModel(
         skin=body.skin,
@@ -156,6 +152,7 @@ def _furry(model: str, options: BakeOptions, body: Body, fitted: Fitted, fins: F
         tinted=options.swatch is None,
         roots=_roots(body, options, fitted[0][0]),
         thinned=body.groom is not None,
+        regions=regions,
     )
 
 
@@ -165,67 +162,6 @@ def _roots(body: Body, options: BakeOptions, dry: Pelt) -> Roots | None:
     if options.colour == "vertex" or options.swatch is not None or not coloured:
         return None
     return picture_of_roots(body.skin, body.ground, body.charts, dry.drift[-1], options.size)
-
-
-class _Pelts:
-    """The pelts of a tile, made stage by stage or taken from a cache."""
-
-    def __init__(
-        self,
-        clock: _Clock,
-        options: BakeOptions,
-        height: float,
-        cache: Path | None,
-        spread: Spread | None,
-        strands: Strands | None = None,
-    ) -> None:
-        """options : of the tile; height : tile widths, of which the last bits vary from body to body.
-
-        strands : that are not grown of the options
-        """
-        self.spread, self.strands = spread, strands
-        self.clock, self.options, self.height = clock, options, float(f"{height:.{HEIGHT_DIGITS}g}")
-        self.kept = None if cache is None else KeptPelts(cache, options, self.height, strands)
-        self.sampled: list[Sampled] = []
-        self.notices: tuple[str, ...] = ()
-
-    @cached_property
-    def tile(self) -> Tile:
-        return Tile.grow(self.options, self.height, self.strands)
-
-    @cached_property
-    def dry(self) -> Volume:
-        return self.tile.dry_volume()
-
-    def fitted(self, *, anew: bool) -> Fitted:
-        """Pelts of all states, without fins; anew : whatever the cache has."""
-        if self.options.swatch is not None:
-            with self.clock.stage("fit"):
-                made, self.notices = measured_pelts(Path(self.options.swatch), self.options, self.height)
-            return made
-        found = self.kept.pelts() if self.kept is not None and not anew else None
-        if found is not None:
-            return found
-        with self.clock.stage("strands"):
-            tile = self.tile
-        with self.clock.stage("volume"):
-            dry = self.dry
-        with self.clock.stage("light") as step:
-            self.sampled = tile.sample(dry, step, self.spread)
-        with self.clock.stage("fit") as step:
-            fitted = tile.fit(self.sampled, step)
-        if self.kept is not None:
-            self.kept.keep_pelts(fitted)
-        return fitted
-
-    def with_fins(self, fitted: Fitted) -> Fitted:
-        """The same pelts with their fins."""
-        found = self.kept.with_fins(fitted) if self.kept is not None else None
-        if found is None:
-            found = self.tile.fit_fins(self.dry, fitted)
-            if self.kept is not None:
-                self.kept.keep_fins(found)
-        return found
 
 
 def _fins(body: Body, options: BakeOptions, dry: Sequence[Pelt]) -> tuple[Fins | None, tuple[int, ...]]:

@@ -55,7 +55,8 @@ def baked(job: Job, tell: Tell = lambda stage, fraction: None) -> Baked:
     start = time.perf_counter()
     while True:
         try:
-            result = bake(job.model, job.out, job.options, force=True, cache=job.cache, progress=tell)
+            # The batch counts the memory of this process.
+            result = bake(job.model, job.out, job.options, force=True, cache=job.cache, helped=False, progress=tell)
         except BusyError:
             if time.monotonic() > end:
                 raise

@@ -12,7 +12,7 @@ to c·H, c² = 1 − |d|². The law, for light from l with z = l·n, on fur that
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -44,6 +44,9 @@ BENDS = ((0.4, 45), (0.4, 225), (0.6, 135), (0.6, 315))
 
 LIGHTS, LIGHTS_UNBENT = 16, 32
 """Lights of the fit, and of the small unbent pelt that it makes for larger ones."""
+
+Unbent = tuple[Single, Array]
+"""L of unbent hairs under `LIGHTS_UNBENT` lights, (n, K, N, N), and their coverage, (K, N, N)."""
 
 RIDGE = 1e-3
 """Regularisation, share of the diagonal: terms that the bends hardly determine stay small."""
@@ -99,32 +102,48 @@ def bent(strands: Strands, height: float, tip: Array, opacity: float, layers: in
     return voxelise(replace(strands, points=points), height * rise, slabs, fine, opacity * rise, aside)
 
 
-def fit_bends(
-    pelt: Pelt, strands: Strands, coat: Coat, step: Callable[[float], None] = lambda fraction: None
-) -> Array | None:
-    """The 24 numbers of the law for a pelt of these hairs, (3, 8) for s⁰, s¹, s²; None where its texels are black."""
-    layers, size, height = pelt.layers, min(pelt.size, SIZE), pelt.height
-    basis = pelt.basis
-    lean = pelt.drift[-1] / height
+def tips_of(lean: Array) -> Array:
+    """Displacements of the tips of `BENDS`, shares of the length, (n, 2)."""
+    turn = np.arctan2(*lean_direction(lean)[::-1]) + np.radians([azimuth for _, azimuth in BENDS])
+    return np.asarray([share for share, _ in BENDS] * np.array([np.cos(turn), np.sin(turn)])).T
+
+
+def bent_light(strands: Strands, coat: Coat, height: float, layers: int, size: int, tip: Array) -> Single:
+    """L of hairs that are bent under `LIGHTS` lights, (n, K, N, N), for `fit_bends`.
+
+    layers, size : of the pelt; tip : as of `bent`
+    """
+    few = min(size, SIZE)
+    volume = bent(strands, height, tip, coat.opacity, layers, few)
+    return sample(volume, layers, few, hemisphere(LIGHTS, turn=0.5), Setting(coat.albedo, coat.skin))
+
+
+def unbent_light(strands: Strands, coat: Coat, height: float, layers: int, size: int) -> Unbent | None:
+    """The same hairs upright, for a pelt of more texels than the fit takes; None where it has no more."""
+    if size <= SIZE:
+        return None
+    fine = voxelise(strands, height, *fine_shape(layers, SIZE, height), coat.opacity)
+    seen = sample(fine, layers, SIZE, hemisphere(LIGHTS_UNBENT), Setting(coat.albedo, coat.skin))
+    return seen, shown_slabs(fine, strands, layers, SIZE).coverage
+
+
+def fit_bends(pelt: Pelt, light: Sequence[Single], unbent: Unbent | None) -> Array | None:
+    """The 24 numbers of the law for a pelt, (3, 8) for s⁰, s¹, s²; None where its texels are black.
+
+    light, unbent : of its hairs, as of `bent_light` with each of `tips_of`, and of `unbent_light`
+    """
+    basis, lean = pelt.basis, pelt.drift[-1] / pelt.height
     lights = hemisphere(LIGHTS, turn=0.5)
-
-    def under(volume: Volume, lights: Array) -> Single:
-        return sample(volume, layers, size, lights, Setting(coat.albedo, coat.skin))
-
-    if size == pelt.size:
+    if unbent is None:
         texels, alpha = pelt.values, pelt.alpha / 255
     else:
-        fine = voxelise(strands, height, *fine_shape(layers, size, height), coat.opacity)
-        seen, alpha = hemisphere(LIGHTS_UNBENT), shown_slabs(fine, strands, layers, size).coverage
-        texels = fill(fit(under(fine, seen), basis, seen, pelt.mean(seen)), alpha)
+        samples, alpha = unbent
+        seen = hemisphere(LIGHTS_UNBENT)
+        texels = fill(fit(samples, basis, seen, pelt.mean(seen)), alpha)
     matrix, right = np.zeros((24, 24)), np.zeros(24)
-    middle = (np.arange(layers) + 0.5) / layers
+    middle = (np.arange(pelt.layers) + 0.5) / pelt.layers
     over_s = np.polynomial.legendre.legvander(2 * middle - 1, 2)
-    for number, (share, azimuth) in enumerate(BENDS):
-        step((number + 1) / (len(BENDS) + 1))
-        turn = np.arctan2(*lean_direction(lean)[::-1]) + np.radians(azimuth)
-        tip = share * np.array([np.cos(turn), np.sin(turn)])
-        truth = under(bent(strands, height, tip, coat.opacity, layers, size), lights)
+    for (share, _), tip, truth in zip(BENDS, tips_of(lean), light, strict=True):
         found = terms(lights, tip, lean)
         for k, s in enumerate(middle):
             ways = sheared(lights, tip, s)

@@ -121,35 +121,57 @@ class EyeLaw:
     surge: Array
 
 
-def fit_eye(pelt: Pelt, strands: Strands, coat: Coat, *, flat: bool = False) -> EyeLaw | None:
-    """The law's numbers for this dry fur, as its texels are stored; None where nothing of it is seen.
+@dataclass(frozen=True)
+class SeenHairs:
+    """Hairs as eyes see them, of which the law's numbers are found.
 
-    flat : as of `sample`
+    lights, eyes : (n, 3) and (m, 3); met : of each eye, which of the lights it sees
+    light : (m) of each eye: (those, K) that the slabs send it; seen : (m) of each eye: (K,) what it sees of their hairs
+    lean : (2,) of the tips, shares of the height
     """
-    size, layers = min(pelt.size, SIZE), pelt.layers
-    fine = voxelise(strands, pelt.height, *fine_shape(layers, size, pelt.height), coat.opacity)
-    beta, lean = None if flat else BODY_RADIUS, fine.drift[-1] / fine.height
+
+    lights: Array
+    eyes: Array
+    met: list[NDArray[np.intp]]
+    light: list[Array]
+    seen: list[Array]
+    lean: Array
+
+
+def seen_hairs(strands: Strands, coat: Coat, height: float, layers: int, size: int, flat: bool = False) -> SeenHairs:
+    """Hairs as `fit_eye` has them seen; layers, size : of the pelt; flat : as of `sample`."""
+    few = min(size, SIZE)
+    fine = voxelise(strands, height, *fine_shape(layers, few, height), coat.opacity)
     far, near = rings(EYE_HEIGHTS, SPOKES), rings(NEAR_HEIGHTS, NEAR_SPOKES, NEAR_TURN)
     around = rings(LIGHT_HEIGHTS_FLAT if flat else LIGHT_HEIGHTS, SPOKES)
     eyes, lights = np.concatenate([far, near]), np.concatenate([around, *(beside(eye) for eye in near)])
     # Each of the first eyes sees all lights around, each of the others those beside it.
     met = [np.arange(len(around))] * len(far)
     met += list(np.arange(len(around), len(lights)).reshape(len(near), -1))
-    lit, shown = LitHairs(fine, layers, size, lights, coat, beta), ShownTexels(pelt, lights, beta)
+    lit = LitHairs(fine, layers, few, lights, coat, None if flat else BODY_RADIUS)
+    light, seen = zip(*map(lit.towards, eyes, met), strict=True)
+    return SeenHairs(lights, eyes, met, list(light), list(seen), fine.drift[-1] / fine.height)
+
+
+def fit_eye(pelt: Pelt, hairs: SeenHairs, *, flat: bool = False) -> EyeLaw | None:
+    """The law's numbers for this dry fur, as its texels are stored; None where nothing of it is seen.
+
+    hairs : its own; flat : as of `sample`
+    """
+    shown = ShownTexels(pelt, hairs.lights, None if flat else BODY_RADIUS)
     with ThreadPoolExecutor(cores()) as workers:
-        hairs, seen_hairs = zip(*workers.map(lit.towards, eyes, met), strict=True)
-        texels, seen_texels = zip(*workers.map(shown.towards, eyes, met), strict=True)
+        texels, seen_texels = zip(*workers.map(shown.towards, hairs.eyes, hairs.met), strict=True)
     # Fur is opaque either way: the light of what an eye sees of it is compared, not how much it sees.
-    level = np.array(seen_texels) / np.maximum(np.sum(seen_hairs, 1), DARK)
-    count = [len(some) for some in met]
+    level = np.array(seen_texels) / np.maximum(np.sum(hairs.seen, 1), DARK)
+    count, far = [len(some) for some in hairs.met], len(rings(EYE_HEIGHTS, SPOKES))
     pairs = Pairs(
-        lights[np.concatenate(met)],
-        np.repeat(eyes, count, 0),
-        np.concatenate(hairs) * np.repeat(level, count)[:, None],
+        hairs.lights[np.concatenate(hairs.met)],
+        np.repeat(hairs.eyes, count, 0),
+        np.concatenate(hairs.light) * np.repeat(level, count)[:, None],
         np.concatenate(texels),
-        np.repeat([1.0] * len(far) + [NEAR_WEIGHT] * len(near), count),
+        np.repeat([1.0] * far + [NEAR_WEIGHT] * (len(count) - far), count),
     )
-    return None if not pairs.hairs.max() > 0 else fit_pairs(pairs.counted(), lean)
+    return None if not pairs.hairs.max() > 0 else fit_pairs(pairs.counted(), hairs.lean)
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.pelt.eye import FAINT, LIGHT_HEIGHTS, SIZE, rings, solve, terms
+from furbake.pelt.eye import FAINT, LIGHT_HEIGHTS, SIZE, SeenHairs, rings, solve, terms
 from furbake.pelt.fin import overlap, polynomial, row_means
 from furbake.pelt.hairs.strands import Coat, Strands
 from furbake.pelt.hairs.volume import fine_shape, voxelise
@@ -30,23 +30,32 @@ HIDDEN = 0.1
 """Share of the mean slab that is added to what is seen of each: deep ones hardly are, and have a sound light, too."""
 
 
-def fit_fin_eye(pelt: Pelt, fin: FinPelt, strands: Strands, coat: Coat) -> Array:
-    """Weights (3, 16) of the law for the fins of this dry fur, for s⁰, s¹, s². The pelt has mean curves."""
-    size, layers = min(pelt.size, SIZE), pelt.layers
-    fine = voxelise(strands, pelt.height, *fine_shape(layers, size, pelt.height), coat.opacity)
+def level_hairs(strands: Strands, coat: Coat, height: float, layers: int, size: int) -> SeenHairs:
+    """Hairs as `fit_fin_eye` has them seen; layers, size : of the pelt."""
+    few = min(size, SIZE)
+    fine = voxelise(strands, height, *fine_shape(layers, few, height), coat.opacity)
     lights, azimuth = rings(LIGHT_HEIGHTS, SPOKES), np.radians(EYES)
     eyes = np.stack([np.cos(azimuth), np.sin(azimuth), np.zeros_like(azimuth)], -1)
-    lit, light = LitHairs(fine, layers, size, lights, coat), fin_light(pelt, fin, lights)
-    hairs, texels = [], []
-    for eye in eyes:
-        sent, seen = lit.towards(eye, np.arange(len(lights)))
-        share = np.where(seen > DARK * seen.sum(), seen / seen.sum() + HIDDEN / layers, 0)
-        hairs.append(sent / np.maximum(seen, 1e-30) * share)
+    lit, met = LitHairs(fine, layers, few, lights, coat), [np.arange(len(lights))] * len(eyes)
+    light, seen = zip(*map(lit.towards, eyes, met), strict=True)
+    return SeenHairs(lights, eyes, met, list(light), list(seen), fine.drift[-1] / fine.height)
+
+
+def fit_fin_eye(pelt: Pelt, fin: FinPelt, hairs: SeenHairs) -> Array:
+    """Weights (3, 16) of the law for the fins of this dry fur, for s⁰, s¹, s². The pelt has mean curves.
+
+    hairs : its own, as of `level_hairs`
+    """
+    lights, eyes = hairs.lights, hairs.eyes
+    light, sends, texels = fin_light(pelt, fin, lights), [], []
+    for sent, seen in zip(hairs.light, hairs.seen, strict=True):
+        share = np.where(seen > DARK * seen.sum(), seen / seen.sum() + HIDDEN / pelt.layers, 0)
+        sends.append(sent / np.maximum(seen, 1e-30) * share)
         texels.append(light * share)
-    wanted = np.concatenate(hairs)
+    wanted = np.concatenate(sends)
     whole = wanted.sum(-1)
     # A fin's hairs lean along it.
-    along = np.array([0.0, np.hypot(*fine.drift[-1])])
+    along = np.array([0.0, np.hypot(*hairs.lean)])
     found = terms(np.tile(lights, (len(eyes), 1)), np.repeat(eyes, len(lights), 0), along)
     return np.round(solve(wanted, np.concatenate(texels), found, 1 / (whole + FAINT * whole.max())), 3)
 

@@ -105,8 +105,8 @@ def _spiral(x: Array, beta: float) -> Array:
 
 
 def coarser(fine: Volume, layers: int, size: int) -> Volume:
-    """The oversampled volume of a tile of `size` texels, where it is finer than that; coverage is kept exactly."""
-    slabs, width = fine_shape(layers, size, fine.height)
+    """The oversampled volume as `measure` sees it, of at most `SIZE` texels a side; coverage is kept exactly."""
+    slabs, width = fine_shape(layers, min(size, SIZE), fine.height)
     if fine.sigma.shape[2] <= width:
         return fine
     return coarsen(fine, slabs if len(fine.sigma) % slabs == 0 else len(fine.sigma), width)
@@ -116,8 +116,7 @@ def measure(
     fine: Volume, layers: int, size: int, coat: Coat, step: Callable[[float], None] = lambda fraction: None
 ) -> tuple[Measured, ...]:
     """Mean light of the slabs on a body of each of `RADII`; fine : the oversampled volume of a tile of `size`."""
-    size = min(size, SIZE)
-    wide = coarser(fine, layers, size)
+    wide, size = coarser(fine, layers, size), min(size, SIZE)
     alpha = coarsen(wide, layers, size).coverage
     found = []
     for i, beta in enumerate(RADII):

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from furbake.options import BakeOptions
 from furbake.options.knobs import within
-from furbake.pelt.bent import bent, factor, fit_bends, general, sheared
+from furbake.pelt.bent import bent, bent_light, factor, fit_bends, general, sheared, tips_of, unbent_light
 from furbake.pelt.light.paths import BODY_RADIUS
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.texels.basis import held
@@ -101,7 +101,10 @@ def bend(
     lights, weights = lighting.lights[lighting.held_out], volume.coverage
     height = options.own_height
     lean = volume.drift[-1] / height
-    numbers = None if options.flat else fit_bends(pelt, strands, options.coat)
+    hairs = strands, options.coat, height, options.layers, options.size
+    numbers = None
+    if not options.flat:
+        numbers = fit_bends(pelt, [bent_light(*hairs, tip) for tip in tips_of(lean)], unbent_light(*hairs))
     laws = LAWS | {BAKED: law if numbers is None else baked(numbers)}
 
     def fresh(tip: Array) -> Single:

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
+from furbake.beside import Beside, Later
 from furbake.options import BakeOptions
 from furbake.pelt.hairs.shown import shown_slabs
 from furbake.pelt.hairs.states import Fur, PeltState
 from furbake.pelt.hairs.strands import Strands, grow
 from furbake.pelt.hairs.volume import Volume, fine_shape, voxelise
 from furbake.pelt.light.transport import LOWEST, LOWEST_FLAT, Beams, Setting, hemisphere, sample
-from furbake.pelt.means import Measured, measure
+from furbake.pelt.means import Measured, coarser, measure
 
 Floats = NDArray[np.float64]
 Single = NDArray[np.float32]
@@ -25,19 +25,21 @@ Single = NDArray[np.float32]
 FINE_SHARE = 0.8
 """Share of the time that the samples of the fit take, for the progress."""
 
+Bodies = tuple[Measured, ...]
+"""Mean light of the slabs on bodies of other radii, and from below the horizon; () where it is not measured."""
+
 
 @dataclass(frozen=True)
 class Lighting:
     """Directions, the held-out ones among them, and L under each.
 
     lights : (n, 3), held_out : (n,) bool, samples : (n, K, N, N) float32
-    bodies : mean light of the slabs on bodies of other radii, and from below the horizon; () where it is not measured
     """
 
     lights: Floats
     held_out: NDArray[np.bool_]
     samples: Single
-    bodies: tuple[Measured, ...] = ()
+    bodies: Bodies = ()
 
 
 @dataclass(frozen=True)
@@ -63,21 +65,28 @@ def light(
     step: Callable[[float], None] = lambda fraction: None,
     held_out: int | None = None,
     beams: Beams | None = None,
+    bodies: Later[Bodies] | None = None,
 ) -> Lighting:
     """Sample the oversampled volume under the lights of the fit and others between them, by default half as many.
 
-    beams : as of `sample`
+    beams : as of `sample`; bodies : as of `on_bodies`, begun before
     """
     lights = directions(options, held_out)
     apart = np.arange(len(lights)) >= options.lights
-    if options.curves == "none" or options.flat:
-        return Lighting(lights, apart, under(lights, fine, options, step, beams))
-    with ThreadPoolExecutor(1) as beside:  # each of the two has gaps in which a core would wait
-        measured = beside.submit(measure, fine, options.layers, options.size, options.coat)
-        samples = under(lights, fine, options, lambda fraction: step(FINE_SHARE * fraction), beams)
-        bodies = measured.result()
+    bodies = bodies or on_bodies(fine, options, Beside())
+    samples = under(lights, fine, options, lambda fraction: step(FINE_SHARE * fraction), beams)
+    measured = bodies.result()
     step(1.0)
-    return Lighting(lights, apart, samples, bodies)
+    return Lighting(lights, apart, samples, measured)
+
+
+def on_bodies(fine: Volume, options: BakeOptions, beside: Beside) -> Later[Bodies]:
+    """Mean light of the slabs on bodies of other radii, as far as these options have it measured; fine : of a state."""
+    if options.curves == "none" or options.flat:
+        return beside.submit(tuple)
+    return beside.submit(
+        measure, coarser(fine, options.layers, options.size), options.layers, options.size, options.coat
+    )
 
 
 def directions(options: BakeOptions, held_out: int | None = None) -> Floats:
@@ -103,6 +112,12 @@ def under(
     return sample(fine, options.layers, options.size, lights, setting_of(options), beams=beams, progress=step)
 
 
+def options_of(fur: Fur, options: BakeOptions) -> BakeOptions:
+    """Those by which a state is lit; mud has no curves of its own."""
+    options = replace(options, coat=fur.coat)
+    return replace(options, curves="none") if fur.state.dirt else options
+
+
 def parts(step: Callable[[float], None], count: int) -> Iterator[Callable[[float], None]]:
     """Progress of `count` equal parts of a stage."""
 
@@ -118,14 +133,14 @@ def sampled(
     options: BakeOptions,
     step: Callable[[float], None] = lambda fraction: None,
     beams: Beams | None = None,
+    bodies: Later[Bodies] | None = None,
 ) -> Sampled:
     """A state of the fur as stored slabs, and the light in it.
 
-    fine : its oversampled volume; beams : as of `sample`
+    fine : its oversampled volume; beams, bodies : as of `light`
     """
-    options = replace(options, coat=fur.coat)
-    # Mud has no curves of its own.
-    lighting = light(fine, replace(options, curves="none") if fur.state.dirt else options, step, beams=beams)
+    options = options_of(fur, options)
+    lighting = light(fine, options, step, beams=beams, bodies=bodies)
     return Sampled(fur.state, shown_slabs(fine, fur.strands, options.layers, options.size, fur.mud), lighting)
 
 

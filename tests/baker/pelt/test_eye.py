@@ -16,7 +16,19 @@ from furbake.asset.stored import read_pelt
 from furbake.asset.validate import validate
 from furbake.options import BakeOptions, preset
 from furbake.pelt.bent import MIN_FACTOR
-from furbake.pelt.eye import TERMS, WIDTHS, Pairs, factor, fit_eye, fit_pairs, fit_surge, rings, surge, terms
+from furbake.pelt.eye import (
+    TERMS,
+    WIDTHS,
+    Pairs,
+    factor,
+    fit_eye,
+    fit_pairs,
+    fit_surge,
+    rings,
+    seen_hairs,
+    surge,
+    terms,
+)
 from furbake.pelt.hairs.strands import Strands
 from furbake.pelt.hairs.volume import Volume
 from furbake.pelt.light.fibre import ABOVE
@@ -154,7 +166,7 @@ def test_even_shells_hide_what_is_behind_them(make_pelt: Callable[..., Pelt], be
 def test_numbers_mend_what_eyes_aside_see(small: Small) -> None:
     """Under lights and eyes that no fit has seen; twice the same numbers; above nothing changes."""
     pelt, strands, fine = small
-    law = fit_eye(pelt, strands, SMALL.coat)
+    law = fit_eye(pelt, seen_hairs(strands, SMALL.coat, pelt.height, pelt.layers, pelt.size))
     assert law is not None
     lights, eyes = rings((0.75, 0.45, 0.2), 4, 0.7), rings((0.7, 0.35), 5, 0.2)
     lit, shown = LitHairs(fine, 6, 16, lights, SMALL.coat), ShownTexels(pelt, lights)
@@ -168,14 +180,15 @@ def test_numbers_mend_what_eyes_aside_see(small: Small) -> None:
         after.append(np.abs(np.log((texels * told).sum(-1) / all_texels / seen)))
     assert np.mean(after) < 0.4 * np.mean(before)
     assert np.mean(after) < 0.16
-    again = fit_eye(pelt, strands, SMALL.coat)
+    again = fit_eye(pelt, seen_hairs(strands, SMALL.coat, pelt.height, pelt.layers, pelt.size))
     assert again is not None
     np.testing.assert_array_equal(law.weights, again.weights)
     np.testing.assert_array_equal(law.surge, again.surge)
 
 
 def test_the_side_towards_the_light_is_the_brighter_one(small: Small) -> None:
-    law = fit_eye(*small[:2], SMALL.coat)
+    pelt, strands, _ = small
+    law = fit_eye(pelt, seen_hairs(strands, SMALL.coat, pelt.height, pelt.layers, pelt.size))
     assert law is not None
     light = np.array([[0.0, -0.8, 0.6]])
     there, against = (

@@ -40,6 +40,9 @@ shows. Flat patches are sampled from a little higher.
 Beams = Callable[[Beam, Array], Iterator[Fields]]
 """One light through the oversampled volume, as of `Beam`; all lights, in order."""
 
+AT_A_TIME = 8
+"""Lights for which cores are counted anew."""
+
 SINGLE_SHARE = 0.8
 """Share of the time that single scattering takes, for the progress."""
 
@@ -143,7 +146,8 @@ def _apart(
     return single, multiple, None if darker is None else more(*darker)
 
 
-def beams_here(beam: Beam, lights: Array) -> Iterator[Fields]:
-    """Fields of each light, with a thread for each core."""
-    with ThreadPoolExecutor(cores()) as workers:
-        yield from workers.map(beam, lights)
+def beams_here(beam: Beam, lights: Array, busy: Callable[[], int] = lambda: 0) -> Iterator[Fields]:
+    """Fields of each light, with a thread for each core but those that are busy with something else."""
+    for first in range(0, len(lights), AT_A_TIME):
+        with ThreadPoolExecutor(max(1, cores() - busy())) as workers:
+            yield from workers.map(beam, lights[first : first + AT_A_TIME])
