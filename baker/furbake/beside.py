@@ -27,7 +27,7 @@ class Later(Generic[Found]):
         if self._there is not None and not self._there.cancel():
             try:
                 return self._there.result()
-            except CrashError:  # for want of memory for two, say
+            except (CrashError, MemoryError):  # there may be memory for one
                 pass
         self._there = Future()
         self._there.set_result(self._call())
@@ -50,7 +50,7 @@ class Beside:
         self._wanted = apart
         self._process: Apart | None = None
         self._line: ThreadPoolExecutor | None = None
-        self._last: Future[Any] | None = None
+        self._calls = list[Future[Any]]()
 
     def __enter__(self) -> Self:
         return self
@@ -70,11 +70,13 @@ class Beside:
 
     def submit(self, function: Callable[..., Found], *given: Any) -> Later[Found]:
         """The call of a function with data that can be pickled."""
+        there = None
         if self._process is not None and self._line is not None:
-            self._last = self._line.submit(self._process.call, function, *given)
-        return Later(lambda: function(*given), self._last)
+            there = self._line.submit(self._process.call, function, *given)
+            self._calls.append(there)
+        return Later(lambda: function(*given), there)
 
     @property
     def busy(self) -> int:
         """Cores that it keeps busy."""
-        return 0 if self._last is None else int(not self._last.done())
+        return int(not all(call.done() for call in self._calls))

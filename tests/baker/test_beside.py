@@ -67,6 +67,7 @@ def test_what_is_wanted_before_it_has_begun_is_made_here() -> None:
         assert results(calls) == [0, 2, 4, 6, 8]
         beside.submit(time.sleep, 60)
         assert beside.submit(os.getpid).result() == os.getpid()
+        assert beside.busy == 1
 
 
 def test_what_it_raises_is_raised_where_it_is_wanted() -> None:
