@@ -55,7 +55,7 @@ def baked(job: Job, tell: Tell = lambda stage, fraction: None) -> Baked:
     start = time.perf_counter()
     while True:
         try:
-            # The batch counts the memory of this process.
+            # A batch counts the memory of one process for each bake.
             result = bake(job.model, job.out, job.options, force=True, cache=job.cache, helped=False, progress=tell)
         except BusyError:
             if time.monotonic() > end:

@@ -140,14 +140,25 @@ class SeenHairs:
 
 def seen_hairs(strands: Strands, coat: Coat, height: float, layers: int, size: int, flat: bool = False) -> SeenHairs:
     """Hairs as `fit_eye` has them seen; layers, size : of the pelt; flat : as of `sample`."""
-    few = min(size, SIZE)
-    fine = voxelise(strands, height, *fine_shape(layers, few, height), coat.opacity)
     far, near = rings(EYE_HEIGHTS, SPOKES), rings(NEAR_HEIGHTS, NEAR_SPOKES, NEAR_TURN)
     around = rings(LIGHT_HEIGHTS_FLAT if flat else LIGHT_HEIGHTS, SPOKES)
     eyes, lights = np.concatenate([far, near]), np.concatenate([around, *(beside(eye) for eye in near)])
     # Each of the first eyes sees all lights around, each of the others those beside it.
     met = [np.arange(len(around))] * len(far)
     met += list(np.arange(len(around), len(lights)).reshape(len(near), -1))
+    return towards(eyes, met, lights, strands, coat, height, layers, size, flat)
+
+
+def towards(
+    eyes: Array, met: list[NDArray[np.intp]], lights: Array,
+    strands: Strands, coat: Coat, height: float, layers: int, size: int, flat: bool = False,
+) -> SeenHairs:  # fmt: skip
+    """Hairs as these eyes see them, in a tile of at most `SIZE` texels a side.
+
+    eyes, met, lights : as of `SeenHairs`; the others as of `seen_hairs`
+    """
+    few = min(size, SIZE)
+    fine = voxelise(strands, height, *fine_shape(layers, few, height), coat.opacity)
     lit = LitHairs(fine, layers, few, lights, coat, None if flat else BODY_RADIUS)
     light, seen = zip(*map(lit.towards, eyes, met), strict=True)
     return SeenHairs(lights, eyes, met, list(light), list(seen), fine.drift[-1] / fine.height)

@@ -10,12 +10,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.pelt.eye import FAINT, LIGHT_HEIGHTS, SIZE, SeenHairs, rings, solve, terms
+from furbake.pelt.eye import FAINT, LIGHT_HEIGHTS, SeenHairs, rings, solve, terms, towards
 from furbake.pelt.fin import overlap, polynomial, row_means
 from furbake.pelt.hairs.strands import Coat, Strands
-from furbake.pelt.hairs.volume import fine_shape, voxelise
 from furbake.pelt.pelt import FinPelt, Pelt
-from furbake.pelt.seen import DARK, LitHairs
+from furbake.pelt.seen import DARK
 from furbake.pelt.texels.fit import relight
 
 Array = NDArray[np.float64]
@@ -32,13 +31,9 @@ HIDDEN = 0.1
 
 def level_hairs(strands: Strands, coat: Coat, height: float, layers: int, size: int) -> SeenHairs:
     """Hairs as `fit_fin_eye` has them seen; layers, size : of the pelt."""
-    few = min(size, SIZE)
-    fine = voxelise(strands, height, *fine_shape(layers, few, height), coat.opacity)
     lights, azimuth = rings(LIGHT_HEIGHTS, SPOKES), np.radians(EYES)
     eyes = np.stack([np.cos(azimuth), np.sin(azimuth), np.zeros_like(azimuth)], -1)
-    lit, met = LitHairs(fine, layers, few, lights, coat), [np.arange(len(lights))] * len(eyes)
-    light, seen = zip(*map(lit.towards, eyes, met), strict=True)
-    return SeenHairs(lights, eyes, met, list(light), list(seen), fine.drift[-1] / fine.height)
+    return towards(eyes, [np.arange(len(lights))] * len(eyes), lights, strands, coat, height, layers, size)
 
 
 def fit_fin_eye(pelt: Pelt, fin: FinPelt, hairs: SeenHairs) -> Array:

@@ -83,7 +83,7 @@ def light(
 def on_bodies(fine: Volume, options: BakeOptions, beside: Beside) -> Later[Bodies]:
     """Mean light of the slabs on bodies of other radii, as far as these options have it measured; fine : of a state."""
     if options.curves == "none" or options.flat:
-        return beside.submit(tuple)
+        return Later(tuple, None)
     return beside.submit(
         measure, coarser(fine, options.layers, options.size), options.layers, options.size, options.coat
     )

@@ -39,7 +39,8 @@ class Pelts:
     ) -> None:
         """options : of the tile; height : tile widths, of which the last bits vary from body to body.
 
-        stage : within which a stage of this name is made, with its progress; beside, spread : as of `Tile`
+        stage : within which a stage of this name is made, with its progress
+        beside, spread : as of `Tile` and its samples; cache : folder of finished pelts, None: there is none
         strands : that are not grown of the options
         """
         self.spread, self.strands, self.beside = spread, strands, beside

@@ -81,8 +81,8 @@ class Tile:
         for fur, part, some in zip(self.furs, parts(step, count), beams, strict=True):
             fine = self._volume(fur)
             bodies = on_bodies(fine, options_of(fur, self.options), self.beside)
-            if not found:  # the first state's bodies are wanted before these
-                _ = self._bent and self._unbent
+            if not found and not self.options.flat:  # the first state's bodies are wanted before these
+                _ = self._bent, self._unbent
             found.append(sampled(fur, fine, self.options, part, some or self._beams, bodies))
         return found
 
@@ -126,8 +126,6 @@ class Tile:
 
     @cached_property
     def _bent(self) -> list[Later[Single]]:
-        if self.options.flat:
-            return []
         lean = slab_means(self.dry.drift, self.options.layers)[-1] / self.height
         return [self.beside.submit(bent_light, *self._own_hairs, tip) for tip in tips_of(lean)]
 

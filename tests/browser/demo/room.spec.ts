@@ -149,7 +149,7 @@ test('the model glides to its place with the line of the split, and the camera o
 	const places = await line.evaluate(async (element) => {
 		document.querySelector<HTMLElement>('#panel .lil-title')?.click();
 		const seen = new Set<number>();
-		// However slow the frames are, none takes it far.
+		// A frame, however slow, moves it a part of the way.
 		const end = performance.now() + 20_000;
 		while (seen.size <= 5 && performance.now() < end) {
 			await new Promise(requestAnimationFrame);
