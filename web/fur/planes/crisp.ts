@@ -7,9 +7,6 @@ import { type CompressedArrayTexture, Vector4 } from 'three';
 import { alphaChannel } from '../format.ts';
 import type { FurTextures } from '../light/texels.ts';
 
-/** Contrast at which fur hides as much as without; at others it nearly does. */
-const COVERAGE_CONTRAST = 3;
-
 /**
  * Slabs that a ray to the eye crosses in a shell, where texels are larger than pixels and where they are smaller: magnified
  * fur has more shells.
@@ -45,8 +42,10 @@ interface Slab {
  *
  * @param textures the slabs of a state after those of the one before; where the processor has no bytes of them all levels
  * are one half
+ * @param contrast at which fur hides as much as without; at others it nearly does
+ * @param cut coverage below which nothing is drawn at that contrast
  */
-export function crispLevels({ plane0, plane1 }: FurTextures): Vector4[] {
+export function crispLevels({ plane0, plane1 }: FurTextures, contrast: number, cut: number): Vector4[] {
 	const { plane, channel } = alphaChannel(plane1 ? 6 : 3);
 	const { mipmaps, image } = (plane === 1 ? plane1 : plane0) as CompressedArrayTexture;
 	const layers = (image as { depth: number } | null)?.depth ?? 0;
@@ -56,7 +55,8 @@ export function crispLevels({ plane0, plane1 }: FurTextures): Vector4[] {
 			if (!found?.data) return 0.5;
 			const { data, width, height } = found;
 			const size = data.length / layers;
-			return keptLevel(between({ texels: data.subarray(k * size, (k + 1) * size), width, height, channel }), slabs);
+			const texels = data.subarray(k * size, (k + 1) * size);
+			return keptLevel(between({ texels, width, height, channel }), { slabs, contrast, cut });
 		}),
 	).flat();
 	return Array.from({ length: Math.ceil(layers / 2) }, (_, i) =>
@@ -79,18 +79,29 @@ function between({ texels, width, height, channel }: Slab): Float64Array {
 	return shares;
 }
 
-/** Level c for which clamp((a − c)·COVERAGE_CONTRAST + c, 0, 1) hides as much as a does. @param shares of a's values */
-function keptLevel(shares: Float64Array, slabs: number): number {
+interface Shown {
+	slabs: number;
+	contrast: number;
+	cut: number;
+}
+
+/**
+ * Level c at which clamp((a − c)·contrast + c, 0, 1), without what is cut, hides as much as a.
+ *
+ * @param shares of a's values
+ */
+function keptLevel(shares: Float64Array, { slabs, contrast, cut }: Shown): number {
 	const hidden = (change: (a: number) => number) =>
 		shares.reduce((sum, share, byte) => {
-			const coverage = Math.min(Math.max(change(byte / (BINS - 1)), 0), MOST);
+			const coverage = Math.min(change(byte / (BINS - 1)), MOST);
 			return sum + share * (1 - (1 - coverage) ** slabs);
 		}, 0);
 	const wanted = hidden((a) => a);
 	let [low, high] = [0, 1];
 	for (let step = 0; step < STEPS; step++) {
 		const level = (low + high) / 2;
-		if (hidden((a) => (a - level) * COVERAGE_CONTRAST + level) > wanted) low = level;
+		const crisp = (a: number) => (a - level) * contrast + level;
+		if (hidden((a) => (crisp(a) < cut ? 0 : crisp(a))) > wanted) low = level;
 		else high = level;
 	}
 	return (low + high) / 2;

@@ -15,7 +15,7 @@ import hairOut from '../shaders/hair/hair.vert.glsl?raw';
 import opacity from '../shaders/hair/opacity.glsl?raw';
 import shell from '../shaders/hair/shell.glsl?raw';
 import drift from '../shaders/hair/tile/drift.glsl?raw';
-import { ALPHA_CUT } from './lod.ts';
+import { ALPHA_CUT, CRISPEST } from './lod.ts';
 import { PeltMaterial } from './PeltMaterial.ts';
 import { morphUniforms, weightUniforms } from './parts/morphs.ts';
 import { parts } from './parts/parts.ts';
@@ -182,7 +182,7 @@ export class FurMaterial extends PeltMaterial {
 	override setTextures(textures: FurTextures): void {
 		super.setTextures(textures);
 		const { crispLevels: levels } = this.uniforms;
-		if (levels) levels.value = crispLevels(textures);
+		if (levels) levels.value = crispLevels(textures, CRISPEST, ALPHA_CUT);
 	}
 }
 

@@ -31,7 +31,7 @@ const CRISP_FROM = 0.3;
 const CRISP_PER_PIXEL = 1.5;
 
 /** Largest crispness: beyond, the texels' corners show. */
-const CRISPEST = 2.5;
+export const CRISPEST = 2.5;
 
 /**
  * Contrast of coverage on screen over the texels'.

@@ -9,7 +9,7 @@ from furbake.surface.charts import Floats
 from furbake.surface.lay.ground import Ground
 from furbake.surface.lay.patches import Bools, Patches
 
-RIM = 0.3
+RIM = 0.1
 """Width of the soft rim, share of the radius."""
 
 WOBBLE = 0.08
@@ -21,7 +21,7 @@ WAVES = ((2, 0.5), (3, 0.35), (5, 0.25))
 SHORE = 0.3
 """Distance from the open border of a patch within which its mask fades, share of the radius."""
 
-SHARE = 0.08
+SHARE = 0.2
 """A patch with less than this share of a vertex is cut there, and the rest is spread over the others."""
 
 MIN_WEIGHT = 1.0 / 255.0
