@@ -13,9 +13,6 @@ import type { FurTextures } from '../light/texels.ts';
  */
 const SLABS = [0.5, 1.4] as const;
 
-/** Largest coverage; see `shellOpacity` of hair/opacity.glsl. */
-const MOST = 0.996;
-
 /** Steps by halves towards the level: finer than a byte. */
 const STEPS = 12;
 
@@ -56,7 +53,7 @@ export function crispLevels({ plane0, plane1 }: FurTextures, contrast: number, c
 			const { data, width, height } = found;
 			const size = data.length / layers;
 			const texels = data.subarray(k * size, (k + 1) * size);
-			return keptLevel(between({ texels, width, height, channel }), { slabs, contrast, cut });
+			return keptLevel(between({ texels, width, height, channel }), slabs, contrast, cut);
 		}),
 	).flat();
 	return Array.from({ length: Math.ceil(layers / 2) }, (_, i) =>
@@ -79,23 +76,14 @@ function between({ texels, width, height, channel }: Slab): Float64Array {
 	return shares;
 }
 
-interface Shown {
-	slabs: number;
-	contrast: number;
-	cut: number;
-}
-
 /**
  * Level c at which clamp((a − c)·contrast + c, 0, 1), without what is cut, hides as much as a.
  *
  * @param shares of a's values
  */
-function keptLevel(shares: Float64Array, { slabs, contrast, cut }: Shown): number {
+function keptLevel(shares: Float64Array, slabs: number, contrast: number, cut: number): number {
 	const hidden = (change: (a: number) => number) =>
-		shares.reduce((sum, share, byte) => {
-			const coverage = Math.min(change(byte / (BINS - 1)), MOST);
-			return sum + share * (1 - (1 - coverage) ** slabs);
-		}, 0);
+		shares.reduce((sum, share, byte) => sum + share * (1 - Math.max(1 - change(byte / (BINS - 1)), 0) ** slabs), 0);
 	const wanted = hidden((a) => a);
 	let [low, high] = [0, 1];
 	for (let step = 0; step < STEPS; step++) {
