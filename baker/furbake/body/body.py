@@ -25,6 +25,7 @@ from furbake.surface.lay.lapped_figures import lapped_figures
 from furbake.surface.lay.own import own_charts
 from furbake.surface.mesh import MAX_FACES, MeshError, Surface, load_mesh, simplify
 from furbake.surface.place.features import Feature, clearing, read_features
+from furbake.surface.place.hollows import out_of_hollows
 from furbake.surface.place.occlusion import openness
 from furbake.surface.place.paint import brought, uncover
 from furbake.surface.place.thickness import length_by_thickness
@@ -143,7 +144,7 @@ def prepare(model: str, options: BakeOptions) -> Body:
             lengths=np.asarray(lengths),
             occlusion=openness(ground),
             tip=tip,
-            comb=comb,
+            comb=out_of_hollows(ground, longest * np.asarray(lengths), comb),
             colour=ground.colours,
         ),
         direction=direction,
