@@ -124,28 +124,37 @@ test('the number of shells changes without a jump', async ({ page }) => {
 	}
 });
 
-test('one shell stands for those that are hardly seen, and the others go over to it without a step', async ({
-	page,
-}) => {
-	await openStage(page);
-	const merging = [0, 1, 0.59, 0.6, 0.61];
-	const pictures = await page.evaluate(([url, settings]) => stage.pictures(url, 240, settings), [
-		BUNNY,
-		merging.map((share) => ({ shells: 16, distance: 0.5, merging: share })),
-	] as const);
-	const [all, merged, ...between] = pictures.map(({ rgba }) => floats(rgba)) as [
-		Float32Array,
-		Float32Array,
-		...Float32Array[],
-	];
-	expect(pictures.map(({ drawn }) => drawn)).toEqual([16, 12, 14, 14, 14]);
-	const dB = psnr(all, merged);
-	test.info().annotations.push({ type: 'PSNR', description: `${dB.toFixed(1)} dB` });
-	expect(dB).toBeGreaterThan(38);
-	expect(Math.abs(sumOf(merged) / sumOf(all) - 1)).toBeLessThan(0.005);
-	for (const [i, picture] of between.slice(1).entries())
-		expect(psnr(between[i] as Float32Array, picture)).toBeGreaterThan(50);
-});
+for (const { shells, drawn } of [
+	{ shells: 16, drawn: 12 },
+	{ shells: 48, drawn: 26 },
+])
+	test(`of ${shells} shells ${drawn} stand for all, and the others go over to them without a step`, async ({
+		page,
+	}) => {
+		await openStage(page);
+		const merging = [0, 1, 0.59, 0.6, 0.61, 0.999];
+		const pictures = await page.evaluate(([url, settings]) => stage.pictures(url, 240, settings), [
+			BUNNY,
+			merging.map((share) => ({ shells, distance: 0.5, merging: share })),
+		] as const);
+		const rgba = pictures.map((picture) => floats(picture.rgba));
+		const [all, merged, before, between, after, last] = rgba as [
+			Float32Array,
+			Float32Array,
+			Float32Array,
+			Float32Array,
+			Float32Array,
+			Float32Array,
+		];
+		expect(pictures.map((picture) => picture.drawn)).toEqual([shells, drawn, ...merging.slice(2).map(() => shells)]);
+		const dB = psnr(all, merged);
+		test.info().annotations.push({ type: 'PSNR', description: `${dB.toFixed(1)} dB` });
+		expect(dB).toBeGreaterThan(38);
+		expect(Math.abs(sumOf(merged) / sumOf(all) - 1)).toBeLessThan(0.005);
+		expect(psnr(before, between)).toBeGreaterThan(50);
+		expect(psnr(between, after)).toBeGreaterThan(50);
+		expect(psnr(last, merged), 'shells that are no longer drawn').toBeGreaterThan(50);
+	});
 
 test('lamps summed per vertex look as if summed per fragment, even on 512 triangles', async ({ page }) => {
 	await openStage(page);

@@ -58,8 +58,8 @@ export class PeltLight {
 		return this.#trim().places(share);
 	}
 
-	/** Share of cut fur's height that is hardly seen; see `hiddenShare`. @param share of the height that is left */
-	hidden(share: number): number {
+	/** Shares of cut fur's height that are hardly seen and faint; see `hiddenShares`. @param share of the height that is left */
+	hidden(share: number): readonly number[] {
 		return this.#trim().hidden(share);
 	}
 

@@ -1,5 +1,5 @@
 import { type CompressedArrayTexture, DataTexture, FloatType, RGBAFormat, type Texture } from 'three';
-import { hiddenShare, SlabMeans, type Slabs, standIns } from './trim.ts';
+import { hiddenShares, SlabMeans, type Slabs, standIns } from './trim.ts';
 
 /** Lookup table for cut fur: change of the light moments per slab. */
 export class TrimLight {
@@ -8,7 +8,7 @@ export class TrimLight {
 	readonly #slabs: readonly Slabs[];
 	#means: readonly SlabMeans[] | undefined;
 	/** Result of `hidden` for a share. */
-	#hidden = { share: 0, height: 0 };
+	#hidden: { share: number; heights: readonly number[] } = { share: 0, heights: [] };
 
 	/**
 	 * @param planes of coefficients, whose first levels hold `layers` slabs one after the other; of several states only the
@@ -40,11 +40,13 @@ export class TrimLight {
 		return this.#slabs.map((slabs) => standIns(slabs, share));
 	}
 
-	/** Share of the height below which every fur is hardly seen; see `hiddenShare`. */
-	hidden(share: number): number {
-		if (this.#hidden.share !== share)
-			this.#hidden = { share, height: Math.min(...this.#slabs.map((slabs) => hiddenShare(slabs, share))) };
-		return this.#hidden.height;
+	/** Shares of the height below which every fur is hardly seen, and faint; see `hiddenShares`. */
+	hidden(share: number): readonly number[] {
+		if (this.#hidden.share !== share) {
+			const each = this.#slabs.map((slabs) => hiddenShares(slabs, share));
+			this.#hidden = { share, heights: [0, 1].map((i) => Math.min(...each.map((heights) => heights[i] as number))) };
+		}
+		return this.#hidden.heights;
 	}
 
 	/** Light the slabs of each fur as at these places. */

@@ -12,8 +12,8 @@ export interface Slabs {
 	layers: number;
 }
 
-/** Share of the view from straight above that goes to hairs that are hardly seen. */
-const HIDDEN = 0.1;
+/** Shares of the view from straight above that go to hairs that are hardly seen, and to these and faint ones. */
+const SEEN = [0.1, 0.42];
 
 /** Numbers per row of the shaders' table: four RGBA texels. */
 const ROW = 16;
@@ -36,18 +36,21 @@ export function standIns(slabs: Slabs, share: number): Float64Array {
 }
 
 /**
- * Height below which fur is hardly seen, share of what is left of its height: a single shell can stand for all below.
+ * Heights below which fur is hardly seen and is faint, shares of what is left of its height: a single shell can stand for
+ * all below the first, one a slab below the second.
  *
  * @param share of the fur's height that is left, above 0
  */
-export function hiddenShare(slabs: Slabs, share: number): number {
-	let left = HIDDEN;
+export function hiddenShares(slabs: Slabs, share: number): number[] {
 	const parts = seenParts(slabs, share);
-	const k = parts.findIndex((part) => {
-		left -= part;
-		return left < 0;
+	return SEEN.map((seen) => {
+		let left = seen;
+		const k = parts.findIndex((part) => {
+			left -= part;
+			return left < 0;
+		});
+		return k < 0 ? 0 : Math.min((k + 1 + left / (parts[k] as number)) / (slabs.layers * share), 1);
 	});
-	return k < 0 ? 0 : Math.min((k + 1 + left / (parts[k] as number)) / (slabs.layers * share), 1);
 }
 
 /** Share of the view from above that lies over the middle of each remaining slab. */

@@ -26,8 +26,10 @@ export interface FurMaterialParameters extends ShaderMaterialParameters {
 	furLength?: number;
 	/** Shells of one body; may lie between two whole numbers. */
 	shellCount?: number;
-	/** Lowest shells that one is drawn for; FurShells sets it for every picture. @internal */
+	/** How far shells have gone over to those that stand for several; FurShells sets it for every picture. @internal */
 	merged?: number;
+	/** Which ones do, see shaders/hair/shell.glsl; FurShells sets it for every picture. @internal */
+	groups?: Vector4;
 	/** Coverage below which a fragment is dropped, 0..1; FurShells sets it for every picture. */
 	alphaCut?: number;
 	/** {@inheritDoc FurMaterial.bodyRadius} */
@@ -70,6 +72,7 @@ const MIRRORED = [
 	'furLength',
 	'shellCount',
 	'merged',
+	'groups',
 	'alphaCut',
 	'crispness',
 	'skinColor',
@@ -94,6 +97,8 @@ export class FurMaterial extends PeltMaterial {
 	declare shellCount: number;
 	/** {@inheritDoc FurMaterialParameters.merged} @internal */
 	declare merged: number;
+	/** {@inheritDoc FurMaterialParameters.groups} @internal */
+	declare groups: Vector4;
 	/** {@inheritDoc FurMaterialParameters.alphaCut} */
 	declare alphaCut: number;
 	/** {@inheritDoc FurMaterialParameters.crispness} @internal */
@@ -140,6 +145,7 @@ export class FurMaterial extends PeltMaterial {
 					shellCount: { value: asset.layers },
 					firstShell: { value: 0 },
 					merged: { value: 0 },
+					groups: { value: new Vector4() },
 					drift: { value: furs.flatMap(({ drift }) => driftKnots(drift)) },
 					spreads: { value: furs.map((fur) => spreadOf(fur, asset)) },
 					lean: { value: leanOf(asset) },

@@ -39,8 +39,9 @@ export class FurShells extends PosedMesh<InstancedBufferGeometry, FurMaterial> {
 	/** Spacing of automatic shells over what looks best: 2 draws half as many. */
 	coarseness = 1;
 	/**
-	 * How far shells that are hardly seen, the lowest, are drawn as one: 1 takes a quarter fewer and changes the picture a
-	 * little, 0 draws all. In between it goes over without a step. Herds draw all.
+	 * How far shells that are hardly seen are drawn as one, the lowest, and as one a slab, those above: 1 takes a quarter to
+	 * a half of them away and changes the picture a little, 0 draws all. In between it goes over without a step, with all
+	 * of them. Herds draw all.
 	 */
 	merging = 0;
 	/** Columns of the picture to draw; undefined: all. */
@@ -133,17 +134,23 @@ export class FurShells extends PosedMesh<InstancedBufferGeometry, FurMaterial> {
 		this.geometry.instanceCount = this.drawnShells;
 	}
 
-	/** Draw the hidden ones as one. */
+	/** Find the shells that stand for several: one for all that are hidden, one for each slab that is faint. */
 	#merge(): void {
-		const merged = this.merging && this.merging * this.#own.hidden * this.shellCount;
-		if (merged === this.#own.merged) return;
-		this.#own.merged = merged;
+		const { shellCount } = this;
+		const slabs = this.#layers * this.#own.trim;
+		const steps = Math.min(slabs, shellCount); // of one shell at least
+		const first = (step: number) => Math.ceil(((step - 1e-4) * shellCount) / steps - 0.5);
+		const [hidden, faint] = this.#own.hidden.map((share) => Math.floor(share * steps)) as [number, number];
+		const top = shellCount < slabs ? hidden : faint;
+		this.#own.merged = hidden && this.merging;
+		this.#own.groups.set(first(hidden), top - hidden, hidden, first(top));
 		this.geometry.instanceCount = this.drawnShells;
 	}
 
 	/** Number of shells that are drawn: fewer than `shellCount` where some are merged. */
 	get drawnShells(): number {
-		return Math.ceil(this.shellCount) - Math.floor(Math.max(this.#own.merged - 1, 0));
+		const { merged, groups } = this.#own;
+		return Math.ceil(this.shellCount) - (merged === 1 ? groups.w - groups.y - 1 : 0);
 	}
 
 	/** Set number of shells, alpha cut and crispness for this picture. */

@@ -14,7 +14,8 @@ uniform float tiles; // texture coordinates → tiles
 uniform float shellCount; // n of one body, or the largest of many; may be fractional
 uniform int firstShell; // first shell that is drawn, of those left by merging
 #ifndef BODIES
-uniform float merged; // lowest shells that one is drawn for; where it is broken two share them
+uniform float merged; // how far shells have gone over to those that stand for several: at 1 no others are drawn
+uniform vec4 groups; // X = lowest shells, which the last of them stands for, then one stands for each of Y slabs from slab Z on; W = first shell that stands for itself alone
 #endif
 
 #define FUR_SLABS (FURS * LAYERS) // slabs of all furs in one state
@@ -88,12 +89,21 @@ vec2 keptLevels(int slab) {
 #endif
 }
 
+// First shell of a slab.
+float firstOf(int slab, float count) {
+	return ceil((float(slab) - NUDGE) * count / SLABS - 0.5);
+}
+
+// Shell that stands for a slab's.
+float middleOf(int slab, float count) {
+	return floor(0.5 * (firstOf(slab, count) + firstOf(slab + 1, count)));
+}
+
 // Number of shells of a slab, the outermost counted by its share. It equalises the slabs' weights, or fur would change its
 // colour with the number of shells.
 float sharesOf(int slab, float count) {
-	float each = count / SLABS;
-	if (each < 1.0) return each;
-	float first = ceil((float(slab) - NUDGE) * each - 0.5), next = ceil((float(slab + 1) - NUDGE) * each - 0.5);
+	if (count < SLABS) return count / SLABS;
+	float first = firstOf(slab, count), next = firstOf(slab + 1, count);
 #ifdef TRIMMED
 	// A thin last slab may have no shell, or only the outermost.
 	return slab == TOP ? (count - first) / min(SLABS - float(slab), 1.0) : min(next, count) - first;
@@ -124,8 +134,11 @@ ShellPoint shellPoint() {
 	vShells = bodyDetail.x;
 	vDetail = packHalf2x16(bodyDetail.yz);
 #else
-	float below = max(merged - 1.0, 0.0), lowest = floor(below);
-	float i = float(firstShell + gl_InstanceID) + lowest, count = shellCount;
+	float i = float(firstShell + gl_InstanceID), count = shellCount;
+	if (merged == 1.0) {
+		float beyond = i - 1.0 - groups.y;
+		i = i < 1.0 ? groups.x - 1.0 : beyond < 0.0 ? middleOf(int(groups.z + i) - 1, count) : groups.w + beyond;
+	}
 #endif
 	point.there = i < count;
 	// Shells lie in the middle of their share of the fur; a fractional n leaves the outermost a smaller share.
@@ -139,7 +152,6 @@ ShellPoint shellPoint() {
 	vec3 comb = furComb(_comb);
 	point.frameVS = point.turn * frame;
 	point.comb = comb * frame;
-	point.pointVS = (placement * vec4(furPoint(rootPosition, n, comb, _fur.y, point.s), 1.0)).xyz;
 
 	// A shell off its slab's middle is sheared by the hairs' drift from there, so that hairs are continuous, not stepped.
 #ifdef TRIMMED
@@ -148,13 +160,17 @@ ShellPoint shellPoint() {
 #else
 	int slab = slabAt(point.s, i, count);
 #endif
-	vec2 slope, drifted = driftAt(point.s, slope);
-	vAt = vec3(uv * furTiles - (drifted - driftKnot(slab + 1)), float(slab + furRegion * LAYERS));
 	float slabs = share / sharesOf(slab, count);
 #ifndef BODIES
-	float many = (lowest + 1.0) * SLABS / count;
-	if (below > 0.0 && i < lowest + 2.0) slabs = i == lowest ? many * (lowest + 1.0 - below) : slabs + many * (below - lowest);
+	if (i < groups.w) {
+		bool lowest = i < groups.x, stands = i == (lowest ? groups.x - 1.0 : middleOf(slab, count));
+		slabs = mix(slabs, !stands ? 0.0 : lowest ? groups.x * SLABS / count : 1.0, merged);
+		if (stands && !lowest) point.s = mix(point.s, (float(slab) + 0.5) / float(LAYERS), merged);
+	}
 #endif
+	point.pointVS = (placement * vec4(furPoint(rootPosition, n, comb, _fur.y, point.s), 1.0)).xyz;
+	vec2 slope, drifted = driftAt(point.s, slope);
+	vAt = vec3(uv * furTiles - (drifted - driftKnot(slab + 1)), float(slab + furRegion * LAYERS));
 	point.slab = slab;
 	vWeight = _fur.x * FUR_SHARE * slabs * combedCover(point, slope) * divergence(furCurvature(_fur.y), point.comb, point.s);
 #ifdef PARTED
