@@ -136,21 +136,27 @@ export class FurShells extends PosedMesh<InstancedBufferGeometry, FurMaterial> {
 
 	/** Find the shells that stand for several: one for all that are hidden, one for each slab that is faint. */
 	#merge(): void {
-		const { shellCount } = this;
-		const slabs = this.#layers * this.#own.trim;
-		const steps = Math.min(slabs, shellCount); // of one shell at least
-		const first = (step: number) => Math.ceil(((step - 1e-4) * shellCount) / steps - 0.5);
-		const [hidden, faint] = this.#own.hidden.map((share) => Math.floor(share * steps)) as [number, number];
-		const top = shellCount < slabs ? hidden : faint;
-		this.#own.merged = hidden && this.merging;
-		this.#own.groups.set(first(hidden), top - hidden, hidden, first(top));
-		this.geometry.instanceCount = this.drawnShells;
+		const own = this.#own;
+		const spared = this.#spared;
+		const slabs = this.#layers * own.trim;
+		const steps = Math.min(slabs, own.shellCount); // slabs, or shells where these are fewer
+		const first = (step: number) => Math.ceil(((step - 1e-4) * own.shellCount) / steps - 0.5);
+		const [hidden, faint] = own.hidden.map((share) => Math.floor(share * steps)) as [number, number];
+		const top = steps < slabs ? hidden : faint;
+		own.merged = hidden && this.merging;
+		own.groups.set(first(hidden), top - hidden, hidden, first(top));
+		if (this.#spared !== spared) this.geometry.instanceCount = this.drawnShells;
+	}
+
+	/** Number of shells that others stand for. */
+	get #spared(): number {
+		const { merged, groups } = this.#own;
+		return merged === 1 ? groups.w - groups.y - 1 : 0;
 	}
 
 	/** Number of shells that are drawn: fewer than `shellCount` where some are merged. */
 	get drawnShells(): number {
-		const { merged, groups } = this.#own;
-		return Math.ceil(this.shellCount) - (merged === 1 ? groups.w - groups.y - 1 : 0);
+		return Math.ceil(this.shellCount) - this.#spared;
 	}
 
 	/** Set number of shells, alpha cut and crispness for this picture. */

@@ -15,7 +15,7 @@ ROUNDS = 30
 """At most; the hairs that move are chosen anew in each."""
 
 SWEEPS = 4
-"""Of one round; each passes a lean on to the neighbours."""
+"""Smoothings in a round; each passes a lean on to the neighbours."""
 
 
 def out_of_hollows(surface: Surface, lengths: Floats, comb: Floats) -> Floats:
