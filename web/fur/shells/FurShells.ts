@@ -30,6 +30,9 @@ const middle = new Vector3();
 const viewport = new Vector4();
 const inverse = new Matrix4();
 
+/** First shell of a slab. @param each shells a slab */
+const firstOf = (slab: number, each: number): number => Math.ceil((slab - 1e-4) * each - 0.5);
+
 /** Shells of a furry surface: one instanced draw, instance = shell, the innermost first. */
 export class FurShells extends PosedMesh<InstancedBufferGeometry, FurMaterial> {
 	/** Draws the hull into shadow maps. */
@@ -137,14 +140,15 @@ export class FurShells extends PosedMesh<InstancedBufferGeometry, FurMaterial> {
 	/** Find the shells that stand for several: one for all that are hidden, one for each slab that is faint. */
 	#merge(): void {
 		const own = this.#own;
+		if (!this.merging && !own.merged) return;
 		const spared = this.#spared;
 		const slabs = this.#layers * own.trim;
-		const steps = Math.min(slabs, own.shellCount); // slabs, or shells where these are fewer
-		const first = (step: number) => Math.ceil(((step - 1e-4) * own.shellCount) / steps - 0.5);
-		const [hidden, faint] = own.hidden.map((share) => Math.floor(share * steps)) as [number, number];
-		const top = steps < slabs ? hidden : faint;
+		const count = own.shellCount;
+		const steps = Math.min(slabs, count); // slabs, or shells where these are fewer
+		const hidden = Math.floor(own.hidden(0) * steps);
+		const top = steps < slabs ? hidden : Math.floor(own.hidden(1) * steps);
 		own.merged = hidden && this.merging;
-		own.groups.set(first(hidden), top - hidden, hidden, first(top));
+		own.groups.set(firstOf(hidden, count / steps), top - hidden, hidden, firstOf(top, count / steps));
 		if (this.#spared !== spared) this.geometry.instanceCount = this.drawnShells;
 	}
 

@@ -187,9 +187,9 @@ export class PeltMaterial extends ShaderMaterial {
 		this.#switch('TRIMMED', share < 1);
 	}
 
-	/** Shares of the fur's height, from the skin, that are hardly seen and faint; less where fur is thinner than baked. @internal */
-	get hidden(): number[] {
-		return this.#light.hidden(this.trim).map((height) => height * Math.min(this.density, 1));
+	/** Share of the fur's height, from the skin, that is hardly seen (0) or faint (1); less where it is thinner than baked. @internal */
+	hidden(which: 0 | 1): number {
+		return (this.#light.hidden(this.trim)[which] as number) * Math.min(this.density, 1);
 	}
 
 	/** Switch to the cheaper sum for lamps of one hue. */
