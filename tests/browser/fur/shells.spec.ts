@@ -125,8 +125,8 @@ test('the number of shells changes without a jump', async ({ page }) => {
 });
 
 for (const { shells, drawn } of [
-	{ shells: 16, drawn: 12 },
-	{ shells: 48, drawn: 26 },
+	{ shells: 16, drawn: 11 },
+	{ shells: 48, drawn: 27 },
 ])
 	test(`of ${shells} shells ${drawn} stand for all, and the others go over to them without a step`, async ({
 		page,

@@ -5,11 +5,12 @@ import { chmodSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { afterAll, describe, expect, it } from 'vitest';
+import { afterAll, afterEach, describe, expect, it, vi } from 'vitest';
 import { findProgram, launch } from '../../../web/tools/measure/launch.mjs';
 
 const folder = mkdtempSync(join(tmpdir(), 'furbake-launch-test-'));
 afterAll(() => rmSync(folder, { recursive: true, force: true }));
+afterEach(() => vi.unstubAllEnvs());
 
 /** A program that tells its arguments and process ids and then does nothing, as does its child. */
 function fakeBrowser(name: string, body: string): string {
@@ -72,6 +73,13 @@ describe.skipIf(process.platform !== 'linux')('a browser', () => {
 			expect(() => findProgram(wanted)).toThrow(
 				`--browser: got ${wanted}, expected firefox, chromium or the path of a browser`,
 			);
+	});
+
+	it('known by name and not installed says where it was looked for', () => {
+		vi.stubEnv('PATH', folder);
+		expect(() => findProgram('firefox')).toThrow(
+			'--browser: firefox is not installed, or not on the PATH as firefox or firefox-esr',
+		);
 	});
 });
 

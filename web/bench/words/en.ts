@@ -34,6 +34,9 @@ const costs: Record<CostName, string> = {
 	'a still light': 'a still light',
 	'8 lights': '8 lights',
 	fins: 'fins',
+	'merged shells': 'hidden shells drawn as one',
+	'48 shells': '48 shells',
+	'48 shells, merged': '48 shells, hidden and faint ones merged',
 };
 
 export const en = {

@@ -70,6 +70,9 @@ export const zh: Words = {
 		'a still light': '光源静止',
 		'8 lights': '8 盏灯',
 		fins: '鳍片',
+		'merged shells': '被遮挡的壳层合为一层',
+		'48 shells': '48 层壳',
+		'48 shells, merged': '48 层壳，被遮挡和稀疏的合并',
 	},
 
 	tables: {

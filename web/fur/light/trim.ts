@@ -13,7 +13,7 @@ export interface Slabs {
 }
 
 /** Shares of the view from straight above that go to hairs that are hardly seen, and to these and faint ones. */
-const SEEN = [0.1, 0.42];
+const SEEN = [0.15, 0.4];
 
 /** Numbers per row of the shaders' table: four RGBA texels. */
 const ROW = 16;

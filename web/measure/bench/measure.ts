@@ -10,6 +10,8 @@ import { type BenchModels, loadBenchModels, type Torus } from './tori.ts';
 
 /** Triangles of the body for costs and curves. */
 const MIDDLE = 4608;
+/** Shells for the cost of many of them. */
+const MANY = 48;
 const CURVE_SHELLS = [8, 16, 32, 64];
 /** Sizes of curves, shares of the picture's width and height. */
 const CURVE_SIZES = [0.25, 0.5, 0.75, 1];
@@ -47,7 +49,7 @@ function effort({ rounds, methods, triangles }: BenchOptions, part: Part): numbe
 	return {
 		results: rows,
 		layers: few * (methods.length + 2) * triangles.length,
-		costs: (2 + 2 * rounds) * 12,
+		costs: (2 + 2 * rounds) * 18,
 		curves: few * 30,
 		card: few * CARD.bodies.length * CARD.shells.length * 10,
 	}[part];
@@ -139,6 +141,9 @@ class Bench {
 			{ name: 'a still light', subject: make({}, { light: 'still' }) },
 			{ name: '8 lights', subject: make({ lights: 8 }) },
 			{ name: 'fins', subject: make({}, { fins: true }) },
+			{ name: 'merged shells', subject: make({ merged: true }) },
+			{ name: '48 shells', subject: make({}, { shells: MANY }) },
+			{ name: '48 shells, merged', subject: make({ merged: true }, { shells: MANY }) },
 		];
 		const [base, plain] = [make({}), make({})];
 		const groups = [

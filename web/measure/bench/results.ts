@@ -51,7 +51,10 @@ export type CostName =
 	| 'one, moving'
 	| 'a still light'
 	| '8 lights'
-	| 'fins';
+	| 'fins'
+	| 'merged shells'
+	| '48 shells'
+	| '48 shells, merged';
 
 /** Cost of a variant against the bench's plain PTM. */
 export interface Cost {

@@ -59,8 +59,11 @@ function startable(path) {
  * @returns {string} path of the program
  */
 export function findProgram(wanted) {
-	const names = wanted === 'firefox' || wanted === 'chromium' ? PROGRAMS[wanted] : [wanted];
+	const known = wanted === 'firefox' || wanted === 'chromium';
+	const names = known ? PROGRAMS[wanted] : [wanted];
 	const found = /[\\/]/.test(wanted) ? [wanted].find(startable) : names.map(onPath).find(Boolean);
+	if (!found && known)
+		throw new Failure(`--browser: ${wanted} is not installed, or not on the PATH as ${names.join(' or ')}`);
 	if (!found) throw new Failure(`--browser: got ${wanted}, expected firefox, chromium or the path of a browser`);
 	return found;
 }

@@ -45,15 +45,15 @@ describe('hidden fur', () => {
 
 	const hiddenShare = (slabs: Slabs, share: number) => hiddenShares(slabs, share)[0] as number;
 
-	it('ends where a tenth of the view from above is left', () => {
-		// The slabs have 0, .2, 0 and .8 of the view: half of the second one is hidden.
-		expect(hiddenShare(fur(0, 1, 0, 0.8), 1)).toBeCloseTo(1.5 / 4, 9);
-		expect(hiddenShare(fur(1, 1, 1, 1), 1)).toBeCloseTo(3.1 / 4, 9);
-		expect(hiddenShare(fur(1, 0, 0, 0), 1)).toBeCloseTo(0.1 / 4, 9);
+	it('ends where .15 of the view from above is left', () => {
+		// The slabs have 0, .2, 0 and .8 of the view: three quarters of the second one are hidden.
+		expect(hiddenShare(fur(0, 1, 0, 0.8), 1)).toBeCloseTo(1.75 / 4, 9);
+		expect(hiddenShare(fur(1, 1, 1, 1), 1)).toBeCloseTo(3.15 / 4, 9);
+		expect(hiddenShare(fur(1, 0, 0, 0), 1)).toBeCloseTo(0.15 / 4, 9);
 	});
 
 	it('is faint higher up', () => {
-		expect(hiddenShares(fur(1, 1, 1, 1), 1)[1]).toBeCloseTo(3.42 / 4, 9);
+		expect(hiddenShares(fur(1, 1, 1, 1), 1)[1]).toBeCloseTo(3.4 / 4, 9);
 		expect(hiddenShares(fur(0, 0, 0, 1), 0.5)).toEqual([0, 0]);
 	});
 
