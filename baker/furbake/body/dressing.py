@@ -119,7 +119,7 @@ def groom_parts(groom: Groomed, options: BakeOptions, ground: Surface) -> tuple[
 
 def _mask(region: Region, ground: Surface, skin: Surface, tile: float) -> Floats:
     """(V,) 0..1: where a region is, with its soft border."""
-    border = region.border if region.border is not None else tile / 2
+    border = region.border if region.border is not None else tile / 3
     if region.near:
         return in_balls(ground, region.near, border)
     if region.material is not None:

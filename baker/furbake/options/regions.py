@@ -58,7 +58,7 @@ class Region:
     mask : path of a picture over the model's texture coordinates, or `vertex:` + channel or attribute; or None
     material : name of the material that covers it, or None
     near : balls (x, y, z, radius), model units: 1 at the middle of a ball, 0 beyond it; or ()
-    border : width of its soft edge, model units; None: half a tile of the coat
+    border : width of its soft edge, model units; None: a third of the coat's tile
     """
 
     name: str
