@@ -40,7 +40,8 @@ class Fins:
     tangents : (4E, 3) unit, along the edge, where u grows
     uv : (4E, 2) tiles along the edge, not below 0; height: 0 at roots, 1 at tips
     angles : (4E, 2) radians, -π..π: the normals of the edge's two faces, turned about the edge t from n (the vertex
-        normal made perpendicular to t) towards t × n; equal at a border
+        normal made perpendicular to t) towards t × n. At a border the second is that of the direction into the face: a
+        face that an eye outside the border sees from behind, so that the edge is an outline to it
     """
 
     source: Ints
@@ -84,14 +85,18 @@ def build_fins(
 
     source = np.tile(ends, 2).reshape(-1)
     tangents = np.repeat(along, 4, axis=0)
-    normals = unit(face_vectors(surface.vertices, surface.faces))[np.repeat(faces, 4, axis=0)]
+    normals = unit(face_vectors(surface.vertices, surface.faces))[faces]
+    border = faces[:, 0] == faces[:, 1]
+    inward = surface.vertices[surface.faces[faces[:, 1]]].mean(axis=1) - surface.vertices[ends[:, 0]]
+    inward -= along * np.einsum("ij,ij->i", inward, along)[:, None]
+    normals[border, 1] = unit(inward)[border]
     first = 4 * np.arange(count)[:, None]
     return Fins(
         source=source,
         faces=(first + np.array([0, 1, 3, 0, 3, 2])).reshape(-1, 3),
         tangents=tangents,
         uv=np.column_stack([u.reshape(-1), height]),
-        angles=angles_about(tangents, surface.normals[source], normals),
+        angles=angles_about(tangents, surface.normals[source], np.repeat(normals, 4, axis=0)),
     )
 
 

@@ -53,15 +53,30 @@ def test_quads_are_whole() -> None:
     assert (np.linalg.det(np.stack([b - a, c - a], axis=1)) > 0).all()
 
 
-def test_borders_have_fins_with_one_face_twice() -> None:
+def test_borders_have_fins() -> None:
     surface = builtin("plane")
     fins = build_fins(surface, downward(surface), TILE)
     ends, faces = fin_edges(surface)
     border = faces[:, 0] == faces[:, 1]
     assert border.sum() == 4 * (np.sqrt(len(surface.vertices)) - 1)
     angles = fins.angles.reshape(-1, 4, 2)
-    np.testing.assert_allclose(angles, 0, atol=1e-9)
+    np.testing.assert_allclose(angles[:, :, 0], 0, atol=1e-9)
+    np.testing.assert_allclose(angles[~border][:, :, 1], 0, atol=1e-9)
     assert len(ends) == len(angles)
+
+
+def test_a_border_is_an_outline_to_eyes_outside_of_it() -> None:
+    surface = builtin("plane")
+    middle = surface.vertices.mean(axis=0)
+    fins = build_fins(surface, downward(surface), TILE)
+    _, faces = fin_edges(surface)
+    border = np.repeat(faces[:, 0] == faces[:, 1], 4)
+    t, n = fins.tangents[border], surface.normals[fins.source[border]]
+    angle = fins.angles[border][:, 1, None]
+    second = n * np.cos(angle) + np.cross(t, n) * np.sin(angle)
+    outwards = surface.vertices[fins.source[border]] - middle
+    outwards -= t * np.einsum("ij,ij->i", outwards, t)[:, None]  # of a square, about its middle
+    np.testing.assert_allclose(second, -outwards / np.linalg.norm(outwards, axis=1)[:, None], atol=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,5 @@
 import { readFileSync } from 'node:fs';
-import { type BufferAttribute, type BufferGeometry, Uint8BufferAttribute } from 'three';
+import { type BufferAttribute, type BufferGeometry, Uint8BufferAttribute, Vector3 } from 'three';
 import { expect, it } from 'vitest';
 import { EdgeFaces } from '../../../../web/fur/fins/EdgeFaces.ts';
 import { finQuads } from '../../../../web/fur/fins/finQuads.ts';
@@ -91,6 +91,23 @@ it('begins each fin a golden section after the one before, and refuses a mask of
 	const starts = Array.from({ length: 8 }, (_, i) => Math.min(uv.getX(4 * i), uv.getX(4 * i + 1)) * places.tiles);
 	for (const [i, start] of starts.entries()) expect(start).toBeCloseTo((0.25 + i * ((5 ** 0.5 - 1) / 2)) % 1, 5);
 	expect(() => finQuads(shells, mask.slice(1), places)).toThrow(/got a mask of \d+ bytes, expected \d+ for \d+ edges/);
+});
+
+it('makes a border an outline to eyes outside of it', () => {
+	const square = load('pelt-fox').fur.shells.geometry;
+	const sides = [...new EdgeFaces(square).edges];
+	const made = finQuads(square, Uint8Array.of(255), places);
+	const middle = new Vector3(0.5, 0, 0.5);
+	const vector = (name: string, fin: number) => new Vector3().fromArray(row(made, name, 4 * fin));
+	const borders = [...sides.keys()].filter((i) => sides[i]?.one === sides[i]?.two);
+	expect(borders).toHaveLength(4);
+	for (const i of borders) {
+		const [t, n] = [vector('tangent', i), vector('normal', i)];
+		const angle = Math.PI * (row(made, '_edge', 4 * i)[1] as number);
+		const second = t.cross(n).multiplyScalar(Math.sin(angle)).addScaledVector(n, Math.cos(angle));
+		expect(second.dot(vector('position', i).sub(middle))).toBeCloseTo(-0.5, 6);
+		expect(second.length()).toBeCloseTo(1, 6);
+	}
 });
 
 it('takes the places of roots from one face of the shells', () => {
