@@ -103,8 +103,7 @@ export function makeSubject(
 	});
 	const fins = row.fins ? makeFins(fur, asset, material) : undefined;
 	const shells = new FurShells(surface, fur.shells, asset, material);
-	shells.shellCount = row.shells;
-	shells.merging = extras.merged ? 1 : 0;
+	Object.assign(shells, { shellCount: row.shells, merging: extras.merged ? 1 : 0 });
 	fins?.join(shells, fur.shells);
 	scene.add(...(fins ? [fins] : []), shells);
 	const lit = { textures, shells, skin, motion: undefined, weather: undefined, method: undefined };
