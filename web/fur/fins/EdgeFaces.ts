@@ -65,21 +65,10 @@ export class EdgeFaces {
 		}
 	}
 
-	/**
-	 * Puts the unit normals of an edge's faces into `one` and `two`. At a border `two` points along the face into the surface:
-	 * a face that an eye outside the border sees from behind, so that the edge is an outline to it.
-	 */
+	/** Puts the unit normals of an edge's faces into `one` and `two`: the same on both sides of a border. */
 	normals(edge: Readonly<Sides>, one: Vector3, two: Vector3): void {
 		this.#normal(edge.one, one);
-		if (edge.two === edge.one) this.#inwards(edge, one, two);
-		else this.#normal(edge.two, two);
-	}
-
-	/** Puts the unit direction from a border into its face into `inwards`. @param normal of that face */
-	#inwards({ from, to }: Readonly<Sides>, normal: Vector3, inwards: Vector3): void {
-		const [start] = this.#spare;
-		inwards.fromBufferAttribute(this.#position, to).sub(start.fromBufferAttribute(this.#position, from));
-		inwards.crossVectors(normal, inwards).normalize();
+		this.#normal(edge.two, two);
 	}
 
 	#vertex(corner: number): number {

@@ -62,8 +62,10 @@ export function finQuads(surface: BufferGeometry, mask: Uint8Array, places: FinP
 		const cosine = along.normalize().dot(laid);
 		const sheared = lean * (1 - Math.abs(cosine));
 		const begin = (start + GOLDEN * i) % 1;
-		if (cosine < 0) along.negate();
 		faces.normals(edge, one, two);
+		// Direction into the face of a border, as if of a face that eyes outside see from behind: an outline to them.
+		if (edge.one === edge.two) two.cross(along);
+		if (cosine < 0) along.negate();
 		for (const [end, root] of (cosine < 0 ? [to, from] : roots).entries()) {
 			const u = begin + end * length;
 			root.write(4 * i + end, along, one, two, u / tiles, 0);
