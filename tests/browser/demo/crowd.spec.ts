@@ -28,6 +28,15 @@ test('the light goes round a crowd, too', async ({ page }) => {
 	expect(difference(left, await picture(page))).toBeGreaterThan(3);
 });
 
+test('the lamp of a crowd is in the first picture', async ({ page }) => {
+	await page.setViewportSize({ width: 900, height: 600 });
+	await open(page, '?model=sphere&crowd=25&shells=1&fins=0&still=1&colour=050505,0a0a0a&light=-.7,.6,.3');
+	const { width, brightness } = await picture(page.locator('#picture'));
+	// Below the header, between the tools and the panel.
+	const seen = brightness.filter((_, i) => Math.floor(i / width) > 90 && i % width > 90 && i % width < 600);
+	expect(seen.reduce((most, each) => Math.max(most, each), 0)).toBeGreaterThan(150);
+});
+
 test('a link leads close to one body of a crowd', async ({ page }) => {
 	await drawNothing(page);
 	await open(page, '?model=sphere&shells=4&camera=0,10,0.09&crowd=20&still=1');

@@ -39,7 +39,7 @@ export function listenToHands(
 		},
 		move: (pointer) => {
 			if (gestures.handlesDrag) return gestures.point(pointer);
-			light.want((wanted) => directionUnder(pointer, camera, stage.centre, stage.radius * lampDistance, wanted));
+			light.want((wanted) => directionUnder(pointer, camera, stage.centre, stage.lampRadius * lampDistance, wanted));
 			take();
 		},
 	});

@@ -144,7 +144,7 @@ export class Picture {
 		this.#moving = true;
 		const { stage, light, lamp } = this;
 		stage.setLight(light.direction);
-		lamp.place(light.direction, stage.centre, stage.radius);
+		lamp.place(light.direction, stage.centre, stage.lampRadius);
 		this.request();
 	}
 

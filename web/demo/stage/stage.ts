@@ -33,6 +33,8 @@ const MAX_PIXEL_RATIO = 2;
 
 /** Radius of the ground, in radii of the body or of the crowd that stands on it. */
 const ROOM = { body: 6, crowd: 2.5 };
+/** Radius around which the lamp of a crowd goes, in radii of what the camera frames. */
+const CROWD_LAMP = 0.6;
 
 export class Stage {
 	readonly renderer: WebGLRenderer;
@@ -206,6 +208,11 @@ export class Stage {
 		// A leap is one over the lowest point of the clip.
 		if (model.clips) this.#lift.y += this.#pose.min.y - model.clips.faded(({ box }) => box.min.y);
 		this.#shadow.follow(this.#lift, this.#yaw, heightOf(model), model.box);
+	}
+
+	/** Radius around which the lamp goes: of the body, or of the middle of a crowd, where it stays in the picture. */
+	get lampRadius(): number {
+		return this.#crowd ? Math.max(this.bodyRadius, CROWD_LAMP * this.radius) : this.radius;
 	}
 
 	/** Direction to the lamp, world axes, unit; it stays while the lamp's target moves. */
