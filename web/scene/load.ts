@@ -2,7 +2,7 @@
 
 import { type AnimationClip, Box3, type LoadingManager, Mesh, type Object3D, SkinnedMesh, Vector3 } from 'three';
 import { type GLTF, GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
-import { type Fur, type FurLimits, FurLoaderPlugin } from '../fur/index.ts';
+import { type Fur, type FurLimits, FurLoaderPlugin, keepThinParts } from '../fur/index.ts';
 import { disposeAll } from '../page/dispose.ts';
 import type { ClipPlayer } from './clips/ClipPlayer.ts';
 import type { Room } from './clips/Reach.ts';
@@ -76,7 +76,11 @@ export async function loadModel(
 		});
 	const whole = await (model ?? modelOf(gltf.scene, clips));
 	whole.fur = gltf.userData.fur;
-	if (whole.fur) gleam(features(whole.object, whole.fur));
+	if (whole.fur) {
+		const parts = features(whole.object, whole.fur);
+		gleam(parts);
+		keepThinParts(whole.object, parts);
+	}
 	if (newer) whole.newer = newer;
 	return whole;
 }

@@ -17,6 +17,8 @@ export interface Spot {
 	size: number;
 }
 
+/** Radius around which the lamp goes, in radii of what the camera frames. */
+const LAMP = 0.6;
 const CANDIDATES = 24;
 /** Radius of the ground that `count` bodies stand on, in the same units. */
 export const spread = (count: number) => 0.85 * Math.sqrt(count);
@@ -94,6 +96,11 @@ export class Crowd extends Group {
 	/** Brings the bodies to the clip, in step with the first or a part of the loop ahead. */
 	pose(clips: ClipPlayer): void {
 		clips.eachPhase(FurInstances.maxPoses, (phase) => this.#instances.capturePose(phase));
+	}
+
+	/** Radius around which the lamp goes: around all that is framed it would leave the first picture. */
+	get lampRadius(): number {
+		return LAMP * this.radius;
 	}
 
 	/** Number of bodies shown, around the model's own place. */

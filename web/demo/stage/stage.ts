@@ -33,8 +33,6 @@ const MAX_PIXEL_RATIO = 2;
 
 /** Radius of the ground, in radii of the body or of the crowd that stands on it. */
 const ROOM = { body: 6, crowd: 2.5 };
-/** Radius around which the lamp of a crowd goes, in radii of what the camera frames. */
-const CROWD_LAMP = 0.6;
 
 export class Stage {
 	readonly renderer: WebGLRenderer;
@@ -92,15 +90,8 @@ export class Stage {
 		this.renderer.info.autoReset = false;
 		this.#backdrop = backdrop(Boolean(half));
 		this.#shadow.visible = this.#ground.visible = false;
-		this.scene.add(
-			this.key,
-			this.key.target,
-			this.#lamps,
-			this.sky,
-			this.#environmentLights,
-			this.#shadow,
-			this.#ground,
-		);
+		this.scene.add(this.key, this.key.target, this.#lamps, this.sky, this.#environmentLights);
+		this.scene.add(this.#shadow, this.#ground);
 		this.setEnvironment(undefined);
 	}
 
@@ -210,9 +201,9 @@ export class Stage {
 		this.#shadow.follow(this.#lift, this.#yaw, heightOf(model), model.box);
 	}
 
-	/** Radius around which the lamp goes: of the body, or of the middle of a crowd, where it stays in the picture. */
+	/** Radius around which the lamp goes. */
 	get lampRadius(): number {
-		return this.#crowd ? Math.max(this.bodyRadius, CROWD_LAMP * this.radius) : this.radius;
+		return this.#crowd?.lampRadius ?? this.radius;
 	}
 
 	/** Direction to the lamp, world axes, unit; it stays while the lamp's target moves. */

@@ -1,5 +1,6 @@
 import { InstancedMesh, type Material, Matrix4, type Mesh, type Object3D, type Sphere, Vector4 } from 'three';
 import type { Jointed } from '../body/FurPose.ts';
+import { keepThin } from '../body/skin/thin.ts';
 import { FurFins } from '../shells/FurFins.ts';
 import { FurShells } from '../shells/FurShells.ts';
 import type { HerdPoses } from './HerdPoses.ts';
@@ -7,7 +8,6 @@ import { hung } from './hung.ts';
 import { Places } from './Places.ts';
 import { gatherPieces, type Piece, placement } from './pieces.ts';
 import { PosedMaterial } from './posedMaterial.ts';
-import { keepThin } from './thin.ts';
 
 const total = new Matrix4();
 const viewport = new Vector4();

@@ -17,7 +17,7 @@ import {
 	Vector3,
 } from 'three';
 import { MatteMaterial } from '../body/skin/MatteMaterial.ts';
-import { markThin } from './thin.ts';
+import { isKeptThin, markThin } from '../body/skin/thin.ts';
 
 /** One draw of a body. */
 export interface Piece {
@@ -35,7 +35,17 @@ export interface Piece {
 	dispose(): void;
 }
 
-const KNOWN = new Set(['position', 'normal', 'tangent', 'color', 'uv', 'skinIndex', 'skinWeight']);
+const KNOWN = new Set([
+	'position',
+	'normal',
+	'tangent',
+	'color',
+	'uv',
+	'skinIndex',
+	'skinWeight',
+	'spine',
+	'spineRoot',
+]);
 
 /** Classes that a merged piece need not keep: one of an application's own, such as a glossy eye's, takes their place. */
 const COMMON = new Set<unknown>([MeshStandardMaterial, MatteMaterial]);
@@ -45,7 +55,7 @@ function isPlain({ material, geometry, customDepthMaterial }: Mesh): boolean {
 	if (Array.isArray(material) || material.type !== 'MeshStandardMaterial' || customDepthMaterial) return false;
 	const { emissive, transparent, alphaTest, flatShading, wireframe } = material as MeshStandardMaterial;
 	if (transparent || alphaTest > 0 || flatShading || wireframe || emissive.getHex() !== 0) return false;
-	if (Object.hasOwn(material, 'onBeforeCompile')) return false;
+	if (Object.hasOwn(material, 'onBeforeCompile') && !isKeptThin(material)) return false;
 	if (Object.values(material).some((value) => value instanceof Texture)) return false;
 	if (Object.keys(geometry.morphAttributes).length > 0) return false;
 	return Object.keys(geometry.attributes).every((name) => KNOWN.has(name));
