@@ -1,6 +1,6 @@
 /**
  * `npm run pictures`: regenerates the project's pictures: `public/og.jpg` for shared links, `still.jpg`, the bunny under
- * three lights, and `demo.jpg` and `learn.jpg`, the pages themselves. `npm run pictures -- --fox models/my-fox` makes
+ * three lights, `presets.jpg`, the bunny in every preset, and `demo.jpg` and `learn.jpg`, the pages themselves. `npm run pictures -- --fox models/my-fox` makes
  * `fox.jpg` of README's fox, baked there, `-- --bear models/my-bear` `usd.jpg` of a groomed one; `npm run pictures -- --truth` traces the lesson's ring (minutes; `mitsuba`);
  * `npm run pictures -- --blender` furs, bakes and renders the monkey of the docs in Blender (minutes; installs `bpy`).
  */
@@ -17,14 +17,16 @@ import { serve } from './site/vite.mjs';
 const BUNNY = 'model=bunny&planes=128&camera=-20,10,0.9';
 /** The fox running, looking about, and walking at sunset. */
 const FOX = [
-	'clip=Run&time=0.35&camera=62,8,0.8',
+	'clip=Run&time=0.35&camera=62,8,0.8&light=0.1,0.7,0.7',
 	'clip=Survey&time=1.2&camera=28,12,0.64&light=-0.4,0.7,0.5',
-	'clip=Walk&time=0.3&camera=42,4,0.78&env=sunset',
+	'clip=Walk&time=0.3&camera=42,4,0.78&env=sunset&light=0.1,0.4,0.9',
 ];
 /** The side from which a groomed bear is seen. */
 const BEAR = 'camera=-35,10,0.8';
 /** The monkey of the docs at rest, as Cycles has seen it, and in its clip. */
 const MONKEY = ['camera=25,12,0.8&light=-0.5,0.75,0.35', 'clip=nod&time=0.5&camera=-20,8,0.8&light=0.6,0.6,0.5'];
+/** Presets worn by the bunny, in the order of their page. */
+const PRESETS = ['paper', 'bunny', 'fox', 'wolf', 'sheep', 'teddy', 'mole'];
 /** Light from the left, from above, from behind. */
 const LIGHTS = ['-0.9,0.45,0.2', '0.05,0.98,0.2', '0.75,0.45,-0.5'];
 const WORDS = ['furbake', 'Fur that you relight by dragging,', 'baked from any mesh'];
@@ -106,6 +108,25 @@ async function strip(browser, site, views, name, first = []) {
 	const images = pictures.map((picture) => `<img src="${picture}" width="${side}" height="${side}" />`);
 	const body = `<div style="display: flex">${images.join('')}</div>`;
 	await keep(browser, body, { width: side * pictures.length, height: side }, name, 84);
+}
+
+/** The bunny in every preset, and the tiger cub in two furs of its own. @param {Browser} browser; @param {string} site */
+async function presets(browser, site) {
+	const [side, columns] = [400, 4];
+	const worn = PRESETS.map((preset) => [preset, `${BUNNY}&preset=${preset}&light=-0.6,0.65,0.45`]);
+	const figures = [];
+	for (const [name, what] of [...worn, ['two furs', 'model=tiger&camera=-20,8,1&light=-0.6,0.65,0.45']]) {
+		const picture = await view(browser, site, what ?? '', { width: side, height: side });
+		figures.push(`<figure><img src="${picture}" width="${side}" /><figcaption>${name}</figcaption></figure>`);
+	}
+	const body = `
+		<style>
+			body { display: grid; grid-template-columns: repeat(${columns}, ${side}px); font: 22px "Liberation Sans", Helvetica, Arial, sans-serif }
+			figure { position: relative; height: ${side}px; color: #e9e4dc }
+			figcaption { position: absolute; left: 20px; bottom: 16px }
+		</style>${figures.join('')}`;
+	const size = { width: side * columns, height: (side * figures.length) / columns };
+	await keep(browser, body, size, 'presets.jpg', 84);
 }
 
 /** Two methods side by side. @param {Browser} browser; @param {string} site */
@@ -211,6 +232,7 @@ await command(async () => {
 		}
 		await shared(browser, server.url);
 		await still(browser, server.url);
+		await presets(browser, server.url);
 		await demo(browser, server.url);
 		await learn(browser, server.url);
 	} finally {

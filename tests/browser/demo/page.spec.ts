@@ -221,10 +221,36 @@ test('unknown and broken parameters are ignored with a notice', async ({ page })
 	for (const name of ['model=cat', 'light=north', 'camera=1,2', 'shells=many', 'env=mars', 'colour']) {
 		await expect(notices).toContainText(name);
 	}
+	await expect(notices).toContainText('0.001 to 10, such as -20,10,0.9; ignored');
 	await page.getByRole('button', { name: 'Close this message' }).first().click();
 	await page.keyboard.press('ArrowUp');
 	expect(await settled(page, 'model')).toBe(null);
 	expect(await settled(page, 'light')).toMatch(/\d/);
+});
+
+test('a notice waits for the model before its time runs, and leaves the figures in view', async ({ page }) => {
+	await drawNothing(page);
+	await page.setViewportSize({ width: 700, height: 640 });
+	let release = () => {};
+	const released = new Promise<void>((resolve) => {
+		release = resolve;
+	});
+	await page.route('**/models/sphere/model.gltf', async (route) => {
+		await released;
+		await route.continue();
+	});
+	await page.clock.install();
+	await page.goto(`${site}?model=sphere&still=1&shells=2&details=1&light=north`);
+	const notice = page.locator('.notice');
+	await expect(notice).toContainText('light=north');
+	await page.clock.fastForward(60_000);
+	await expect(notice).toBeVisible();
+	release();
+	await expect.poll(() => state(page)).toBe('ready');
+	const [said, figures] = [await notice.boundingBox(), await page.locator('#overlay').boundingBox()];
+	expect((said?.y ?? 0) + (said?.height ?? 0)).toBeLessThan(figures?.y ?? 0);
+	await page.clock.fastForward(20_000);
+	await expect(notice).toHaveCount(0);
 });
 
 test('a missing model gets clear words, and the page stays usable', async ({ page, watch }) => {
@@ -238,9 +264,15 @@ test('a missing model gets clear words, and the page stays usable', async ({ pag
 	// The browser's own line about the answer 404 is all that is allowed.
 	expect(watch.complaints).toHaveLength(1);
 	expect(watch.complaints.pop()).toContain('404');
+	const tools = page.locator('#hint, #dock');
+	expect(await tools.evaluateAll((all) => all.map((one) => getComputedStyle(one).visibility))).toEqual([
+		'hidden',
+		'hidden',
+	]);
 	await page.getByRole('combobox', { name: 'Model' }).selectOption('Torus');
 	await expect.poll(() => state(page)).toBe('ready');
 	await expect(page.locator('#picture')).toBeVisible();
+	await expect(page.locator('#dock')).toBeVisible();
 });
 
 test('a file that is no glTF gets clear words', async ({ page }) => {

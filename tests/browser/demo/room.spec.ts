@@ -1,7 +1,7 @@
 /** The model's room: no control covers the model, whatever the window; tools say what they are to everyone. */
 
 import type { Page } from '@playwright/test';
-import { expect, open, settled, test } from '../harness.ts';
+import { expect, open, settled, site, test } from '../harness.ts';
 import { drawNothing } from '../inPage/gpu.ts';
 
 const QUERY = '?model=sphere&shells=4&still=1';
@@ -73,6 +73,24 @@ test('no control covers the model at 900 to 1440 px, with the panel open and clo
 		expect(await covers(page), `${width} px, closed`).toEqual([]);
 		await title.click();
 		await expect.poll(async () => (await modelBox(page)).x).toBeLessThan(x + 1);
+	}
+});
+
+test('all links of the header are in view on the narrowest phones', async ({ browser }) => {
+	for (const width of [320, 360, 390]) {
+		const context = await browser.newContext({ viewport: { width, height: 640 }, hasTouch: true, isMobile: true });
+		const page = await context.newPage();
+		for (const address of ['?model=sphere&shells=1&fins=0&still=1', 'bench.html']) {
+			await page.goto(`${site}${address}`);
+			await expect(page.locator('.site .language')).toBeInViewport({ ratio: 1 });
+			const boxes = await page.locator('.site a').evaluateAll((all) => all.map((one) => one.getBoundingClientRect()));
+			for (const [i, box] of boxes.entries()) {
+				expect(box.left, `${address}, ${width} px`).toBeGreaterThanOrEqual(boxes[i - 1]?.right ?? 0);
+				expect(box.height).toBeGreaterThanOrEqual(40);
+			}
+			expect(boxes.at(-1)?.right).toBeLessThan(width - 8);
+		}
+		await context.close();
 	}
 });
 
@@ -159,7 +177,7 @@ test('the model glides to its place with the line of the split, and the camera o
 	});
 	expect(places.length).toBeGreaterThan(5);
 	expect(places).toEqual([...places].sort((a, b) => a - b));
-	expect(await middle()).toBeGreaterThan(first + 5);
+	await expect.poll(middle).toBeGreaterThan(first + 5);
 	expect(await settled(page, 'camera')).toBe('20,10,1.1');
 	expect(await settled(page, 'split')).toBe('unlit,0.5');
 });

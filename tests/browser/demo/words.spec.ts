@@ -39,7 +39,7 @@ test('the page speaks Chinese where that is preferred, and English when asked', 
 	await drawNothing(page);
 	await page.goto(`${site}?model=torus-512&still=1&shells=2&light=north`);
 	// At once: notices go by themselves.
-	await expect(page.getByRole('status')).toContainText('light=north：应为方向 x,y,z；已忽略');
+	await expect(page.getByRole('status')).toContainText('light=north：应为方向 x,y,z，例如 -0.9,0.45,0.2；已忽略');
 	await expect(page.locator('html')).toHaveAttribute('lang', 'zh-Hans');
 	await ready(page);
 	await expect(page).toHaveTitle(/拖动光源/);

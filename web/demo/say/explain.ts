@@ -8,6 +8,7 @@ import { words } from '../words/index.ts';
 export function explain({ name, text, expected }: Problem): string {
 	if (!expected) return words.unknownParameter(name);
 	const wanted: string | ((...limits: string[]) => string) = words.expected[expected];
-	const { limits } = parameters[name as keyof View].value;
-	return words.badValue(`${name}=${text}`, typeof wanted === 'string' ? wanted : wanted(...limits));
+	const { value, doc } = parameters[name as keyof View];
+	const said = typeof wanted === 'string' ? wanted : wanted(...value.limits);
+	return words.badValue(`${name}=${text}`, said, doc[0]);
 }

@@ -25,8 +25,23 @@ export function notice(text: string, kind: 'note' | 'advice' | 'error' = 'note',
 	close.addEventListener('click', remove);
 	box.append(sentence, close);
 	document.getElementById('notices')?.append(box);
-	if (kind === 'note') setTimeout(remove, Math.max(READING_TIME, LETTER_TIME * text.length));
+	if (kind === 'note') onceLoaded(() => setTimeout(remove, Math.max(READING_TIME, LETTER_TIME * text.length)));
 	return remove;
+}
+
+/** Calls back when nothing loads: who waits for a model does not read yet. */
+function onceLoaded(call: () => void): void {
+	const page = document.documentElement;
+	if (page.dataset.state !== 'loading') {
+		call();
+		return;
+	}
+	const watch = new MutationObserver(() => {
+		if (page.dataset.state === 'loading') return;
+		watch.disconnect();
+		call();
+	});
+	watch.observe(page, { attributeFilter: ['data-state'] });
 }
 
 /** Removes the notice about a subject. */

@@ -127,7 +127,8 @@ export const en = {
 	noEigenHere: 'This fur was baked without eigen curves: showing PTM.',
 	inAddress: (problems: string) => `In the address:\n${problems}`,
 	unknownParameter: (name: string) => `${name}: no such parameter, ignored`,
-	badValue: (given: string, expected: string) => `${given}: expected ${expected}; ignored`,
+	badValue: (given: string, expected: string, example: string) =>
+		`${given}: expected ${expected}, such as ${example}; ignored`,
 	expected: {
 		model: 'the name or the folder of a model',
 		preset: 'the name of a preset',

@@ -134,7 +134,7 @@ export const zh: Words = {
 	noEigenHere: '这种毛发烘焙时没有特征基系数：现用 PTM 显示。',
 	inAddress: (problems) => `地址栏中：\n${problems}`,
 	unknownParameter: (name) => `${name}：没有这个参数，已忽略`,
-	badValue: (given, expected) => `${given}：应为${expected}；已忽略`,
+	badValue: (given, expected, example) => `${given}：应为${expected}，例如 ${example}；已忽略`,
 	expected: {
 		model: '模型名称或其文件夹',
 		preset: '预设名称',
