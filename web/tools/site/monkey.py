@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import importlib
 import math
+import os
 import sys
 import types
 from pathlib import Path
@@ -146,3 +147,6 @@ def main(furbake: str, folder: str) -> None:
 
 if __name__ == "__main__":
     main(*sys.argv[1:])
+    sys.stdout.flush()
+    # Once Cycles has rendered, Blender's threads may wait for each other where Python ends.
+    os._exit(0)

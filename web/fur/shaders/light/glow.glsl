@@ -14,7 +14,7 @@ const vec3 SKIN = vec3(0.46, 0.15, 0.075); // share of the light that thin skin 
 float glowThrough(ShadowMap map, mat4 matrix, float bias, FurPoint point, vec3 lightVS) {
 	float facing = -dot(lightVS, point.frameVS[UPRIGHT]);
 	// Long hairs on either side take what skin lets through.
-	float bare = 1.0 - smoothstep(0.25, 0.75, point.reach / glow);
+	float bare = 1.0 - smoothstep(0.12, 0.35, point.reach / glow);
 	if (facing <= 0.0 || bare <= 0.0 || !receiveShadow) return 0.0;
 	// Largest convex curvature: a ball's is twice the share facing away over the way through it, a leaf's is small.
 	vec3 bend = point.curvature / max(point.reach, 1e-9);
