@@ -18,9 +18,7 @@ def summary(asset: Asset) -> dict[str, Any]:
     try:
         return _summary(asset)
     except (LookupError, TypeError, AttributeError) as error:
-        raise AssetError(
-            f"{asset.folder}: malformed ({type(error).__name__}: {error}), see furbake validate"
-        ) from error
+        raise AssetError(f"{asset.folder}: malformed, expected a bake that furbake validate finds valid") from error
 
 
 def _summary(asset: Asset) -> dict[str, Any]:

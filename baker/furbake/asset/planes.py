@@ -165,13 +165,26 @@ def _write_png(
 def _write(path: Path, spec: oiio.ImageSpec, pixels: NDArray[Any]) -> None:
     output = oiio.ImageOutput.create(os.fspath(path))
     if output is None:
-        raise PlaneError(f"{path}: {oiio.geterror() or 'no writer of such pictures'}")
+        oiio.geterror()  # taken away, or it stands before the next one
+        raise PlaneError(f"{path}: no kind of picture by its name, expected one that ends in .png")
+    _check_place(path)
     try:
         written = output.open(os.fspath(path), spec) and output.write_image(np.ascontiguousarray(pixels))
         if not (written and output.close()):
-            raise PlaneError(f"{path}: {output.geterror() or 'cannot be written'}")
+            reason = " ".join(output.geterror().split()) or "no reason given"
+            raise PlaneError(f"{path}: cannot be written ({reason}), expected room for a picture")
     finally:
         output.close()
+
+
+def _check_place(path: Path) -> None:
+    """Raise PlaneError with the system's reason where no file can be written: the library gives none."""
+    try:
+        path.open("ab").close()
+    except OSError as error:
+        raise PlaneError(
+            f"{path}: {(error.strerror or 'cannot be written').lower()}, expected a new picture"
+        ) from error
 
 
 def write_planes(folder: Path, pelt: Pelt, prefix: str = "", cache: Path | None = None) -> list[str]:
@@ -221,7 +234,8 @@ def _read_png(path: Path) -> Bytes:
     config.attribute("oiio:UnassociatedAlpha", 1)
     source = oiio.ImageInput.open(os.fspath(path), config)
     if source is None:
-        raise PlaneError(f"{path}: {' '.join(oiio.geterror().split()) or 'cannot be read'}")
+        oiio.geterror()  # taken away, as above
+        raise PlaneError(f"{path}: cannot be read as a picture, expected PNG, JPEG or the like")
     try:
         spec = source.spec()
         if spec.format != oiio.UINT8:
@@ -230,7 +244,7 @@ def _read_png(path: Path) -> Bytes:
             raise PlaneError(f"{path}: {spec.width} x {spec.height} pixels, expected at most {limits().pixels}")
         pixels = source.read_image("uint8")
         if pixels is None:
-            raise PlaneError(f"{path}: {' '.join(source.geterror().split()) or 'cannot be read'}")
+            raise PlaneError(f"{path}: is broken or cut short, expected a whole picture")
         return np.asarray(pixels, dtype=np.uint8).reshape(spec.height, spec.width, spec.nchannels)
     finally:
         source.close()

@@ -122,6 +122,8 @@ def read_asset(folder: Path) -> Asset:
     if not folder.is_dir():
         what = "is a file" if folder.exists() else "no such folder"
         raise AssetError(f"{folder}: {what}, expected a folder that furbake wrote")
+    if not (folder / "model.gltf").exists():
+        raise AssetError(f"{folder}: holds no model.gltf, expected a folder that furbake wrote")
     document = read_json(folder / "model.gltf")
     record = read_json(folder / "bake.json") if (folder / "bake.json").exists() else {}
     uri = "model.bin"

@@ -39,11 +39,11 @@ class BusyError(StoreError):
 
 
 @contextmanager
-def atomic_folder(target: Path, force: bool = False) -> Iterator[Path]:
+def atomic_folder(target: Path, force: bool | None = False) -> Iterator[Path]:
     """A new empty folder to write in, which becomes `target` when the block ends, and vanishes when it fails.
 
     force : replace an old `target` that furbake wrote, and nothing else: it stays untouched until the new one is
-        complete, and then both change places
+        complete, and then both change places; None: no, and there is no --force to name
 
     Raises StoreError before the block where `target` cannot be written or is being written by another process, after
     it where it has appeared meanwhile or the rename fails.
@@ -92,6 +92,15 @@ def atomic_file(target: Path) -> Iterator[BinaryIO]:
             fresh.unlink(missing_ok=True)
 
 
+def check_folder(folder: Path) -> None:
+    """Raise StoreError unless `folder` is one or can be made, which is tried."""
+    if folder.exists() and not folder.is_dir():
+        raise StoreError(f"{folder}: is a file, expected a folder")
+    for made in reversed(_make_parents(str(folder), folder)):
+        with suppress(OSError):  # another process has begun to use it
+            made.rmdir()
+
+
 @contextmanager
 def alone(target: Path) -> Iterator[None]:
     """Hold the lock of `target`, a file to be written bit by bit, in a folder that is made where it is missing.
@@ -110,7 +119,7 @@ def clear(target: Path) -> None:
         pass
 
 
-def check_free(target: Path, force: bool, name: str | None = None) -> None:
+def check_free(target: Path, force: bool | None, name: str | None = None) -> None:
     """Raise StoreError unless a bake may be written to `target`; with `force` that may hold what furbake wrote."""
     name = name or str(target)
     if not os.path.lexists(target):
@@ -118,7 +127,8 @@ def check_free(target: Path, force: bool, name: str | None = None) -> None:
     if not target.is_dir():
         raise StoreError(f"{name}: is a file, expected a new folder")
     if not force:
-        raise StoreError(f"{name}: exists already, expected a new folder (or --force to replace it)")
+        other = "" if force is None else " (or --force to replace it)"
+        raise StoreError(f"{name}: exists already, expected a new folder{other}")
     here = Path(os.path.realpath(target))
     if here in (Path.cwd(), *Path.cwd().parents, Path.home()):
         raise StoreError(f"{name}: is the current folder, one above it or the home folder, expected one to replace")
@@ -135,7 +145,7 @@ def _check_own(folder: Path, name: str) -> None:
         raise StoreError(f"{name}: holds {what}{more}, not written by furbake, expected nothing beside a bake")
 
 
-def _place(fresh: Path, target: Path, force: bool, name: str) -> None:
+def _place(fresh: Path, target: Path, force: bool | None, name: str) -> None:
     """Rename `fresh` to `target`, looked at once more; afterwards `fresh` is the old folder, if there was one."""
     if not os.path.lexists(target):
         with suppress(FileExistsError):

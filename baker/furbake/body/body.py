@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import time
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -14,12 +13,12 @@ from furbake.body.dressing import Part, dressing, groom_parts
 from furbake.body.groomed import Groomed, groomed
 from furbake.body.painted import painted
 from furbake.body.size import Size, questions, sized
+from furbake.body.strokes import strokes_on
 from furbake.options import BakeOptions
 from furbake.options.bake_options import clip_at
 from furbake.pelt.hairs.strands import Strands
 from furbake.surface.charts import Charts, laid
-from furbake.surface.files import read_text
-from furbake.surface.lay.field import Stroke, comb_field
+from furbake.surface.lay.field import comb_field
 from furbake.surface.lay.lapped import lap
 from furbake.surface.lay.lapped_figures import lapped_figures
 from furbake.surface.lay.own import own_charts
@@ -42,8 +41,6 @@ SHELL_FACES, MANY_FACES = 15_000, 20_000
 
 Every shell draws them all; models that are hardly larger would gain little.
 """
-
-MAX_STROKES = 1000
 
 
 @dataclass(frozen=True)
@@ -121,7 +118,7 @@ def prepare(model: str, options: BakeOptions) -> Body:
     features = () if options.features is None else _features(Path(options.features), skin)
     if features:
         lengths = lengths * clearing(ground, features)
-    strokes = read_strokes(Path(options.comb)) if options.comb is not None else ()
+    strokes = strokes_on(skin, Path(options.comb)) if options.comb is not None else ()
     attribute = ground.attributes.get("direction", ground.attributes.get("comb"))
     if attribute is not None and attribute.shape[1] != 3:
         attribute = None
@@ -262,29 +259,3 @@ def patch_figures(model: str, faces: int | None = None, tile_share: float = Bake
     charts = lap(surface, direction, tile)
     took = time.perf_counter() - start
     return {"faces": len(surface.faces), **lapped_figures(surface, charts, direction, tile), "seconds": took}
-
-
-def read_strokes(path: Path) -> tuple[Stroke, ...]:
-    """Strokes of a comb: `{"strokes": [{"points": [[x, y, z], ...], "strength": 1}, ...]}`, model units.
-
-    Raises MeshError that says what is wrong.
-    """
-    expected = 'expected {"strokes": [{"points": [[x, y, z], ...], "strength": 0..1}, ...]}'
-    try:
-        strokes = json.loads(read_text(path, expected))["strokes"]
-        found = tuple(
-            Stroke(np.array(stroke["points"], np.float64), float(stroke.get("strength", 1.0))) for stroke in strokes
-        )
-    except MeshError:
-        raise
-    except (ValueError, TypeError, LookupError, AttributeError, RecursionError) as error:
-        raise MeshError(f"{path}: {type(error).__name__}: {' '.join(str(error).split())[:120]}, {expected}") from error
-    for number, stroke in enumerate(found, 1):
-        points = stroke.points
-        if points.ndim != 2 or points.shape[1] != 3 or len(points) < 2 or not np.isfinite(points).all():
-            raise MeshError(f"{path}: stroke {number} is not a line of points, {expected}")
-        if not 0 <= stroke.strength <= 1:
-            raise MeshError(f"{path}: stroke {number} has the strength {stroke.strength:g}, {expected}")
-    if len(found) > MAX_STROKES:
-        raise MeshError(f"{path}: {len(found)} strokes, expected {MAX_STROKES} at most")
-    return found

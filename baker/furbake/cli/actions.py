@@ -102,21 +102,22 @@ def run_report(args: SimpleNamespace) -> int:
 def run_swatch(args: SimpleNamespace) -> int:
     """Write a picture of a baked pelt, or of a preset's."""
     out = Path(args.out)
-    look: dict[str, Any] = {"tiles": args.tiles, "size": args.pixels, "state": args.state}
-    if args.light is not None:
-        look["light"] = args.light
+    given = {"tiles": args.tiles, "size": args.pixels, "state": args.state, "light": args.light}
+    look: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if args.folder:
         if args.preset or args.set:
             raise OptionError(f"swatch: got {args.folder!r} and --preset or --set, expected DIR alone or no DIR")
         check(Path(args.folder))
-        save(Path(args.folder), out, **look)
+        pixels = save(Path(args.folder), out, **look)
     else:
         args.preset = args.preset or "paper"
         options = in_state(chosen(args), args.state)
         with TemporaryDirectory(prefix="furbake-") as scratch, shown(STAGES, args.quiet) as progress:
             bake("plane", Path(scratch) / "plane", options, cache=pelt_cache(args), progress=progress)
-            save(Path(scratch) / "plane", out, **look)
-    if not args.quiet:
+            pixels = save(Path(scratch) / "plane", out, **look)
+    if args.json:
+        say(json.dumps({"file": str(out), "width": pixels.shape[1], "height": pixels.shape[0]}))
+    elif not args.quiet:
         say(str(out))
     return 0
 
@@ -157,7 +158,7 @@ def run_groom(args: SimpleNamespace) -> int:
         write_groom(out, strands)
     count, points = strands.points.shape[:2]
     if joints and not args.quiet:
-        complain("furbake: joints move the body: strands stand on it in its rest pose and follow none of them")
+        complain("note: joints move the body: strands stand on it in its rest pose and follow none of them")
     if args.json:
         say(json.dumps({"file": str(out), "hairs": count, "points": points, "bytes": out.stat().st_size}))
     elif not args.quiet:

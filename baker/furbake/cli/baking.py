@@ -12,6 +12,7 @@ from urllib.parse import quote
 
 from platformdirs import user_cache_path
 
+from furbake.asset.store import check_folder
 from furbake.cli.chosen import options_for
 from furbake.cli.output import complain, say
 from furbake.cli.parsing import UsageError
@@ -29,7 +30,10 @@ FOLDER = "FURBAKE_CACHE"
 
 
 def pelt_cache(args: SimpleNamespace) -> Path | None:
-    """Folder of `--cache`, of the environment, or the user's own; None where nothing is to be kept."""
+    """Folder of `--cache`, of the environment, or the user's own; None where nothing is to be kept.
+
+    Raises OptionError for two answers, StoreError where the folder that was named cannot be one.
+    """
     given = getattr(args, "cache", None)
     if getattr(args, "no_cache", False):
         if given:
@@ -38,7 +42,11 @@ def pelt_cache(args: SimpleNamespace) -> Path | None:
     folder = given or os.environ.get(FOLDER)
     if folder == "":
         return None
-    return user_cache_path("furbake", appauthor=False) / "pelts" if folder is None else Path(folder)
+    if folder is None:
+        return user_cache_path("furbake", appauthor=False) / "pelts"
+    if not getattr(args, "send", False):  # else it is the workers' own
+        check_folder(Path(folder))
+    return Path(folder)
 
 
 def run_bake(args: SimpleNamespace) -> int:

@@ -6,7 +6,7 @@ import click
 
 from furbake.cli.parsing import Argument, Command, Many, action, option, switch
 from furbake.cli.values import NAMES, NUMBER, PLACE, SHARE, WHOLE, Whole
-from furbake.options.knobs import KNOBS
+from furbake.options.knobs import KNOBS, MAX_FACES
 from furbake.study.bend import AZIMUTHS, TIPS
 from furbake.study.trim import LENGTHS
 from furbake.study.verify.body import METHODS, SIZE, SPP
@@ -103,8 +103,11 @@ BEND = [
 
 PATCHES = [
     Argument("models", "MODEL", type=PLACE, nargs=-1, required=True),
-    option("--faces", metavar="F", type=WHOLE, help="of a simplified copy of each (default: as they are)"),
-]
+    option(
+        "--faces", metavar="F", type=Whole(MAX_FACES),
+        help=f"of a simplified copy of each, {MAX_FACES.range} (default: as they are)",
+    ),
+]  # fmt: skip
 
 COMPARE = [names(), lights(192), option("--size", metavar="N", type=WHOLE, help=OWN_SIZE), QUIET]
 

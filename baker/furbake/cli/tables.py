@@ -24,6 +24,11 @@ from furbake.study.trim import Row as TrimRow
 from furbake.study.trim import table as trim_table
 from furbake.study.trim import trim
 
+PATCHES = """\
+| model | faces | covered | faces ratio | stretch, 95 % | sum of weights off | off the field, 95 % | s |
+|---|---|---|---|---|---|---|---|"""
+"""Head of the table of patches."""
+
 
 def run_compare(args: SimpleNamespace) -> int:
     """Print a table of presets and bases, all measured anew."""
@@ -89,10 +94,10 @@ def _coats(args: SimpleNamespace) -> tuple[list[str], list[BakeOptions]]:
 
 def run_patches(args: SimpleNamespace) -> int:
     """Print a table of models and how lapped patches cover them."""
-    say("| model | faces | covered | faces ratio | stretch, 95 % | sum of weights off | off the field, 95 % | s |")
-    say("|---|---|---|---|---|---|---|---|")
-    for model in args.models:
+    for number, model in enumerate(args.models):
         found = patch_figures(model, args.faces)
+        if number == 0:
+            say(PATCHES)
         off = max(found["sum_error"], found["sum_error_vertices"])
         say(
             f"| {Path(model).name} | {found['faces']} | {found['coverage']:.2%} | {found['faces_ratio']:.2f} "

@@ -89,9 +89,11 @@ def save(
     size: int = 512,
     scene: Scene = PAGE,
     state: str | None = None,
-) -> None:
-    """Write `render` as a PNG. Raises AssetError, OptionError or PlaneError."""
-    write_png(out, render(folder, light, tiles=tiles, size=size, scene=scene, state=state), srgb=True)
+) -> Bytes:
+    """Write `render` as a PNG; its pixels. Raises AssetError, OptionError or PlaneError."""
+    pixels = render(folder, light, tiles=tiles, size=size, scene=scene, state=state)
+    write_png(out, pixels, srgb=True)
+    return pixels
 
 
 def picture(

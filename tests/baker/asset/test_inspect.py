@@ -1,9 +1,12 @@
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
+import pytest
+
 from furbake.asset.inspect import summary
-from furbake.asset.read import read_asset
+from furbake.asset.read import AssetError, read_asset
 
 
 def test_summary(good: Path) -> None:
@@ -15,3 +18,11 @@ def test_summary(good: Path) -> None:
     assert found["fins"]["attributes"] == ["POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "_EDGE"]
     assert 2 * 5120 < found["fins"]["faces"] < 2 * 7680
     assert found["files"]["model.bin"] == (good / "model.bin").stat().st_size
+
+
+def test_a_malformed_bake_is_told_in_plain_words(good: Path, tmp_path: Path) -> None:
+    folder = Path(shutil.copytree(good, tmp_path / "a"))
+    (folder / "bake.json").write_text('{"states": [3]}')
+    with pytest.raises(AssetError) as error:
+        summary(read_asset(folder))
+    assert str(error.value) == f"{folder}: malformed, expected a bake that furbake validate finds valid"

@@ -102,10 +102,13 @@ def test_bad_files(tmp_path: Path) -> None:
     with pytest.raises(PlaneError, match=r"nope\.png"):
         read_png(tmp_path / "nope.png")
     (tmp_path / "text.png").write_text("no image")
-    with pytest.raises(PlaneError, match=r"text\.png"):
+    with pytest.raises(PlaneError, match=r"text\.png: cannot be read as a picture, expected PNG, JPEG or the like$"):
         read_png(tmp_path / "text.png")
-    with pytest.raises(PlaneError, match=r"a\.png"):
+    with pytest.raises(PlaneError, match=r"a\.png: no such file or directory, expected a new picture$"):
         write_png(tmp_path / "no" / "a.png", np.zeros((4, 4, 4), np.uint8))
+    with pytest.raises(PlaneError, match=r"a\.xyz: no kind of picture by its name, expected one that ends in \.png$"):
+        write_png(tmp_path / "a.xyz", np.zeros((4, 4, 4), np.uint8))
+    assert [path.name for path in tmp_path.iterdir()] == ["text.png"]
 
 
 def test_pixels_of_a_plane_are_bounded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -203,7 +203,7 @@ def test_missing_and_broken_files(spoil: Callable[..., Path]) -> None:
     (folder / "model.gltf").write_text("[]")
     assert validate(folder) == ["model.gltf: a JSON list, expected an object"]
     (folder / "model.gltf").unlink()
-    assert validate(folder) == ["model.gltf: no such file or directory, expected JSON"]
+    assert validate(folder) == [f"{folder}: holds no model.gltf, expected a folder that furbake wrote"]
 
 
 def test_record(spoil: Callable[..., Path]) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import zipfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -77,6 +78,17 @@ def test_bad_arguments_get_a_sentence(run: Callable[..., Any], arguments: tuple[
     assert done.err.startswith(f"furbake: error: {ARGUMENTS[arguments]}")
     assert not Path("out").exists()
     assert [path.name for path in Path("site").iterdir()] == ["index.html"]
+
+
+def test_a_folder_holds_all_that_a_bake_reads(run: Callable[..., Any]) -> None:
+    Path("models").mkdir()
+    with zipfile.ZipFile("models/packed.zip", "w") as packed:
+        packed.write("a.obj")
+    Path("models/stage.usda").write_text("#usda 1.0\n")
+    Path("models/notes.txt").touch()
+    done = run("batch", "models", "-o", "out", *SETTINGS, "--json", "--no-cache", "--jobs", "1")
+    *rows, _ = map(json.loads, done.out.splitlines())
+    assert {row["name"]: row["status"] for row in rows} == {"packed": "baked", "stage": "failed"}
 
 
 def test_each_model_has_its_own_options(run: Callable[..., Any]) -> None:

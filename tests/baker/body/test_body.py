@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from furbake.body.body import prepare, read_strokes
+from furbake.body.body import prepare
+from furbake.body.strokes import read_strokes
 from furbake.options import BakeOptions
 from furbake.surface.mesh import MeshError
 from furbake.surface.place.occlusion import openness
@@ -90,7 +91,13 @@ def test_fur_follows_strokes(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "wrong"),
     [
-        ("[]", "TypeError"),
+        ("[]", r's\.json: no list of strokes, expected {"strokes": '),
+        ("{}", r's\.json: no list of strokes, expected {"strokes": '),
+        ("", r"s\.json: not JSON \("),
+        ('{"strokes": []}', "0 strokes, expected 1 to 1000"),
+        ('{"strokes": [3]}', "stroke 1 is not a line of points"),
+        ('{"strokes": [{"points": [[0, 0, "a"], [1, 0, 0]]}]}', "stroke 1 is not a line of points"),
+        ('{"strokes": [{"points": [[0, 0, 1], [0, 0, 1]]}]}', "stroke 1 has no length, expected two or more different"),
         ('{"strokes": [{"points": [[0, 0, 0]]}]}', "stroke 1 is not a line of points"),
         ('{"strokes": [{"points": [[0, 0, 0], [1, 0, NaN]]}]}', "stroke 1 is not a line of points"),
         ('{"strokes": [{"points": [[0, 0, 0], [1, 0, 0]], "strength": 2}]}', "stroke 1 has the strength 2"),
@@ -100,6 +107,20 @@ def test_strokes_that_are_none(tmp_path: Path, text: str, wrong: str) -> None:
     (tmp_path / "s.json").write_text(text)
     with pytest.raises(MeshError, match=wrong):
         read_strokes(tmp_path / "s.json")
+
+
+def test_strokes_far_from_the_body_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "s.json"
+    for far, refused in ((1.3, False), (1.5, True)):
+        path.write_text(json.dumps({"strokes": [{"points": [[far, 0, 0], [far + 9, 1, 0]]}]}))
+        if not refused:
+            body(comb=str(path))
+            continue
+        with pytest.raises(MeshError) as error:
+            body(comb=str(path))
+        assert str(error.value) == (
+            f"{path}: stroke 1 is far from the body, expected points on it, in (-1, -1, -1) to (1, 1, 1)"
+        )
 
 
 def test_openness_is_the_share_of_the_sky_that_is_seen() -> None:

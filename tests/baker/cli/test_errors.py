@@ -20,7 +20,13 @@ def test_states_that_there_are_not(run: Callable[..., Any]) -> None:
     )
 
 
+FOREIGN = [
+    ("inspect", "folder"), ("report", "folder"), ("groom", "folder", "-o", "x.npz"), ("verify", "folder"),
+    ("swatch", "folder", "-o", "x.png"), ("export", "folder", "--ptm", "x.ptm"), ("export", "folder", "--glb", "x.glb"),
+]  # fmt: skip
+
 BAD_COMMANDS = {
+    **dict.fromkeys(FOREIGN, "folder: holds no model.gltf, expected a folder that furbake wrote"),
     # Acceptance 9.
     (
         "bake",
@@ -51,7 +57,13 @@ BAD_COMMANDS = {
     ("bake", "plane", "-o", "out", "--coefficients", "4"): "coefficients: got 4, expected 6 for the basis ptm",
     ("bake", "plane", "-o", "out", "--guide", "comb.json"): "comb.json: no such file or directory, expected {",
     ("bake", "plane", "-o", "out", "--guide", "aside"): "guide: got 'aside', expected nose-tail, down or a .json",
-    ("bake", "plane", "-o", "out", "--comb", "text.obj"): "text.obj: JSONDecodeError: ",
+    ("bake", "plane", "-o", "out", "--comb", "text.obj"): "text.obj: not JSON (Expecting value: ",
+    ("bake", "plane", "-o", "out", "--comb", "empty.obj"): "empty.obj: not JSON (Expecting value: ",
+    ("bake", "plane", "-o", "out", "--mask", "text.obj"): "text.obj: cannot be read as a picture, expected PNG, JPEG",
+    ("bake", "plane", "-o", "out", "--length-map", "broken.png"): "broken.png: cannot be read as a picture, expected",
+    ("bake", "plane", "-o", "out", "--cache", "text.obj"): "text.obj: is a file, expected a folder",
+    ("bake", "plane", "-o", "out", "--cache", "text.obj/a"): "text.obj/a: not a directory, expected a folder",
+    ("bake", "nope.obj", "-o", "out", "--cache", "new/pelts"): "nope.obj: no such file, expected a mesh file",
     ("bake", "plane", "-o", "out", "--uv", "round"): "uv: got 'round', expected lapped or own",
     ("bake", "plane", "-o", "out", "--max-faces", "2"): "max-faces: got 2, expected 4 to 2000000",
     ("bake", "plane", "-o", "out", "--pose", "Walk"): "pose: got 'Walk', expected CLIP@SECONDS with seconds from 0",
@@ -135,6 +147,8 @@ BAD_COMMANDS = {
         "cat",
     ): "preset: got 'cat', expected one of bunny, fox, mole, paper, sheep, teddy, wolf, or a .toml file",
     ("swatch", "folder"): "-o: missing, expected furbake swatch DIR|FILE -o FILE.png",
+    ("swatch", "folder", "-o", "x.ptm"): "out: got x.ptm, expected a name that ends in .png",
+    ("swatch", "-o", "nn"): "out: got nn, expected a name that ends in .png",
     ("swatch", "nope", "-o", "x.png"): "nope: no such folder, expected a folder that furbake wrote",
     ("swatch", "folder", "-o", "x.png", "--preset", "fox"): "swatch: got 'folder' and --preset or --set, expected",
     ("swatch", "--preset", "cat", "-o", "x.png"): "preset: got 'cat', expected one of",
@@ -156,8 +170,11 @@ BAD_COMMANDS = {
     ("bend", "paper", "--tips", "0.9"): "tips: got 0.9, expected 0 to 0.8",
     ("bend", "paper", "--azimuths", "0"): "azimuths: got 0, expected 1 to 64",
     ("bend", "paper", "--size", "60"): "size: got 60, expected a power of two",
+    ("patches", "nope.obj"): "nope.obj: no such file, expected a mesh file or",
+    ("patches", "torus:8x8", "--faces", "3"): "faces: got 3, expected 4 to 2000000",
+    ("patches", "torus:8x8", "--faces", "0"): "faces: got 0, expected 4 to 2000000",
+    ("patches", "torus:8x8", "--faces", "-5"): "faces: got -5, expected 4 to 2000000",
     ("inspect", "nope"): "nope: no such folder, expected a folder that furbake wrote",
-    ("inspect", "folder"): "model.gltf: no such file or directory, expected JSON",
     ("validate", "nope"): "nope: no such folder, expected a folder that furbake wrote",
     ("fry",): "command: got 'fry', expected bake, batch, inspect, validate, presets, report, swatch, lesson, verify, ",
     (): "COMMAND: missing, expected furbake bake, batch, inspect, validate, presets, report, swatch, lesson, verify, ",
@@ -170,6 +187,7 @@ def test_bad_input_is_one_line(run: Callable[..., Any], here: Path, command: tup
     Path("old").mkdir()
     Path("old/bake.json").write_text("old")
     Path("empty.obj").touch()
+    Path("broken.png").write_bytes(b"\x89PNG\r\n\x1a\nrest")
     Path("bad.toml").write_text("[coat.guard]\ncout = 3\n")
     Path("huge.toml").write_text("coat.guard.count = 20000\ncoat.under.count = 20000\n")
     Path("good.obj").write_text(CUBE)

@@ -161,12 +161,33 @@ BAD = {
         "-o",
         "a.png",
     ): "swatch: got good.ptm beside good.ptm, expected it beside an .lp",
-    ("swatch", "good.ptm", "--preset", "fox", "-o", "a.png"): "swatch: got good.ptm and --preset, --set or --state",
+    (
+        "swatch",
+        "good.ptm",
+        "--preset",
+        "fox",
+        "-o",
+        "a.png",
+    ): "swatch: got good.ptm and --preset, expected the file alone",
     ("swatch", "good.ptm", "--format", "hsh", "-o", "a.png"): "format: got 'hsh', expected lrgb or rgb",
     ("swatch", "folder", "other", "-o", "a.png"): "swatch: got other beside folder, expected one baked folder",
     ("export", "folder"): "export: got none of --ptm, --relight and --glb, expected one of them",
     ("export", "folder", "--ptm", "a.ptm", "--planes", "gif"): "planes: got 'gif', expected jpg or png",
-    ("export", "folder", "--ptm", "a.ptm"): "model.gltf: no such file or directory, expected JSON",
+    ("export", "folder", "--ptm", "a.ptm", "--planes", "png"): "export: got --ptm and --planes, expected --relight",
+    ("export", "folder", "--glb", "a.glb", "--planes", "png"): "export: got --glb and --planes, expected --relight",
+    ("export", "folder", "--glb", "a.glb", "--tiles", "0"): "export: got --glb and --tiles, expected --ptm or",
+    ("export", "folder", "--glb", "a.glb", "--linear"): "export: got --glb and --linear, expected --ptm or --relight",
+    ("export", "folder", "--glb", "a.glb", "--format", "rgb"): "export: got --glb and --format, expected --ptm or",
+    ("export", "folder", "--ptm", "a.ptm", "--layer", "1", "--tiles", "2"): "export: got --layer and --tiles, expected",
+    ("export", "folder", "--ptm", "a.png"): "ptm: got a.png, expected a name that ends in .ptm",
+    ("export", "folder", "--ptm", "a.ptm", "--glb", "a.ptm"): "glb: got a.ptm, expected a name that ends in .glb",
+    ("export", "folder", "--ptm", "a.ptm", "--relight", "./a.ptm"): "export: got ./a.ptm twice, expected a place of",
+    ("swatch", "folder", "-o", "a.png", "--format", "rgb"): "swatch: got folder and --format, expected it beside an",
+    ("swatch", "-o", "a.png", "--format", "rgb"): "swatch: got no .lp and --format, expected it beside an .lp",
+    ("swatch", "good.ptm", "-o", "a.png", "--format", "rgb"): "swatch: got good.ptm and --format, expected it beside",
+    ("swatch", "good.ptm", "-o", "a.png", "--tiles", "2"): "swatch: got good.ptm and --tiles, expected the file alone",
+    ("swatch", "none.lp", "-o", "a.png", "--pixels", "9"): "swatch: got none.lp and --pixels, expected the file alone",
+    ("swatch", "none.lp", "-o", "a.ptm", "--light", "0,0,1"): "swatch: got a.ptm and --light, expected a .png to be",
     ("bake", "plane", "-o", "out", "--swatch", "none.lp"): "none.lp: 0 photographs of one size",
     ("bake", "plane", "-o", "out", "--swatch", "good.ptm", "--dirt"): "swatch: got good.ptm beside wet or dirty states",
     ("bake", "plane", "-o", "out", "--swatch", "good.ptm", "--samples", "a.npz"): "samples: got a.npz beside a swatch",
@@ -205,5 +226,5 @@ def test_a_folder_of_relight_is_compared_and_relit(run: Callable[..., Any], fur:
     assert run("swatch", "r", "-o", "a.png", *TOWARDS, "--quiet").status == 0
     assert np.abs(shown("a.png") - relight_under(Path("r"), LIGHT)).max() <= 1
     again = run("export", fur, "--relight", "r", "--quiet")
-    assert again.err == "furbake: error: r: exists already, expected a new folder (or --force to replace it)\n"
+    assert again.err == "furbake: error: r: exists already, expected a new folder\n"
     shutil.rmtree("r")

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from helpers.characters import bent_tube
 from helpers.command import TINY, listed
 
 
@@ -49,6 +50,8 @@ def test_swatch_of_a_folder_and_of_a_preset(run: Callable[..., Any]) -> None:
     run("bake", "plane", "-o", "out", *TINY)
     done = run("swatch", "out", "-o", "a.png", "--light", "-1,0,1", "--tiles", "2", "--pixels", "32")
     assert (done.status, done.out, done.err) == (0, "a.png\n", "")
+    told = run("swatch", "out", "-o", "a.png", "--pixels", "32", "--json")
+    assert json.loads(told.out) == {"file": "a.png", "width": 32, "height": 32}
     small = [f"--set={knob}" for knob in ("layers=4", "size=8", "lights=8")]
     assert run("swatch", "-o", "b.png", *small, "--pixels", "32", "--quiet").status == 0
     assert listed() == ["a.png", "b.png", "out"]
@@ -68,6 +71,24 @@ def test_swatch_of_a_state(run: Callable[..., Any]) -> None:
     assert not Path("c.png").exists()
     assert run("report", "out", "--no-model", "--quiet").status == 0
     assert Path("out/report.html").read_text().count(' fur">') >= 3
+
+
+def test_a_swatch_that_cannot_be_written(run: Callable[..., Any]) -> None:
+    run("bake", "plane", "-o", "out", *TINY)
+    Path("dd.png").mkdir()
+    for out, wrong in (("dd.png", "is a directory"), ("no/a.png", "no such file or directory")):
+        done = run("swatch", "out", "-o", out, "--pixels", "32")
+        assert (done.status, done.err) == (2, f"furbake: error: {out}: {wrong}, expected a new picture\n")
+    assert listed() == ["dd.png", "out"]
+
+
+def test_a_groom_of_a_body_with_joints_is_told(run: Callable[..., Any]) -> None:
+    model = bent_tube().write(Path())
+    assert run("bake", model, "-o", "out", *TINY, "--no-fins", "--quiet").status == 0
+    done = run("groom", "out", "-o", "a.npz")
+    assert done.err.splitlines()[-1] == (
+        "furbake: note: joints move the body: strands stand on it in its rest pose and follow none of them"
+    )
 
 
 def test_report(run: Callable[..., Any]) -> None:

@@ -20,7 +20,7 @@ from furbake.options.bake_options import FILES, OF_GROOM, OF_VERTICES
 from furbake.options.knobs import flatten, show
 from furbake.surface.files import read_regular
 from furbake.surface.limits import Budget
-from furbake.surface.read.reading import ARCHIVES, MESHES, kind_of
+from furbake.surface.read.reading import ARCHIVES, MESHES, STAGES, kind_of
 from furbake.surface.shapes import is_builtin
 from furbake.surface.soup import MeshError
 
@@ -28,6 +28,9 @@ OPTIONS = ("preset", "set", *GIVEN)
 """Options that a list may give, to all models or to some."""
 
 PARAMETERS = {param.name: param for param in BAKE if param.name in OPTIONS}
+
+KINDS = (*MESHES, *ARCHIVES, *STAGES)
+"""Ends of the names of files that are taken from folders and by globs."""
 
 OWN = ("name", "file")
 
@@ -78,14 +81,14 @@ def _models(pattern: str, what: str) -> list[str]:
         return [pattern]
     path = Path(pattern)
     if path.is_dir():
-        found = sorted(str(file) for file in path.iterdir() if kind_of(file.name) in MESHES and file.is_file())
+        found = sorted(str(file) for file in path.iterdir() if kind_of(file.name) in KINDS and file.is_file())
     elif glob.has_magic(pattern) and not path.exists():
         matching = glob.glob(pattern, recursive=True)  # noqa: PTH207 — from any folder
-        found = sorted(file for file in matching if kind_of(file) in (*MESHES, *ARCHIVES) and Path(file).is_file())
+        found = sorted(file for file in matching if kind_of(file) in KINDS and Path(file).is_file())
     else:
         return [pattern]  # whether it is there, its own bake says
     if not found:
-        raise OptionError(f"{what}: no model, expected files that end in {', '.join(MESHES)}")
+        raise OptionError(f"{what}: no model, expected files that end in {', '.join(KINDS)}")
     return found
 
 

@@ -15,23 +15,27 @@ from furbake.cli import actions
 from furbake.cli.output import complain, say
 from furbake.cli.progress import shown
 from furbake.options import OptionError
-from furbake.rti.files import LP, is_rti, read_relit, suffix_of
+from furbake.rti.files import LP, PTM, is_rti, read_relit, suffix_of
 from furbake.rti.fit import Figure, beside, fit_photographs, held_out
 from furbake.rti.photographs import read_photographs
 from furbake.rti.ptm import write_ptm
 from furbake.rti.relight import write_relight
 from furbake.rti.relit import LRGB, RGB, Relit, RtiError
-from furbake.show.export import exported
+from furbake.show.export import COMPOSITE, exported
 from furbake.show.plain import write_plain
 from furbake.show.swatch import FROM_THE_SIDE, light_direction
+
+OF_PELT = ("kind", "state", "layer", "linear", "tiles", "pixels")
+"""Options of a pelt from above."""
 
 
 def run_export(args: SimpleNamespace) -> int:
     """Write a pelt from above as a PTM, and as planes of relight; the body as a GLB."""
     if not (args.ptm or args.relight or args.glb):
         raise OptionError("export: got none of --ptm, --relight and --glb, expected one of them")
-    _among("format", args.kind, (LRGB, RGB))
-    _among("planes", args.planes, ("jpg", "png"))
+    _check_export(args)
+    kind, layer, planes = args.kind or LRGB, args.layer or COMPOSITE, args.planes or "jpg"
+    look = {"tiles": args.tiles, "size": args.pixels}
     source = Path(args.folder)
     check(source)
     if args.glb:
@@ -39,17 +43,18 @@ def run_export(args: SimpleNamespace) -> int:
             write_plain(file, source)
         if not (args.ptm or args.relight):
             return _told_body(args)
-    folder = atomic_folder(Path(args.relight)) if args.relight else nullcontext()
+    folder = atomic_folder(Path(args.relight), force=None) if args.relight else nullcontext()
     with folder as fresh, atomic_file(Path(args.ptm)) if args.ptm else nullcontext() as file:
         with shown(("fit",), args.quiet) as progress:
             found = exported(
-                source, kind=args.kind, state=args.state, layer=args.layer, linear=args.linear, tiles=args.tiles,
-                size=args.pixels, step=lambda fraction: progress("fit", fraction),
+                source, kind=kind, state=args.state, layer=layer, linear=args.linear,
+                step=lambda fraction: progress("fit", fraction),
+                **{name: value for name, value in look.items() if value is not None},
             )  # fmt: skip
         if file is not None:
             write_ptm(file, found.relit)
         if fresh is not None:
-            write_relight(fresh, found.relit, args.planes)
+            write_relight(fresh, found.relit, planes)
     written = [name for name in (args.ptm, args.relight, args.glb) if name]
     relit = found.relit
     if args.json:
@@ -61,6 +66,24 @@ def run_export(args: SimpleNamespace) -> int:
         size_told = f"{relit.width} x {relit.height}"
         say(f"{', '.join(written)}: {relit.kind}, {size_told}, {told}, {found.psnr:.1f} dB on lamps left out")
     return 0
+
+
+def _check_export(args: SimpleNamespace) -> None:
+    """Raise OptionError for values that there are not, names of other kinds of file and options without use."""
+    _among("format", args.kind, (LRGB, RGB))
+    _among("planes", args.planes, ("jpg", "png"))
+    for name in ("ptm", "glb"):
+        if getattr(args, name):
+            _ends(name, getattr(args, name), f".{name}")
+    places = [Path(name).resolve() for name in (args.ptm, args.relight, args.glb) if name]
+    if len({*places}) < len(places):
+        raise OptionError(f"export: got {args.relight} twice, expected a place of its own for each")
+    if not args.relight:
+        _refuse(args, ("planes",), "export", "--ptm" if args.ptm else "--glb", "--relight beside it")
+        if not args.ptm:
+            _refuse(args, OF_PELT, "export", "--glb", "--ptm or --relight beside it")
+    if args.layer not in (None, COMPOSITE):
+        _refuse(args, ("tiles", "pixels"), "export", "--layer", f"them with {COMPOSITE}")
 
 
 def _told_body(args: SimpleNamespace) -> int:
@@ -75,14 +98,17 @@ def _told_body(args: SimpleNamespace) -> int:
 def run_swatch(args: SimpleNamespace) -> int:
     """Write a picture of a baked pelt, of a preset's, or of a file of a museum."""
     files = [Path(name) for name in args.files]
+    _among("format", args.kind, (LRGB, RGB))
+    measured = bool(files) and suffix_of(files[0]) == LP
+    _ends("out", args.out, ".png", *((".ptm",) if measured else ()))
+    if not measured:
+        _refuse(args, ("kind",), "swatch", files[0] if files else "no .lp", "it beside an .lp")
     if not files or not is_rti(files[0]):
         if len(files) > 1:
             raise OptionError(f"swatch: got {files[1]} beside {files[0]}, expected one baked folder")
         args.folder = args.files[0] if files else None
         return actions.run_swatch(args)
-    if args.preset or args.set or args.state:
-        raise OptionError(f"swatch: got {files[0]} and --preset, --set or --state, expected the file alone")
-    _among("format", args.kind, (LRGB, RGB))
+    _refuse(args, ("preset", "set", "state", "tiles", "pixels"), "swatch", files[0], "the file alone")
     return _relit_swatch(args, files)
 
 
@@ -90,13 +116,12 @@ def _relit_swatch(args: SimpleNamespace, files: list[Path]) -> int:
     first, others = files[0], files[1:]
     light, out = light_direction(args.light or FROM_THE_SIDE), Path(args.out)
     measured = suffix_of(first) == LP
-    if out.suffix.lower() not in {".png", *((".ptm",) if measured else ())}:
-        expected = "a name that ends in .png" + (" or .ptm" if measured else "")
-        raise OptionError(f"out: got {args.out}, expected {expected}")
+    if out.suffix.lower() == PTM:
+        _refuse(args, ("light",), "swatch", out, "a .png to be lit")
     if others and not measured:
         raise OptionError(f"swatch: got {others[0]} beside {first}, expected it beside an .lp with its photographs")
     relit, figures = _fitted(first, others, args) if measured else (read_relit(first), [])
-    if out.suffix.lower() == ".ptm":
+    if out.suffix.lower() == PTM:
         with atomic_file(out) as file:
             write_ptm(file, relit)
     else:
@@ -120,7 +145,7 @@ def _fitted(path: Path, others: list[Path], args: SimpleNamespace) -> tuple[Reli
     size = photographs.width, photographs.height
     known = {str(other): _of_size(read_relit(other), size, other) for other in others}
     with shown(("fit",), args.quiet) as progress:
-        relit = fit_photographs(photographs, args.kind, lambda fraction: progress("fit", fraction))
+        relit = fit_photographs(photographs, args.kind or LRGB, lambda fraction: progress("fit", fraction))
     return relit, [*held_out(photographs), *beside(photographs, known | {"this fit": relit})]
 
 
@@ -142,6 +167,20 @@ def _of_size(relit: Relit, size: tuple[int, int], path: Path) -> Relit:
     return relit
 
 
-def _among(name: str, value: str, known: tuple[str, ...]) -> None:
-    if value not in known:
+def _among(name: str, value: str | None, known: tuple[str, ...]) -> None:
+    if value is not None and value not in known:
         raise OptionError(f"{name}: got {value!r}, expected {' or '.join(known)}")
+
+
+def _ends(name: str, value: str, *known: str) -> None:
+    if Path(value).suffix.lower() not in known:
+        raise OptionError(f"{name}: got {value}, expected a name that ends in {' or '.join(known)}")
+
+
+def _refuse(args: SimpleNamespace, names: tuple[str, ...], command: str, beside: object, expected: str) -> None:
+    """Raise OptionError for the first of these options that is given, where it has no use."""
+    for name in names:
+        value = getattr(args, name)
+        if value is not None and value is not False and value != ():
+            flag = "format" if name == "kind" else name
+            raise OptionError(f"{command}: got {beside} and --{flag}, expected {expected}")

@@ -15,18 +15,18 @@ EXPORT = [
     ),
     option("--glb", metavar="FILE.glb", type=PLACE, help="the body without its fur, for any program that reads glTF"),
     option(
-        "--format", "kind", metavar="lrgb|rgb", default="lrgb",
+        "--format", "kind", metavar="lrgb|rgb",
         help="a polynomial beside a colour (default), or one for each channel",
     ),
     option("--state", metavar="NAME", help="dry (default), damp, moist, wet, soaked or dirty"),
     option(
-        "--layer", metavar="K|composite", default="composite",
+        "--layer", metavar="K|composite",
         help="all slabs from above (default), or one alone before black, 0 at the skin",
     ),
     switch("--linear", "bytes proportional to light, not as a screen shows them"),
-    option("--planes", metavar="jpg|png", default="jpg", help="pictures of --relight: with losses, or without"),
-    option("--tiles", metavar="T", type=WHOLE, default=2, help="repeats of the tile along a side (default: 2)"),
-    option("--pixels", metavar="P", type=WHOLE, default=512, help="side of the picture (default: 512)"),
+    option("--planes", metavar="jpg|png", help="pictures of --relight: with losses (default), or without"),
+    option("--tiles", metavar="T", type=WHOLE, help="repeats of the tile along a side (default: 2)"),
+    option("--pixels", metavar="P", type=WHOLE, help="side of the picture (default: 512)"),
     switch("--json", "figures as one JSON object"),
     switch("--quiet", QUIET),
 ]  # fmt: skip
@@ -41,13 +41,13 @@ SWATCH = [
     out("FILE.png|FILE.ptm", "picture to write; of an .lp also its fit as a PTM"),
     option("--light", type=DIRECTION, help="towards the lamp: right, up, at you"),
     option("--state", metavar="NAME", help="dry (default), damp, moist, wet, soaked or dirty"),
-    option("--format", "kind", metavar="lrgb|rgb", default="lrgb", help="how an .lp is fitted: lrgb (default) or rgb"),
-    option("--tiles", metavar="T", type=WHOLE, default=3, help="repeats of the tile along a side (default: 3)"),
+    option("--format", "kind", metavar="lrgb|rgb", help="how an .lp is fitted: lrgb (default) or rgb"),
+    option("--tiles", metavar="T", type=WHOLE, help="repeats of the tile along a side (default: 3)"),
     option(
-        "--pixels", metavar="P", type=WHOLE, default=512,
+        "--pixels", metavar="P", type=WHOLE,
         help="side of the picture (default: 512; a FILE has its own size)",
     ),
-    switch("--json", "figures of the fits of an .lp as one JSON object"),
+    switch("--json", "what was drawn, and figures of the fits of an .lp, as one JSON object"),
     switch("--quiet", QUIET),
 ]  # fmt: skip
 

@@ -34,6 +34,9 @@ FIRM = 300.0
 BRUSH = 0.05
 """Distance from a stroke at which it no longer counts, share of the largest side."""
 
+WIDEST = 4.0 * BRUSH
+"""The same on a coarse mesh, where a stroke reaches the next vertices, at the most."""
+
 SAMPLES = 4096
 """Most points of one stroke."""
 
@@ -187,7 +190,7 @@ def _brush(surface: Surface, vertices: Floats, stroke: Stroke) -> tuple[Floats, 
     edges = vertices[surface.faces] - vertices[np.roll(surface.faces, -1, axis=1)]
     reach = np.zeros(len(vertices))
     np.maximum.at(reach, surface.faces.reshape(-1), np.repeat(np.linalg.norm(edges, axis=2).max(axis=1), 3))
-    reach = np.maximum(BRUSH, np.minimum(reach, 4.0 * BRUSH))
+    reach = np.maximum(BRUSH, np.minimum(reach, WIDEST))
     far, nearest = (np.asarray(found) for found in cKDTree(points).query(vertices))
     # A stroke along one side of an ear leaves the other alone.
     same = np.einsum("ij,ij->i", surface.normals, surface.normals[ground[nearest]]) > 0.2

@@ -12,10 +12,11 @@ from trimesh.resolvers import Resolver
 from furbake.surface.colours import as_png, decode, from_srgb
 from furbake.surface.files import Source
 from furbake.surface.material import Material, Picture
-from furbake.surface.read.gltf_scene import media_type
+from furbake.surface.read.gltf_scene import Scene, media_type
 from furbake.surface.read.ply import has_strips, triangulated
 from furbake.surface.read.polygons import recut
-from furbake.surface.soup import Floats, Ints, MeshError, Soup, join
+from furbake.surface.rig.kept import shown
+from furbake.surface.soup import Floats, Ints, Soup, join
 
 STAND_IN = as_png(np.zeros((1, 1, 4), np.uint8)).data
 """A picture of one pixel."""
@@ -26,22 +27,28 @@ class _Beside(Resolver):
 
     trimesh takes libraries of materials by `[name]` and pictures by `get(name)`.
 
-    pictures : names of those that were found; missing : number of those that are too large
+    pictures : names of those that were found; missing : of those that were not, or are too large
+    libraries : names of those of materials that were not
     """
 
     def __init__(self, model: Source) -> None:
         self._model = model
         self.pictures: list[str] = []
-        self.missing = 0
+        self.missing: set[str] = set()
+        self.libraries: list[str] = []
 
     def __getitem__(self, key: str) -> bytes:
-        return self._model.find(key)
+        try:
+            return self._model.find(key)
+        except (OSError, ValueError):
+            self.libraries.append(key)
+            raise
 
     def get(self, key: str) -> bytes:
         try:
             self._model.find(key)
-        except MeshError:
-            self.missing += 1
+        except (OSError, ValueError):
+            self.missing.add(key)
             raise
         self.pictures.append(key)
         return STAND_IN
@@ -56,8 +63,8 @@ class _Beside(Resolver):
         raise NotImplementedError
 
 
-def read_other(model: Source, kind: str) -> tuple[Soup | None, tuple[Material, ...], int]:
-    """Soup, materials and the number of missing pictures; no soup where there is no triangle."""
+def read_other(model: Source, kind: str) -> Scene:
+    """The scene of a file; no soup where there is no triangle."""
     files = _Beside(model)
     scene = _scene(model.data, kind, files)
     parts = [part for part in scene.dump() if isinstance(part, trimesh.Trimesh) and len(part.faces)]
@@ -90,8 +97,9 @@ def read_other(model: Source, kind: str) -> tuple[Soup | None, tuple[Material, .
                 attributes={name: values[faces] for name, values in numbers.items()} if inside else {},
             )
         )
-    missing = files.missing + sum(picture is None for picture in pictures.values())
-    return (join(soups) if soups else None), tuple(materials), missing
+    missing = len(files.missing) + sum(picture is None for picture in pictures.values())
+    told = tuple(f"materials of {shown(name)} left out, which cannot be read" for name in files.libraries)
+    return Scene(join(soups) if soups else None, tuple(materials), missing, told)
 
 
 def _scene(data: bytes, kind: str, files: _Beside) -> trimesh.Scene:

@@ -99,7 +99,7 @@ def _read_one(model: Source, kind: str) -> Scene:
         return read_gltf(model)
     from furbake.surface.read.others import read_other  # noqa: PLC0415 — trimesh takes 0.1 s
 
-    return Scene(*read_other(model, kind), ())
+    return read_other(model, kind)
 
 
 def _read_archive(archive: Source, kind: str) -> Scene:

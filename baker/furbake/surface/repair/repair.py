@@ -53,7 +53,7 @@ def tidy(name: str, soup: Soup) -> tuple[Soup, list[str]]:
     loose = len(soup.vertices) - len(np.unique(soup.faces))
     if loose:
         notices.append(f"{count(loose, 'vertex', 'vertices')} without a face dropped")
-    soup = soup.compact()
+    soup = _some(name, soup.compact())
     before = len(soup.vertices)
     extent = float(np.ptp(soup.vertices, axis=0).max())
     vertices, faces = weld(soup.vertices, soup.faces, WELD * extent)

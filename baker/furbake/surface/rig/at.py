@@ -15,16 +15,23 @@ from furbake.surface.soup import MeshError
 DIGITS = 10
 """Digits of a clip's number, fewer than this."""
 
+ROUNDED = 1e-5
+"""How far beyond the end of a clip a time may be, share of it: as far as its figure in a message is rounded."""
+
 
 def in_pose(model: str, rig: Rig | None, clip: str, seconds: float) -> Rig:
     """The rig in the pose of a clip, by its name or number from 0, at a time.
 
-    Raises MeshError, beginning with the model's name, where it has no such clip.
+    Raises MeshError, beginning with the model's name, where it has no such clip, or one that ends before.
     """
     if rig is None or not rig.clips:
         raise MeshError(f"{model}: has no clips, expected the clip {shown(clip)} of the pose")
+    found = _clip(model, rig, clip)
+    end = max((float(channel.times[-1]) for channel in found.channels), default=0.0)
+    if seconds > end * (1.0 + ROUNDED):
+        raise MeshError(f"{model}: {seconds:g} s of the clip {shown(clip)}, expected 0 to {end:g}")
     with np.errstate(all="ignore"):
-        pose = pose_at(rig, _clip(model, rig, clip), seconds)
+        pose = pose_at(rig, found, seconds)
         return replace(rig, pose=pose, posed=posed(rig, pose))
 
 

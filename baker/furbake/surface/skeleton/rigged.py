@@ -19,7 +19,7 @@ from furbake.surface.skeleton.read import read_skeleton
 from furbake.surface.skeleton.skeleton import Skeleton, Track
 
 BESIDE = 0.1
-"""How far from the box around the body a joint with skin may stand, share of the largest side."""
+"""How far beyond each side of the body's box a joint with skin may stand, share of the largest side."""
 
 LOOPS = 1e-6
 """Difference of a track's first and last key below which its curve goes on from one to the other."""
@@ -45,16 +45,15 @@ def with_skeleton(model: str, surface: Surface, path: Path, pose: tuple[str, flo
 
 def _check(skeleton: Skeleton, surface: Surface, path: Path) -> None:
     """Raises MeshError where a joint that moves the skin is nowhere near it."""
-    low, high = surface.vertices.min(axis=0), surface.vertices.max(axis=0)
+    margin = BESIDE * surface.extent
+    low, high = surface.vertices.min(axis=0) - margin, surface.vertices.max(axis=0) + margin
     for joint in skeleton.joints:
         for key, point in (("at", joint.at), ("to", joint.to)):
-            if joint.skin and point is not None:
-                outside = np.maximum(np.maximum(low - point, point - high), 0.0)
-                if np.linalg.norm(outside) > BESIDE * surface.extent:
-                    box = " to ".join(f"({', '.join(f'{value:.4g}' for value in corner)})" for corner in (low, high))
-                    raise MeshError(
-                        f"{path}: {key} of {shown(joint.name)} is outside of the body, expected a point in {box}"
-                    )
+            if joint.skin and point is not None and ((point < low) | (point > high)).any():
+                box = " to ".join(f"({', '.join(f'{value:.4g}' for value in corner)})" for corner in (low, high))
+                raise MeshError(
+                    f"{path}: {key} of {shown(joint.name)} is outside of the body, expected a point in {box}"
+                )
 
 
 def _rig(skeleton: Skeleton, surface: Surface) -> tuple[Rig, list[str]]:

@@ -58,6 +58,17 @@ def test_colour_of_an_obj_file(textured: Path) -> None:
     assert load_mesh(textured).colour == pytest.approx((1.0, 0.214, 0.0), abs=0.005)
 
 
+def test_what_an_obj_file_names_and_is_not_there_is_told(textured: Path) -> None:
+    (textured.parent / "coat.png").unlink()
+    told = f"{textured}: 1 picture left out that cannot be read"
+    assert told in load_mesh(textured).notices
+    library = textured.parent / "coat.mtl"
+    library.write_text(library.read_text() + "newmtl other\nmap_Kd coat.png\n")
+    assert told in load_mesh(textured).notices
+    library.unlink()
+    assert f"{textured}: materials of coat.mtl left out, which cannot be read" in load_mesh(textured).notices
+
+
 def test_vertex_colours_are_srgb(tmp_path: Path) -> None:
     ball = trimesh.creation.icosphere(subdivisions=1)
     ball.visual.vertex_colors = np.column_stack([np.full((42, 3), (255, 188, 0)), np.linspace(0, 255, 42)]).astype(

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from furbake.surface.mesh import Surface, clean, simplify
+from furbake.surface.mesh import MeshError, Surface, clean, simplify
 from furbake.surface.repair.simplify import decimate
 from furbake.surface.repair.transfer import apart, barycentric
 from furbake.surface.shapes import builtin
@@ -30,6 +30,11 @@ def painted_ball() -> Surface:
         uv=np.stack([u, 0.5 - 0.5 * corners[..., 1]], axis=2),
         attributes={"length": 0.5 + 0.5 * surface.vertices[:, 1:2]},
     )
+
+
+def test_a_copy_of_nothing_is_refused() -> None:
+    with pytest.raises(MeshError, match=r"^simplified surface: all faces have zero area, expected a surface$"):
+        simplify(builtin("torus:8x8"), 1)
 
 
 def test_everything_painted_comes_along() -> None:

@@ -47,7 +47,7 @@ def in_pose(made: Character, folder: Path, clip: str, seconds: float) -> tuple[S
 
 
 @pytest.mark.parametrize(
-    ("clip", "number", "now"), [("Walk", 0, 0.6), ("Walk", 0, 0.0), ("7@9", 1, 9.0), ("2", 2, 0.25), ("0", 0, 1.0)]
+    ("clip", "number", "now"), [("Walk", 0, 0.6), ("Walk", 0, 0.0), ("7@9", 1, 0.9), ("2", 2, 0.25), ("0", 0, 1.0)]
 )
 def test_fur_is_laid_in_the_pose(tmp_path: Path, clip: str, number: int, now: float) -> None:
     made = walker()
@@ -57,6 +57,12 @@ def test_fur_is_laid_in_the_pose(tmp_path: Path, clip: str, number: int, now: fl
     np.testing.assert_allclose(rig.vertices, standing(bent_tube()), atol=1e-5)
     order = np.lexsort(np.round(surface.vertices, 4).T)
     np.testing.assert_allclose(surface.vertices[order], wanted[np.lexsort(np.round(wanted, 4).T)], atol=1e-4)
+
+
+def test_a_time_beyond_the_clip_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(MeshError, match=r": 99 s of the clip Walk, expected 0 to 1$"):
+        in_pose(walker(), tmp_path, "Walk", 99.0)
+    in_pose(walker(), tmp_path, "Walk", 1.000001)
 
 
 def test_without_a_pose_it_is_the_bind_pose(tmp_path: Path) -> None:

@@ -87,7 +87,11 @@ def test_a_joint_far_away_is_refused(tmp_path: Path, key: str) -> None:
     path = rig_file({"joints": joints}, tmp_path / "rig.json")
     with pytest.raises(MeshError) as error:
         with_skeleton("ball", builtin("sphere"), path)
-    assert str(error.value).startswith(f"{path}: {key} of top is outside of the body, expected a point in (-1, -1, -1)")
+    assert str(error.value).startswith(
+        f"{path}: {key} of top is outside of the body, expected a point in (-1.2, -1.2, -1.2)"
+    )
+    near = {"joints": [BALL["joints"][0], BALL["joints"][1] | {key: [0.1, 1.19, 1.19]}]}
+    assert with_skeleton("ball", builtin("sphere"), rig_file(near, path)).rig is not None
     still = {"joints": [*BALL["joints"], {"name": "lamp", "at": [0, 90, 0], "skin": False}]}
     assert with_skeleton("ball", builtin("sphere"), rig_file(still, path)).rig is not None
 
