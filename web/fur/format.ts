@@ -32,6 +32,7 @@ export function fursOf({ regions, ...coat }: FurAsset): [FurAsset, ...FurAsset[]
 					finEye: undefined,
 					surge: undefined,
 					spread: undefined,
+					open: undefined,
 					bent: undefined,
 					...own,
 				}) as FurAsset,

@@ -34,7 +34,7 @@ def read_pelt(asset: Asset, state: int = 0) -> Pelt:
     except AssetError:
         raise
     except PlaneError as error:
-        raise AssetError(f"{error}, expected a plane of the pelt") from error
+        raise AssetError(str(error)) from error
     except (LookupError, TypeError, AttributeError, ValueError) as error:
         detail = f"{type(error).__name__}: {error}"
         raise AssetError(f"{asset.folder}: malformed pelt ({detail}), see furbake validate") from error
@@ -96,6 +96,7 @@ def _pelt(fur: dict[str, Any], asset: Asset, index: int) -> Pelt:
         fin_eye=_law(fur, "finEye"),
         surge=_array(fur["surge"], 3) if "surge" in fur else None,
         spread=float(fur["spread"]) if "spread" in fur else None,
+        open=float(fur.get("open", 0)),
         curves=curves,
         weights=None if curves is None else _array(stored["weights"], layers, curves.count),
         multiple=_multiple(stored["multiple"], layers) if "multiple" in stored else None,

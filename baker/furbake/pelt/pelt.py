@@ -56,6 +56,7 @@ class Pelt:
     drift : (K, 2) mean sideways displacement of the hairs at each slab's middle, tile widths
     height : of the fur, tile widths
     spread : of the hairs' slopes, as of `spread_of`, or None: combed hairs hide as much as others
+    open : share of the skin that is seen from straight above, 0 where that is next to nothing
     fin : its side view, or None
     bent : (3, 8) numbers of the law of bent hairs, or None
     eye, surge : (3, 16) and (3,) numbers of the law of light and eye, or None
@@ -84,6 +85,7 @@ class Pelt:
     surge: Floats | None = None
     fin_eye: Floats | None = None
     spread: float | None = None
+    open: float = 0.0
     curves: Curves | None = None
     weights: Floats | None = None
     multiple: Multiple | None = None

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.cores import cores
-from furbake.pelt.hairs.shown import BETWEEN, MAX_COVERAGE
+from furbake.pelt.hairs.shown import BETWEEN, MAX_COVERAGE, MIN_SPREAD, slant
 from furbake.pelt.hairs.strands import Coat
 from furbake.pelt.hairs.volume import SOLID_SLAB, Volume, doubled, moved, pool
 from furbake.pelt.light.beam import Beam
@@ -90,6 +90,8 @@ class ShownTexels:
         self.coverage = np.minimum(pool(pelt.alpha.astype(np.float32) / 255, size), np.float32(MAX_COVERAGE))
         light = pelt.light(lights, BODY_RADIUS if beta is None else beta, CONTRAST)
         self.light = moved(pool(light, size), np.full(2, BETWEEN))
+        self.slopes = np.gradient(pelt.drift, pelt.height / pelt.layers, axis=0) if pelt.layers > 1 else 0 * pelt.drift
+        self.spread, self.open = pelt.spread or MIN_SPREAD, pelt.open
 
     def towards(self, eye: Array, some: NDArray[np.intp]) -> tuple[Array, float]:
         """Light of the slabs towards an eye under `some` of the lights, (m, K), and what it sees of all texels."""
@@ -100,7 +102,7 @@ class ShownTexels:
     def visible(self, eye: Array) -> Single:
         """Visible share of the slabs per area of skin, (K, N, N), for an eye at v where they are.
 
-        A shell hides 1 − (1 − α)^(1/n·v). What is above a point is met along a straight ray over a ball of radius β,
+        A shell hides 1 − (1 − α)^`slant`. What is above a point is met along a straight ray over a ball of radius β,
         as in `Rays`, and hairs diverge: shells hide 1 − (1 − α)^((β/(β + s))²) there, seen from straight above.
         """
         layers, size, _ = self.coverage.shape
@@ -114,13 +116,18 @@ class ShownTexels:
             rise = np.sqrt(np.maximum(1 - (r / radius[k + 1 :] * across) ** 2, 0))
             t = radius[k + 1 :] * rise - r * eye[2]
             feet = self.beta * np.arctan2(t * across, r + t * eye[2])
-            clear = np.log1p(-moved(coverage[k], np.full(2, BETWEEN))) / np.float32(eye[2])
+            clear = np.log1p(-moved(coverage[k], np.full(2, BETWEEN))) * self.slant(eye, k)
             own = -np.expm1(clear)
             depth = np.zeros_like(own)
-            for shell, foot, up in zip(coverage[k + 1 :], feet, rise, strict=True):
-                depth += np.log1p(-moved(shell, way * foot + BETWEEN)) / np.float32(up)
+            for above, (foot, up) in enumerate(zip(feet, rise, strict=True), k + 1):
+                there = np.append(eye[:2] / max(across, 1e-9) * np.sqrt(1 - up * up), up)
+                depth += np.log1p(-moved(coverage[above], way * foot + BETWEEN)) * self.slant(there, above)
             found[k] = np.exp(depth) * own * np.float32(eye[2] * (r / self.beta) ** 2)
         return found
+
+    def slant(self, eye: Array, slab: int) -> np.float32:
+        """Power of a slab for an eye at v where it is."""
+        return np.float32(slant(eye, self.slopes[slab], self.spread, self.open))
 
 
 def even(field: Single) -> Single:

@@ -15,7 +15,7 @@ from furbake.options import BakeOptions
 from furbake.pelt.bent import Unbent, bent_light, fit_bends, tips_of, unbent_light
 from furbake.pelt.eye import SeenHairs, fit_eye, seen_hairs
 from furbake.pelt.fin_eye import fit_fin_eye, level_hairs
-from furbake.pelt.hairs.shown import spread_of
+from furbake.pelt.hairs.shown import DENSE, open_share, spread_of
 from furbake.pelt.hairs.states import Fur, chosen, in_state
 from furbake.pelt.hairs.strands import Coat, Strands, grow
 from furbake.pelt.hairs.volume import Volume, slab_means
@@ -91,8 +91,13 @@ class Tile:
         (pelt, figures), *others = fit_pelts(samples, self.options)
         step(0.3)
         if self._seen is not None:
+            share = open_share(pelt.alpha / 255)
+            pelt = replace(
+                pelt,
+                spread=round(spread_of(self.strands, self.height), 3),
+                open=round(share, 3) if share > DENSE else 0.0,
+            )
             law = fit_eye(pelt, self._seen.result(), flat=self.options.flat)
-            pelt = replace(pelt, spread=round(spread_of(self.strands, self.height), 3))
             if law is not None:
                 pelt = replace(pelt, eye=law.weights, surge=law.surge)
         step(0.6)

@@ -220,14 +220,14 @@ def test_stored_and_read_back(tmp_path: Path, make_pelt: Callable[..., Pelt]) ->
     numbers, of_fins = np.round(np.random.default_rng(1).normal(size=(2, 3, TERMS)), 3)
     of_fins[:, 12:] = 0
     peak = np.array([0.25, -0.125, 0.0625])
-    made = replace(make_pelt(), eye=numbers, fin_eye=of_fins, surge=peak, spread=0.25)
+    made = replace(make_pelt(), eye=numbers, fin_eye=of_fins, surge=peak, spread=0.25, open=0.5)
     write_gltf(tmp_path, FurModel(surface, charts, fur, (made,), 0.5))
     shorten(tmp_path, "finEye")
     pelt = read_pelt(read_asset(tmp_path))
     np.testing.assert_array_equal(pelt.eye, numbers)
     np.testing.assert_array_equal(pelt.fin_eye, of_fins)
     np.testing.assert_array_equal(pelt.surge, peak)
-    assert pelt.spread == 0.25
+    assert (pelt.spread, pelt.open) == (0.25, 0.5)
     shorten(tmp_path, "eye", 11)
     assert any("eye" in problem for problem in validate(tmp_path))
 

@@ -112,6 +112,44 @@ test('combed hairs hide as much more as they lie along the skin', async ({ page 
 	}
 });
 
+test('sparse hairs hide more from aside, by how far their slope is from that of the view', async ({ page }) => {
+	await openStage(page);
+	const gltf = JSON.parse(await readFile(`${repository}${golden}/model.gltf`, 'utf8'));
+	const fur = gltf.extensions.FUR_ptm_shells;
+	const spread = 0.3;
+	const shares = [0, 0.09, 0.2, 0.6];
+	for (const open of shares)
+		await page.route(new RegExp(`model\\.gltf\\?open=${open}$`), (route) =>
+			route.fulfill({ json: { ...gltf, extensions: { FUR_ptm_shells: { ...fur, spread, open } } } }),
+		);
+	const [gu = 0, gv = 0] = [0, 1].map((c) => (fur.drift[3][c] - fur.drift[2][c]) * (fur.layers / fur.height));
+	const before = Math.hypot(gu, gv, spread);
+	// Skin that is turned against the lean and along it: its axes in those of the mesh, which lies in x and z and is seen along y.
+	for (const side of [-1, 1]) {
+		const tangent = [0.224 * side, -0.168 * side, -0.96 * side, 1];
+		const turned = { normal: [0.6, 0.8, 0], tangent, _comb: [0, 0, 0], _fur: [1, 1, 1, 0] };
+		const alphas = async (open: number) => {
+			const url = served(`${golden}/model.gltf?open=${open}`);
+			const drawn = await page.evaluate(([u, a]) => stage.vertices(u, 3, a, { lamp: [0, 0, 1] }), [
+				url,
+				turned,
+			] as const);
+			return drawn.alpha;
+		};
+		const [t, b, n] = [-0.168 * side, 0.576 * side, 0.8];
+		const aside = Math.hypot(gu * n - t, gv * n - b, spread * n) / before;
+		if (side < 0) expect(aside).toBeGreaterThan(1.2);
+		else expect(aside, 'along the hairs, which hide no less than dust').toBeLessThan(0.8);
+		const dust = await alphas(0);
+		expect(Math.max(...dust)).toBeGreaterThan(0.5);
+		for (const open of shares) {
+			const sparse = Math.min(Math.max((open - 0.1) / 0.2, 0), 1);
+			const power = 1 + sparse * (Math.max(aside, 1) - 1);
+			expect(await alphas(open), `${open}`).toEqual(dust.map((alpha) => expect.closeTo(1 - (1 - alpha) ** power, 2)));
+		}
+	}
+});
+
 for (const name of ['ptm-6', 'eigen-6', 'eigen-3']) {
 	test(`the sky lights bent hairs as lamps all around do: ${name}`, async ({ page }) => {
 		await openStage(page);

@@ -159,6 +159,8 @@ export interface FurAsset {
 	surge?: [number, number, number];
 	/** Mean distance of the hairs' slopes from the mean slope at their height. */
 	spread?: number;
+	/** Share of the skin that is seen from straight above between the hairs; absent where that is next to nothing. */
+	open?: number;
 	/** Linear colours along a hair: mix(root, tip, s^power). */
 	ramp: {
 		/** At the skin. */
@@ -189,7 +191,7 @@ export interface FurAsset {
 export interface RegionFur
 	extends Pick<
 		FurAsset,
-		'height' | 'curves' | 'drift' | 'bent' | 'eye' | 'finEye' | 'surge' | 'spread' | 'ramp' | 'pelts'
+		'height' | 'curves' | 'drift' | 'bent' | 'eye' | 'finEye' | 'surge' | 'spread' | 'open' | 'ramp' | 'pelts'
 	> {
 	/** Name of the region. */
 	name: string;

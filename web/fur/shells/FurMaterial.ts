@@ -202,10 +202,10 @@ function codingOf(asset: FurAsset): TexelCoding {
 
 /**
  * Spread of a fur's hairs: X = of their slopes, 0 where the asset does not tell it, in widths of its tile, Y = length of the
- * longest hairs of the body, in widths of the coat's.
+ * longest hairs of the body, in widths of the coat's, Z = share of the skin that is seen between them.
  */
-function spreadOf({ spread = 0, height }: FurAsset, asset: FurAsset): Vector2 {
-	return new Vector2(spread * height, asset.length / tileOf(asset));
+function spreadOf({ spread = 0, height, open = 0 }: FurAsset, asset: FurAsset): Vector3 {
+	return new Vector3(spread * height, asset.length / tileOf(asset), open);
 }
 
 /** Mean displacement of the hairs at the root and in every slab's middle, two to a vector. */

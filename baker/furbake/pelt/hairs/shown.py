@@ -5,7 +5,9 @@ lies below it is hidden once: `shown_slabs` takes 1 − α of every slab to the 
 from straight above, as much of each height as the strands do.
 
 Combed hairs lie along more of the skin and hide more of it, by how much steeper they were before: the shader takes
-1 − α to a further power, for which `spread_of` says how far the hairs' own slopes differ.
+1 − α to a further power, for which `spread_of` says how far the hairs' own slopes differ. Seen from aside all hairs lie
+along more of it, and `slant` is the power for an eye there: 1/n·v, as of dust, where fur is dense, since only its tips
+are seen either way; by the hairs' slopes where skin is seen between them (`open_share`), if they hide more so.
 """
 
 from __future__ import annotations
@@ -48,6 +50,9 @@ MAX_SLOPE, LEVELS = 4.0, 16
 
 MIN_SPREAD = 0.01
 """Least spread of the hairs' slopes."""
+
+DENSE, SPARSE = 0.1, 0.3
+"""Shares of the skin seen from above up to which fur hides it as dust does, and from which on as its hairs do."""
 
 
 def shown_slabs(fine: Volume, strands: Strands, layers: int, size: int, mud: Crumbs | None = None) -> Volume:
@@ -131,3 +136,26 @@ def spread_of(strands: Strands, height: float) -> float:
     means = np.stack([np.bincount(level, weight * part, LEVELS) / total for part in slope.T], -1)
     apart = np.linalg.norm(slope - means[level], axis=1)
     return max(float((weight * apart).sum() / max(float(weight.sum()), 1e-12)), MIN_SPREAD)
+
+
+def open_share(coverage: Array) -> float:
+    """Share of the skin that is seen from straight above between the hairs of slabs (K, N, N)."""
+    clear = np.ones(coverage.shape[1:])
+    for slab in coverage:
+        clear *= 1 - np.minimum(moved(slab.astype(np.float32), np.full(2, BETWEEN)), MAX_COVERAGE)
+    return float(clear.mean())
+
+
+def sparse(share: float) -> float:
+    """How far fur that leaves this share of the skin open hides it by its hairs' slopes, 0 (as dust) to 1."""
+    return float(np.clip((share - DENSE) / (SPARSE - DENSE), 0, 1))
+
+
+def slant(eye: Array, slope: Array, spread: float, share: float) -> float:
+    """Power of 1 − α for an eye there, over that for one straight above.
+
+    eye : (3,) unit vector above the horizon; slope : (2,) mean of the hairs there, displacement per height
+    spread, share : as of `spread_of` and `open_share`
+    """
+    by_hairs = np.hypot(np.linalg.norm(slope - eye[:2] / eye[2]), spread) / np.hypot(np.linalg.norm(slope), spread)
+    return float(max(1 / eye[2], (1 - sparse(share)) / eye[2] + sparse(share) * by_hairs))

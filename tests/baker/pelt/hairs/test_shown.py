@@ -1,20 +1,25 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from furbake.options import preset
 from furbake.pelt.hairs.shown import (
+    BETWEEN,
     PIXELS,
+    open_share,
     powers,
     seen_from_above_by_slab,
     shown_slabs,
+    slant,
     spread_of,
     uppermost,
 )
 from furbake.pelt.hairs.strands import Strands, grow
-from furbake.pelt.hairs.volume import coarsen, fine_shape, voxelise
+from furbake.pelt.hairs.volume import coarsen, fine_shape, moved, voxelise
 
 PAPER = preset("paper")
 
@@ -102,3 +107,39 @@ def test_spread_is_how_far_slopes_are_from_their_mean() -> None:
     turn = np.linspace(0, 2 * np.pi, 40, endpoint=False)
     ring = np.column_stack([np.cos(turn), np.sin(turn)]) * 0.4 + [0.8, 0.1]
     assert spread_of(leaning(ring), HEIGHT) == pytest.approx(0.4)
+
+
+@pytest.mark.parametrize("ray", [(1.5, 0.0), (0.0, -1.5), (0.0, -3.0)])
+def test_sparse_hairs_hide_the_skin_from_aside_as_brute_force_says(ray: tuple[float, float]) -> None:
+    """By their slopes within .1; as dust, by 1/n·v, they would show .15 more of it and above."""
+    coat = replace(
+        PAPER.coat,
+        guard=replace(PAPER.coat.guard, count=80, radius=(0.012, 0.004)),
+        under=replace(PAPER.coat.under, count=0),
+    )
+    hairs = grow(coat, HEIGHT, 1)
+    slabs = shown_slabs(voxelise(hairs, HEIGHT, *fine_shape(LAYERS, SIZE, HEIGHT), coat.opacity), hairs, LAYERS, SIZE)
+    share, spread = open_share(slabs.coverage), spread_of(hairs, HEIGHT)
+    points = np.random.default_rng(3).random((800, 2))
+    assert share == pytest.approx(np.mean(first_hit(hairs, np.zeros(2), points) < 0), abs=0.05)
+    slope, truth = np.array(ray), np.mean(first_hit(hairs, np.array(ray), points) < 0)
+    eye = np.append(slope, 1) / np.hypot(1, np.linalg.norm(slope))
+    lean = np.gradient(slabs.drift, HEIGHT / LAYERS, axis=0)
+
+    def clear(powers_of_slabs: list[float]) -> float:
+        """Share of the skin that the eye sees through all slabs."""
+        left = np.ones((SIZE, SIZE))
+        for k, power in enumerate(powers_of_slabs):
+            read = moved(slabs.coverage[k].astype(np.float32), slope * HEIGHT * (k + 0.5) / LAYERS * SIZE + BETWEEN)
+            left *= (1 - np.minimum(read, 0.996)) ** power
+        return float(left.mean())
+
+    assert abs(clear([slant(eye, lean[k], spread, share) for k in range(LAYERS)]) - truth) < 0.1
+    assert clear([1 / eye[2]] * LAYERS) - truth > 0.15
+
+
+def test_dense_fur_hides_the_skin_as_dust_and_no_fur_less_than_that() -> None:
+    ring = np.random.default_rng(5).normal(size=(40, 3))
+    for eye in np.abs(ring) / np.linalg.norm(ring, axis=1)[:, None]:
+        assert slant(eye, np.array([0.3, -0.1]), 0.2, 0.1) == pytest.approx(1 / eye[2])
+        assert slant(eye, np.array([0.3, 0.4]), 0.2, 0.9) >= 1 / eye[2]

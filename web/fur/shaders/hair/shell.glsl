@@ -48,8 +48,10 @@ out float vHighest;
 #endif
 #endif
 
-uniform vec2 spreads[FURS]; // X = spread of the hairs' slopes, 0 where it is not known; Y = length of the longest hairs; widths of the coat's tile
+uniform vec3 spreads[FURS]; // X = spread of the hairs' slopes, 0 where it is not known, Y = length of the longest hairs, widths of the coat's tile; Z = share of the skin seen from above between the hairs
 
+#define DENSE 0.1 // shares of open skin up to which hairs hide it as dust does, and from which on by their slopes
+#define SPARSE 0.3
 #define TIE 0.7 // phase at which half as many shells as slabs are as bright as a few more or less
 
 #define SLABS (furTrim * float(LAYERS)) // slabs left after a cut
@@ -112,16 +114,25 @@ float sharesOf(int slab, float count) {
 #endif
 }
 
-// Skin that combed hairs lie along over that of uncombed ones of this slope: see `spread_of`, pelt/hairs/shown.py.
-float combedCover(ShellPoint point, vec2 own) {
-	vec2 spread = spreads[furHairs];
+// Skin that combed hairs lie along, over that of uncombed ones of this slope seen from straight above; times n·v where they are
+// seen from aside. See pelt/hairs/shown.py.
+float hairCover(ShellPoint point, vec2 own) {
+	vec3 spread = spreads[furHairs];
 	if (spread.x <= 0.0) return 1.0;
 	float reach = spread.y * _fur.y / furWidth;
 #ifdef WET
 	reach *= furTraits.x;
 #endif
 	vec2 more = 2.0 * point.s * reach / max(furRise(point.comb), 0.1) * point.comb.xy;
-	return sqrt((dot(own + more, own + more) + spread.x * spread.x) / (dot(own, own) + spread.x * spread.x));
+	vec2 lie = own + more;
+	float apart = spread.x * spread.x, before = sqrt(dot(own, own) + apart), cover = sqrt(dot(lie, lie) + apart) / before;
+	if (spread.z > 0.0) {
+		vec3 eye = viewerVS(point.pointVS) * point.frameVS;
+		vec2 across = lie * eye.z - eye.xy * (reach * furRise(point.comb));
+		float sparse = clamp((pow(spread.z, cover) - DENSE) / (SPARSE - DENSE), 0.0, 1.0);
+		cover = mix(cover, max(cover, sqrt(dot(across, across) + apart * eye.z * eye.z) / before), sparse);
+	}
+	return cover;
 }
 
 // Places the vertex and writes varyings that are independent of the light.
@@ -172,7 +183,7 @@ ShellPoint shellPoint() {
 	vec2 slope, drifted = driftAt(point.s, slope);
 	vAt = vec3(uv * furTiles - (drifted - driftKnot(slab + 1)), float(slab + furRegion * LAYERS));
 	point.slab = slab;
-	vWeight = _fur.x * FUR_SHARE * slabs * combedCover(point, slope) * divergence(furCurvature(_fur.y), point.comb, point.s);
+	vWeight = _fur.x * FUR_SHARE * slabs * hairCover(point, slope) * divergence(furCurvature(_fur.y), point.comb, point.s);
 #ifdef PARTED
 	drifted *= furWidth;
 #ifndef TIGHT
