@@ -240,8 +240,7 @@ def extension(
         "drift": [numbers(row) for row in pelt.drift],
         **{name: [numbers(row) for row in law] for of, name in LAWS.items() if (law := getattr(pelt, of)) is not None},
         **({} if pelt.surge is None else {"surge": numbers(pelt.surge)}),
-        **({} if pelt.spread is None else {"spread": numbers(np.array([pelt.spread]))[0]}),
-        **({"open": numbers(np.array([pelt.open]))[0]} if pelt.open > 0 else {}),
+        **{name: numbers(np.array([value]))[0] for name in ("spread", "open") if (value := getattr(pelt, name))},
         "ramp": {
             **{name: numbers(np.array(getattr(pelt.ramp, name))) for name in ("root", "tip", "tip2")},
             "power": float(pelt.ramp.power),

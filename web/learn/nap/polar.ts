@@ -40,7 +40,7 @@ export function drawAround(svg: SVGElement, width: number, height: number, shown
 			cy: height / 2,
 			r: (ring / MAX_FACTOR) * radius,
 		});
-	labels(disc, 45);
+	labels(disc, clear([shown.eye, shown.light]));
 	const [x, y] = disc.at(shown.lean[0], 0.42);
 	const [fromX, fromY] = disc.at(shown.lean[0] + 180, 0.42);
 	draw(svg, 'path', { class: 'lean', d: `M${fromX} ${fromY}L${x} ${y}` });
@@ -82,11 +82,20 @@ function discAt(svg: SVGElement, cx: number, cy: number, radius: number): Disc {
 	return { svg, at };
 }
 
-/** Draw the rings' values. */
+/** Diagonal that is farthest from all of these angles. */
+function clear(angles: readonly number[]): number {
+	const apart = (diagonal: number) => Math.min(...angles.map((angle) => -Math.cos(radians(angle - diagonal))));
+	return [45, 135, 225, 315].reduce((best, diagonal) => (apart(diagonal) > apart(best) ? diagonal : best));
+}
+
+/** Draw the rings' values, outside of them; below the axis at 0°. */
 function labels({ svg, at }: Disc, angle: number): void {
 	for (const ring of [1, MAX_FACTOR]) {
 		const [x, y] = at(angle, ring);
-		draw(svg, 'text', { x: x + 3, y: y + (angle ? -3 : 14) }, String(ring));
+		const left = Math.cos(radians(angle)) < 0;
+		const below = Math.sin(radians(angle)) <= 0;
+		const text = { x: x + (left ? -3 : 3), y: y + (below ? 14 : -3), 'text-anchor': left ? 'end' : 'start' };
+		draw(svg, 'text', text, String(ring));
 	}
 }
 

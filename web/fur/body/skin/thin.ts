@@ -142,13 +142,16 @@ export function keepThinParts(root: Object3D, parts: readonly Mesh[]): void {
 	const copies = new Map<Material, Material>();
 	for (const part of parts) {
 		const { geometry, material } = part;
-		if (part instanceof SkinnedMesh || Array.isArray(material)) continue;
+		// A copy would lose what an application does to its shader.
+		if (part instanceof SkinnedMesh || Array.isArray(material) || Object.hasOwn(material, 'onBeforeCompile')) continue;
 		if (!markThin(geometry, [part], part.matrixWorld, body)) continue;
 		const copy = copies.get(material) ?? material.clone();
-		if (!copies.has(material)) keepThin(copy, height);
 		copies.set(material, copy);
 		part.material = copy;
-		part.onBeforeRender = (renderer) => {
+	}
+	for (const copy of copies.values()) {
+		keepThin(copy, height);
+		copy.onBeforeRender = (renderer) => {
 			height.value = renderer.getCurrentViewport(viewport).w;
 		};
 	}
