@@ -6,7 +6,7 @@
 
 export { type FurMethod, type FurMethodName, type FurMethodOptions, furMethod } from './baselines/furMethod.ts';
 export type { FurFollicles } from './body/FurFollicles.ts';
-export { keepThinParts } from './body/skin/thin.ts';
+export { keepThinFurParts } from './body/skin/thin.ts';
 export { dressFur, type FurDressOptions } from './dressFur.ts';
 export { Fur, type FurStates } from './Fur.ts';
 export { type FurLoaderOptions, FurLoaderPlugin } from './FurLoaderPlugin.ts';

@@ -2,7 +2,7 @@
 
 import { type AnimationClip, Box3, type LoadingManager, Mesh, type Object3D, SkinnedMesh, Vector3 } from 'three';
 import { type GLTF, GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
-import { type Fur, type FurLimits, FurLoaderPlugin, keepThinParts } from '../fur/index.ts';
+import { type Fur, type FurLimits, FurLoaderPlugin, keepThinFurParts } from '../fur/index.ts';
 import { disposeAll } from '../page/dispose.ts';
 import type { ClipPlayer } from './clips/ClipPlayer.ts';
 import type { Room } from './clips/Reach.ts';
@@ -79,7 +79,7 @@ export async function loadModel(
 	if (whole.fur) {
 		const parts = features(whole.object, whole.fur);
 		gleam(parts);
-		keepThinParts(whole.object, parts);
+		keepThinFurParts(whole.object, parts);
 	}
 	if (newer) whole.newer = newer;
 	return whole;

@@ -11,7 +11,7 @@ import {
 	Vector3,
 	WebGLRenderTarget,
 } from 'three';
-import { keepThinParts } from '../../../web/fur/index.ts';
+import { keepThinFurParts } from '../../../web/fur/index.ts';
 import { renderFloats } from '../../../web/measure/studio.ts';
 import { renderer } from './flat.ts';
 
@@ -39,7 +39,7 @@ export function whisker(kept: boolean, radius: number, turn: number): number[] {
 	const lamp = new DirectionalLight(0xffffff, 6);
 	lamp.position.z = 1;
 	scene.add(body.add(part), lamp);
-	if (kept) keepThinParts(body, [part]);
+	if (kept) keepThinFurParts(body, [part]);
 	const picture = renderFloats(renderer, scene, camera, target);
 	const lit = Array.from({ length: WIDTH }, (_, x) =>
 		Array.from({ length: HEIGHT }, (_, y) => picture[4 * (y * WIDTH + x)] ?? 0).filter((value) => value > 0.1),

@@ -41,6 +41,7 @@ it('exports these names', () => {
 		  "furEnvironment",
 		  "furLimits",
 		  "furMethod",
+		  "keepThinFurParts",
 		  "prepareFur",
 		  "updateFurs",
 		]

@@ -135,7 +135,7 @@ const viewport = new Vector4();
  * @param root of the body, in the size in which it is shown
  * @param parts of it that are looked at, such as what stands between its hairs; those that joints bend stay as they are
  */
-export function keepThinParts(root: Object3D, parts: readonly Mesh[]): void {
+export function keepThinFurParts(root: Object3D, parts: readonly Mesh[]): void {
 	root.updateWorldMatrix(true, true);
 	const body = new Box3().setFromObject(root).getCenter(new Vector3());
 	const height = { value: 1 };

@@ -1,6 +1,6 @@
 import { Group, Mesh, MeshStandardMaterial, SphereGeometry, Vector3 } from 'three';
 import { expect, it } from 'vitest';
-import { keepThinParts } from '../../../../../web/fur/body/skin/thin.ts';
+import { keepThinFurParts } from '../../../../../web/fur/body/skin/thin.ts';
 import { gatherPieces } from '../../../../../web/fur/herd/pieces.ts';
 
 it('a whisker has its axis and its end at the body, an eye has none', () => {
@@ -36,7 +36,7 @@ it('thin parts of one body are kept in sight, and a herd merges them as before',
 	}) as [Mesh, Mesh, Mesh];
 	body.scale.setScalar(3);
 	body.add(eye, first, second);
-	keepThinParts(body, [eye, first, second]);
+	keepThinFurParts(body, [eye, first, second]);
 	expect(eye.material).toBe(white);
 	expect(eye.geometry.hasAttribute('spine')).toBe(false);
 	expect(first.material).not.toBe(white);
