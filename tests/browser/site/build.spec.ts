@@ -119,7 +119,7 @@ test('the built docs are read without a script, on a phone, too', async ({ page 
 	await list.getByRole('link', { name: 'Presets' }).click();
 	await expect(page.getByRole('heading', { level: 1 })).toHaveText('Presets');
 	await expect(list.getByRole('link', { name: 'Presets' })).toHaveAttribute('aria-current', 'page');
-	const picture = page.getByRole('img', { name: 'Swatches' });
+	const picture = page.getByRole('img', { name: 'The bunny in the presets' });
 	await expect.poll(() => picture.evaluate((image: HTMLImageElement) => image.naturalWidth)).toBeGreaterThan(0);
 	expect(await page.evaluate(() => document.scripts.length)).toBe(0);
 	expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(360);
