@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from furbake.surface.files import read_text
+from furbake.surface.files import read_records
 from furbake.surface.lay.field import WIDEST, Stroke
 from furbake.surface.mesh import MeshError, Surface
 
@@ -23,15 +22,7 @@ def read_strokes(path: Path) -> tuple[Stroke, ...]:
 
     Raises MeshError that says what is wrong.
     """
-    try:
-        found = json.loads(read_text(path, WHOLE))
-    except MeshError:
-        raise
-    except (ValueError, RecursionError) as error:
-        raise MeshError(f"{path}: not JSON ({str(error).splitlines()[0]}), {WHOLE}") from error
-    records = found.get("strokes") if isinstance(found, dict) else None
-    if not isinstance(records, list):
-        raise MeshError(f"{path}: no list of strokes, {WHOLE}")
+    records = read_records(path, "strokes", WHOLE)["strokes"]
     if not 1 <= len(records) <= MAX_STROKES:
         raise MeshError(f"{path}: {len(records)} strokes, expected 1 to {MAX_STROKES}")
     return tuple(_stroke(record, f"{path}: stroke {number}") for number, record in enumerate(records, 1))

@@ -116,16 +116,16 @@ class ShownTexels:
             rise = np.sqrt(np.maximum(1 - (r / radius[k + 1 :] * across) ** 2, 0))
             t = radius[k + 1 :] * rise - r * eye[2]
             feet = self.beta * np.arctan2(t * across, r + t * eye[2])
-            clear = np.log1p(-moved(coverage[k], np.full(2, BETWEEN))) * self.slant(eye, k)
+            clear = np.log1p(-moved(coverage[k], np.full(2, BETWEEN))) * self.power(eye, k)
             own = -np.expm1(clear)
             depth = np.zeros_like(own)
             for above, (foot, up) in enumerate(zip(feet, rise, strict=True), k + 1):
                 there = np.append(eye[:2] / max(across, 1e-9) * np.sqrt(1 - up * up), up)
-                depth += np.log1p(-moved(coverage[above], way * foot + BETWEEN)) * self.slant(there, above)
+                depth += np.log1p(-moved(coverage[above], way * foot + BETWEEN)) * self.power(there, above)
             found[k] = np.exp(depth) * own * np.float32(eye[2] * (r / self.beta) ** 2)
         return found
 
-    def slant(self, eye: Array, slab: int) -> np.float32:
+    def power(self, eye: Array, slab: int) -> np.float32:
         """Power of a slab for an eye at v where it is."""
         return np.float32(slant(eye, self.slopes[slab], self.spread, self.open))
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import errno
+import json
 import os
 import posixpath
 import stat
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 from furbake.surface.limits import Budget, Budgets
 from furbake.surface.soup import MeshError
@@ -89,6 +90,22 @@ def read_text(path: Path, expected: str) -> str:
         return read_regular(path, Budget(str(path), "bytes")).decode("utf-8")
     except OSError as error:
         raise MeshError(f"{path}: {(error.strerror or 'cannot be read').lower()}, {expected}") from error
+
+
+def read_records(path: Path, name: str, expected: str) -> dict[str, Any]:
+    """The object in a JSON file that an option names, which has a list by this name.
+
+    Raises MeshError, which ends with what was expected.
+    """
+    try:
+        found = json.loads(read_text(path, expected))
+    except MeshError:
+        raise
+    except (ValueError, RecursionError) as error:
+        raise MeshError(f"{path}: not JSON ({str(error).splitlines()[0]}), {expected}") from error
+    if not isinstance(found, dict) or not isinstance(found.get(name), list):
+        raise MeshError(f"{path}: no list of {name}, {expected}")
+    return found
 
 
 @contextmanager

@@ -259,10 +259,7 @@ def test_what_is_no_bake(copy: Path, tmp_path: Path) -> None:
         lambda folder: (folder / "bake.json").unlink(), r"bake.json: missing or empty, expected the record of a bake"
     )
     broken(lambda folder: (folder / "plane1.png").unlink(), "plane1.png: no such file or directory, expected a picture")
-    broken(
-        lambda folder: (folder / "model.gltf").unlink(),
-        "broken: holds no model.gltf, expected a folder that furbake wrote",
-    )
+    broken(lambda folder: (folder / "model.gltf").unlink(), "broken: holds no model.gltf, expected a folder")
     broken(record(lambda found: found.pop("fit")), "bake.json: no fit, expected the record of a bake")
     broken(record(lambda found: found["options"].update(frobs=3)), "options that this furbake cannot read .*frobs")
     broken(record(lambda found: found["options"].update(lights=-1) or 1), "cannot read .*lights: got -1")

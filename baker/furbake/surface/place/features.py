@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from furbake.surface.files import read_text
+from furbake.surface.files import read_records
 from furbake.surface.mesh import RGB, Floats, Ints, MeshError, Surface
 from furbake.surface.repair.topology import unit
 
@@ -81,15 +81,7 @@ class Feature:
 
 def read_features(path: Path) -> tuple[Feature, ...]:
     """The features in a JSON file. Raises MeshError with one sentence that begins with its name."""
-    try:
-        found = json.loads(read_text(path, "expected JSON of features"))
-    except MeshError:
-        raise
-    except (ValueError, RecursionError) as error:
-        raise MeshError(f"{path}: not JSON ({str(error).splitlines()[0]}), expected features") from error
-    records = found.get("features") if isinstance(found, dict) else None
-    if not isinstance(records, list):
-        raise MeshError(f'{path}: no list of features, expected {{"features": [...]}}')
+    records = read_records(path, "features", 'expected {"features": [...]}')["features"]
     if len(records) > MAX_FEATURES:
         raise MeshError(f"{path}: {len(records)} features, expected at most {MAX_FEATURES}")
     features = tuple(_feature(record, f"{path}: features[{i}]") for i, record in enumerate(records))

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from furbake.surface.files import read_text
+from furbake.surface.files import read_records
 from furbake.surface.rig.rig import Floats
 from furbake.surface.skeleton.skeleton import Joint, Motion, Skeleton, Track
 from furbake.surface.soup import MeshError
@@ -33,14 +33,7 @@ WHOLE = 'expected {"joints": [...], "clips": [...]}'
 
 def read_skeleton(path: Path) -> Skeleton:
     """The skeleton in a JSON file. Raises MeshError with one sentence that begins with its name."""
-    try:
-        found = json.loads(read_text(path, "expected JSON of joints"))
-    except MeshError:
-        raise
-    except (ValueError, RecursionError) as error:
-        raise MeshError(f"{path}: not JSON ({str(error).splitlines()[0]}), {WHOLE}") from error
-    if not isinstance(found, dict) or not isinstance(found.get("joints"), list):
-        raise MeshError(f"{path}: no list of joints, {WHOLE}")
+    found = read_records(path, "joints", WHOLE)
     _known(found, ("joints", "clips"), str(path))
     if not found["joints"]:
         raise MeshError(f"{path}: no joints, expected 1 to {MAX_JOINTS}")

@@ -82,7 +82,7 @@ def test_half_a_ball_is_open_behind() -> None:
 
 
 def test_files_that_are_none(tmp_path: Path) -> None:
-    with pytest.raises(MeshError, match="no such file or directory, expected JSON of features"):
+    with pytest.raises(MeshError, match=r"no such file or directory, expected .*features"):
         read_features(tmp_path / "none.json")
     (tmp_path / "bytes.json").write_bytes(b"\xff\xfe\x00")
     with pytest.raises(MeshError, match="not JSON"):

@@ -117,7 +117,7 @@ def test_each_mistake_has_its_sentence(file: Callable[[Any], Path], content: Any
 
 
 def test_files_that_are_none(tmp_path: Path) -> None:
-    with pytest.raises(MeshError, match="no such file or directory, expected JSON of joints"):
+    with pytest.raises(MeshError, match=r"no such file or directory, expected .*joints"):
         read_skeleton(tmp_path / "none.json")
     (tmp_path / "deep.json").write_text("[" * 100_000)
     with pytest.raises(MeshError, match="not JSON"):

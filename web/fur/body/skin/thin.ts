@@ -20,6 +20,8 @@ import thinning from '../../shaders/skin/thin.vert.glsl?raw';
 const THIN = 0.1;
 /** Widths in pixels at which a thin part is gone, and up to which it is shorter than it was made. */
 const [GONE, WHOLE] = [0.2, 0.8];
+/** Half of the least width in pixels: a part of few sides is narrower than it is round. */
+const LEAST = 0.6;
 
 /** Materials of `keepThin`. */
 const kept = new WeakSet<Material>();
@@ -28,6 +30,7 @@ const DECLARED = /* glsl */ `#include <common>
 attribute vec4 spine; // nearest point on the part's long axis; half of its width in the middle, 0 for a part that is not thin
 attribute vec3 spineRoot; // end of that axis at the body
 uniform float pictureHeight; // pixels
+#define THIN_LEAST ${LEAST}
 #define THIN_GONE ${GONE}
 #define THIN_WHOLE ${WHOLE}`;
 

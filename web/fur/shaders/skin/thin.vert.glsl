@@ -16,6 +16,6 @@ if (spine.w > 0.0) {
 	float scale = length(mat3(toView) * across) / max(length(across), 1e-9);
 	float pixel = 2.0 * (projectionMatrix * toView * vec4(spine.xyz, 1.0)).w / (projectionMatrix[1][1] * pictureHeight * scale);
 	float kept = smoothstep(THIN_GONE, THIN_WHOLE, 2.0 * spine.w / pixel);
-	float least = min(0.6 * pixel, 4.0 * wide) * min(4.0 * kept, 1.0);
+	float least = min(THIN_LEAST * pixel, 4.0 * wide) * min(4.0 * kept, 1.0);
 	transformed = mix(spineRoot, spine.xyz, kept) + aside * max(1.0, least / max(wide, 1e-9));
 }
