@@ -66,7 +66,7 @@ VERIFY = [
         help="another bake of the same body: the page's pictures of both (needs Node), and how far strands differ",
     ),
     switch("--eyes", "of a flat bake: brightness seen from twelve places under five lights"),
-    switch("--scalar", "with --body: trace without LLVM: slow, but it bears any number of hairs"),
+    switch("--scalar", "with --body: trace without LLVM: slower, in less memory"),
     switch("--json", "figures as one JSON object"),
     switch("--quiet", "no progress, no summary"),
 ]  # fmt: skip

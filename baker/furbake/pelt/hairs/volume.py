@@ -27,6 +27,9 @@ PLANES = 2
 SOLID_SLAB = 1 / 16
 """Share of the fur's height to which `Coat.opacity` refers."""
 
+UPRIGHT = 0.01
+"""Slope by which hairs that stand count in the mean displacement."""
+
 
 @dataclass(frozen=True)
 class Volume:
@@ -37,7 +40,7 @@ class Volume:
     radius : (K,) mean over the hairs by their width, tile widths
     tangent : (K, N, N, 3) unit mean direction of the hairs, towards the tips; +z where there are none
     tint, hue : (K, N, N) means over the hairs, 0..1
-    drift : (K, 2) mean displacement of the hairs from their roots, tile widths
+    drift : (K, 2) mean displacement of the hairs from their roots, each by what is seen of it from above, tile widths
     height : tile widths
     aside : (K, 2) how far a slab's voxels lie beside the skin's, tile widths; None: nowhere
     off_axis : (K, N, N, 2) mean place of a voxel's middle beside the axes of its hairs, level, in their radii; None:
@@ -128,8 +131,9 @@ def voxelise(
                 voxel.ravel(), (cover * apart * per_radius[:, None]).ravel(), size * size
             )
         widths[slab] += (thick * thick).sum(), thick.sum()
-        moved = centre - points[hair, 0, :2]
-        drift[slab] += np.append((thick[:, None] * moved).sum(0), thick.sum())
+        slope = np.linalg.norm(step[hair, segment, :2], axis=-1) / np.abs(step[hair, segment, 2])
+        shown = thick * (slope + UPRIGHT)
+        drift[slab] += np.append(shown @ (centre - points[hair, 0, :2]), shown.sum())
 
     shape = (layers, size, size)
     weight, breadth = (np.ascontiguousarray(sums[..., channel]) for channel in (5, 6))

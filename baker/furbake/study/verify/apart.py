@@ -1,7 +1,4 @@
-"""The path tracer in a process of its own: where it crashes, a sentence is left.
-
-Mitsuba's compiled variants end in a segmentation fault on very many strands.
-"""
+"""The path tracer in a process of its own: where it crashes, or is out of memory, a sentence is left."""
 
 from __future__ import annotations
 

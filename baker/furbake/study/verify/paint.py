@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from scipy.cluster.vq import kmeans2
 from scipy.spatial import Delaunay
 
+from furbake.study.verify.pathtrace import write_speck
+
 Floats = NDArray[np.float64]
 
 COLOURS = 40
@@ -43,6 +45,7 @@ def write_painted(folder: Path, control: Floats, colours: NDArray[np.floating]) 
         with path.open("w", encoding="ascii") as file:
             for run in _runs(hair, piece):
                 _write(file, control, run)
+            write_speck(file, control[hair[0], piece[0], :3])
         yield path, shade
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import importlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 import numpy as np
 import scipy.linalg
@@ -26,6 +26,9 @@ TILES = 2
 
 THINNEST = 1e-6
 """Least radius of a hair, tile widths."""
+
+SPECK = 1e-6
+"""Radius of the last hair of a file, which no ray shall meet, and the length of its three pieces."""
 
 LLVM, LLVM_COLOUR = "llvm_ad_mono", "llvm_ad_rgb"
 """Mitsuba's variants that compile what they render: in greys, and in colours."""
@@ -97,6 +100,17 @@ def write_curves(path: Path, control: Array, around: int) -> None:
         for u in range(-around, around + 1):
             for v in range(-around, around + 1):
                 np.savetxt(file, (control + np.array([u, v, 0, 0])).reshape(count, -1), fmt=line)
+        write_speck(file, control[0, 0, :3])
+
+
+def write_speck(file: TextIO, at: Array) -> None:
+    """A hair too small for rays to meet, the last of a file of curves.
+
+    Mitsuba reads past the end of a file where a ray meets the very tip of its last piece: the more rays, the likelier
+    is a segmentation fault.
+    """
+    np.savetxt(file, [[*(at + k * SPECK), SPECK] for k in range(4)], fmt="%.9g")
+    file.write("\n")
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from furbake.pelt.hairs.ramp import RGB
 from furbake.pelt.hairs.strands import Strands
 from furbake.study.verify.cells import Cell, Floats, Frame
 from furbake.study.verify.paint import write_painted
-from furbake.study.verify.pathtrace import DEPTH, control_points, load
+from furbake.study.verify.pathtrace import DEPTH, control_points, load, write_speck
 
 ROULETTE = 6
 """Vertices after which a path may end by chance (Russian roulette)."""
@@ -113,6 +113,7 @@ def write_curves(path: Path, strands: Groom) -> None:
     line = "\n".join(["%.7g %.7g %.7g %.6g"] * control.shape[1]) + "\n"
     with path.open("w", encoding="ascii") as file:
         np.savetxt(file, control.reshape(len(control), -1), fmt=line)
+        write_speck(file, control[0, 0, :3])
 
 
 def _shapes(mitsuba: Any, scene: Scene, scratch: Path) -> dict[str, Any]:

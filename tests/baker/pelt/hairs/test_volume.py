@@ -4,14 +4,27 @@ import numpy as np
 import pytest
 
 from furbake.pelt.hairs.strands import Coat, Strands, grow
-from furbake.pelt.hairs.volume import average_down, coarsen, doubled, fine_shape, pool, seen_from_above, voxelise
+from furbake.pelt.hairs.volume import (
+    average_down,
+    coarsen,
+    doubled,
+    fine_shape,
+    pool,
+    seen_from_above,
+    voxelise,
+)
 
 
 def hair(root: tuple[float, float], tip: tuple[float, float, float], radius: float) -> Strands:
     """One straight hair of even thickness."""
     s = np.linspace(0, 1, 9)[:, None]
     points = np.array([*root, 0.0]) * (1 - s) + np.array(tip) * s
-    return Strands(points[None], np.full((1, 9), radius), np.full((1, 9), 0.5), np.full((1, 9), 0.25))
+    return Strands(
+        points[None],
+        np.full((1, 9), radius),
+        np.full((1, 9), 0.5),
+        np.full((1, 9), 0.25),
+    )
 
 
 def solid(strands: Strands, height: float = 0.5, layers: int = 8, size: int = 64) -> np.ndarray:
@@ -34,11 +47,25 @@ def test_leaning_hair_has_a_longer_cross_section_and_its_direction() -> None:
     np.testing.assert_allclose(area, np.pi * 0.03**2 * np.sqrt(2), rtol=0.05)
     inside = volume.sigma > 0
     np.testing.assert_allclose(
-        volume.tangent[inside], np.broadcast_to([0.5**0.5, 0, 0.5**0.5], (inside.sum(), 3)), atol=1e-9
+        volume.tangent[inside],
+        np.broadcast_to([0.5**0.5, 0, 0.5**0.5], (inside.sum(), 3)),
+        atol=1e-9,
     )
     assert set(np.unique(volume.tint[inside].round(9))) == {0.5}
     middles = (np.arange(8) + 0.5) / 8
     np.testing.assert_allclose(volume.drift, np.stack([0.5 * middles, 0 * middles], 1), atol=1e-9)
+
+
+def test_drift_is_that_of_what_is_seen_from_above() -> None:
+    """A hair with a slope of 3 shows thrice as much of itself there as one with a slope of 1."""
+    one, other = (
+        hair((0.1, 0.2), (0.6, 0.2, 0.5), 0.02),
+        hair((0.1, 0.7), (0.1, 2.2, 0.5), 0.02),
+    )
+    both = Strands(*(np.concatenate(pair) for pair in zip(vars(one).values(), vars(other).values(), strict=True)))
+    middles = (np.arange(8) + 0.5) / 8
+    wanted = np.stack([0.25 * 0.5 * middles, 0.75 * 1.5 * middles], 1)
+    np.testing.assert_allclose(voxelise(both, 0.5, 8, 64, 1.0).drift, wanted, rtol=0.01)
 
 
 def test_tile_repeats() -> None:

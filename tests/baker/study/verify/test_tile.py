@@ -42,10 +42,12 @@ def test_tiles_repeat_the_strand_around_the_first(tmp_path: Path) -> None:
     control = control_points(hair((0.5, 0.5, 0), (0.6, 0.4, 0.3)))
     path = tmp_path / "curves.txt"
     write_curves(path, control, 1)
-    strands = [
-        [[float(x) for x in line.split()] for line in block.splitlines()]
+    *strands, last = [
+        np.array([[float(x) for x in line.split()] for line in block.splitlines()])
         for block in path.read_text().strip().split("\n\n")
     ]
+    assert last[:, 3].max() <= 1e-6
+    assert np.ptp(last[:, :3], axis=0).max() <= 4e-6  # no ray meets what a reader past the end would miss
     read = np.array(strands)
     assert read.shape == (9, control.shape[1], 4)
     moved = read - control
