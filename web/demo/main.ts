@@ -44,7 +44,7 @@ function start(): void {
 	const controls = new Controls(element('panel'), tools, picture, exhibit, store);
 	const gestures = new Gestures(picture, exhibit.looks, exhibit.dynamics);
 	picture.animate = (elapsed) => Math.min(gestures.step(elapsed), exhibit.step(elapsed));
-	picture.merge = (share) => exhibit.looks.merge(share);
+	picture.space = (spacing) => exhibit.looks.space(spacing);
 	listenToHands(picture, tools, gestures, {
 		lightTaken: () => store.change({ light: picture.light.wanted }),
 		chosen: (act) => {

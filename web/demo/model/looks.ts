@@ -14,6 +14,7 @@ import {
 	updateFurs,
 } from '../../fur/index.ts';
 import { DEFAULT_LOOK, GLOW } from '../../page/look.ts';
+import type { ShellSpacing } from '../stage/spacing.ts';
 import type { Store } from '../state/store.ts';
 import type { View } from '../state/view.ts';
 import { paint } from './colours.ts';
@@ -51,6 +52,8 @@ export class Looks {
 	#looks: Look[] = [];
 	/** Looks that are being faded out. */
 	#leavingLooks: readonly Look[] = [];
+	/** True while the first picture is drawn. */
+	#first = false;
 	#fade: FurFade | undefined;
 	#onFaded: () => void = () => {};
 	readonly #methodOptions: FurMethodOptions;
@@ -217,10 +220,10 @@ export class Looks {
 	async showFirst(store: Store, drawn: () => Promise<void>): Promise<void> {
 		const { shells, fins } = this.fur ?? {};
 		if (!shells || store.get().shells) return drawn();
-		shells.coarseness = FIRST_COARSENESS;
+		this.#first = true;
 		if (fins) fins.visible = false;
 		await drawn();
-		shells.coarseness = 1;
+		this.#first = false;
 		this.style(store.get());
 	}
 
@@ -240,9 +243,10 @@ export class Looks {
 		updateFurs(furs, seconds);
 	}
 
-	/** Draws the hidden shells of all furs as one; see `FurShells.merging`. */
-	merge(share: number): void {
-		for (const { fur } of [...this.#looks, ...this.#leavingLooks]) fur.shells.merging = share;
+	/** Spaces the shells of all furs. */
+	space({ coarseness, merging }: ShellSpacing): void {
+		const wanted = { coarseness: this.#first ? FIRST_COARSENESS : coarseness, merging };
+		for (const { fur } of [...this.#looks, ...this.#leavingLooks]) Object.assign(fur.shells, wanted);
 	}
 
 	/** Fetches the states of the furs on show. */

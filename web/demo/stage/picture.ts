@@ -9,9 +9,9 @@ import type { Triple } from '../state/view.ts';
 import { OrbitCamera } from './camera.ts';
 import { Frames } from './frames.ts';
 import { textureBytes } from './memory.ts';
-import { Merging } from './merging.ts';
 import type { Overlay } from './overlay.ts';
 import { watchSight, watchSize } from './size.ts';
+import { type ShellSpacing, Spacing } from './spacing.ts';
 import { Stage } from './stage.ts';
 import { GpuTimer } from './timer.ts';
 
@@ -55,8 +55,8 @@ export class Picture {
 	 * @returns milliseconds until the next frame: 0 at once, Infinity none
 	 */
 	animate: (elapsed: number) => number = () => Number.POSITIVE_INFINITY;
-	/** Takes the share of merging of all furs; see `FurShells.merging`. */
-	merge: (share: number) => void = () => {};
+	/** Takes the spacing of all furs' shells. */
+	space: (spacing: ShellSpacing) => void = () => {};
 	/** Called when the room of the model has changed. */
 	framed: () => void = () => {};
 	/** Room that the model stands in, undefined for the whole picture; and the one that it is on the way to, if any. */
@@ -68,7 +68,7 @@ export class Picture {
 		rest: () => this.#rest(),
 	});
 	readonly #governor: FurGovernor;
-	readonly #merging = new Merging();
+	readonly #spacing = new Spacing();
 	readonly #options: PictureOptions;
 	/** True while the canvas has another size than the picture. */
 	#stale = false;
@@ -254,8 +254,8 @@ export class Picture {
 		const taken = timer.works ? time : this.#wait === 0 ? interval : Number.NaN;
 		if (!still) stage.scale = this.#governor.frame(alive ? ALIVE * taken : taken, now, this.#moving);
 		this.#moving = false;
-		const merging = this.#merging.glide(this.#governor.merging, elapsed);
-		this.merge(this.#merging.share);
+		const merging = this.#spacing.glide(this.#governor, elapsed);
+		this.space(this.#spacing);
 		if (this.#visible && !stage.gl.isContextLost()) {
 			if (this.overlay) this.overlay.frame(this.#render, interval);
 			else this.#render();
@@ -283,7 +283,7 @@ export class Picture {
 		const room = this.#room;
 		this.#room = undefined;
 		this.stage.scale = 1;
-		this.merge(0);
+		this.space({ coarseness: this.#spacing.coarseness, merging: 0 });
 		this.guides.visible = false;
 		this.#frame();
 		this.animate(0);

@@ -3,22 +3,31 @@
 /** Resolution per side, each step with √½ of the pixels of the one before. */
 const SCALES = [1, 2 ** -0.25, 2 ** -0.5, 2 ** -0.75, 0.5] as const;
 
-/** Share of a frame's time that is left where shells are merged. */
-const MERGED_TIME = 0.8;
+/** Coarseness of shells that are a pixel apart; by itself they are 1.5 apart, and steep hairs look woven where pixels are large. */
+const FINE = 2 / 3;
+
+/** Shares of a frame's time that are left where shells are no longer fine, and where they are merged besides. */
+const USUAL_TIME = 0.7;
+const MERGED_TIME = 0.8 * USUAL_TIME;
 
 /** How a frame is drawn. */
 interface Step {
 	scale: number;
+	coarseness: number;
 	merging: 0 | 1;
 	/** Expected share of the time of the first step. */
 	time: number;
 }
 
-const PIXELS: readonly Step[] = SCALES.map((scale) => ({ scale, merging: 0, time: scale * scale }));
+const PIXELS: readonly Step[] = SCALES.map((scale) => ({ scale, coarseness: 1, merging: 0, time: scale * scale }));
 const SHELLS_FIRST: readonly Step[] = [
-	...PIXELS.slice(0, 1),
-	...PIXELS.map(({ scale, time }): Step => ({ scale, merging: 1, time: MERGED_TIME * time })),
+	{ scale: 1, coarseness: FINE, merging: 0, time: 1 },
+	{ scale: 1, coarseness: 1, merging: 0, time: USUAL_TIME },
+	...PIXELS.map((step): Step => ({ ...step, merging: 1, time: MERGED_TIME * step.time })),
 ];
+
+/** Milliseconds of a frame at rest up to which its shells are fine: a hand that moves on waits for it. */
+const LONGEST_REST = 300;
 
 /** Frames per window, judged by their median: single hiccups and the gap of a hidden tab don't count. */
 const WINDOW = 9;
@@ -52,7 +61,7 @@ export interface FurGovernorOptions {
 	 * intervals don't show whether a higher resolution has room, so it is tried now and then.
 	 */
 	capped?: boolean;
-	/** Whether shells are merged before pixels are taken away; see `merging`. */
+	/** Whether there are fewer shells before there are fewer pixels; see `coarseness` and `merging`. */
 	merges?: boolean;
 	/** Smallest time between two changes of the resolution, milliseconds. */
 	cooldown?: number;
@@ -89,6 +98,8 @@ export class FurGovernor {
 	/** Windows in a row that were late, and that had room. */
 	#late = 0;
 	#calm = 0;
+	/** Time that a frame of the first step would take, by the last window in motion. */
+	#whole = 0;
 	/** Last time at full resolution, and windows since. */
 	#full = 0;
 	#since = 0;
@@ -104,16 +115,27 @@ export class FurGovernor {
 
 	/** Factor of the resolution, per side: 1, 0.84, 0.71, 0.59 or 0.5. */
 	get scale(): number {
-		return this.#resting ? 1 : this.#step.scale;
+		return this.#shown.scale;
 	}
 
-	/** Value for `FurShells.merging`: 1 from the first step down on if shells are merged first, else 0. */
+	/** Value for `FurShells.coarseness`: ⅔ where there is time, and at rest if that is no long frame, else 1; without `merges` 1. */
+	get coarseness(): number {
+		return this.#shown.coarseness;
+	}
+
+	/** Value for `FurShells.merging`: 1 from the second step down on if shells are merged first, else 0. */
 	get merging(): 0 | 1 {
-		return this.#resting ? 0 : this.#step.merging;
+		return this.#shown.merging;
 	}
 
 	get #step(): Step {
 		return this.#steps[this.#level] as Step;
+	}
+
+	get #shown(): Step {
+		if (!this.#resting) return this.#step;
+		const usual = this.#steps === SHELLS_FIRST && this.#whole > LONGEST_REST;
+		return this.#steps[Number(usual)] as Step;
 	}
 
 	/**
@@ -154,6 +176,7 @@ export class FurGovernor {
 		const median = this.#median();
 		this.#count = 0;
 		this.#since++;
+		if (!this.#resting) this.#whole = median / this.#step.time;
 		if (this.#resting) this.#learn(median);
 		else if (median > LATE * this.#target) this.#beLate(median, now);
 		else this.#beOnTime(median, now);

@@ -39,7 +39,7 @@ export class FurShells extends PosedMesh<InstancedBufferGeometry, FurMaterial> {
 	override readonly customDepthMaterial: HullMaterial;
 	/** Whether the picture determines the number of shells; setting `shellCount` turns it off. */
 	automatic = true;
-	/** Spacing of automatic shells over what looks best: 2 draws half as many. */
+	/** Spacing of automatic shells over 1.5 pixels, which are enough where pixels are small: 2 draws half as many. */
 	coarseness = 1;
 	/**
 	 * How far shells that are hardly seen are drawn as one, the lowest, and as one a slab, those above: 1 takes a quarter to

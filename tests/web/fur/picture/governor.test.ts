@@ -199,17 +199,21 @@ it('moves in steps of √½ of the pixels', () => {
 });
 
 describe('with shells that may be merged', () => {
-	/** What is drawn after two seconds of frames of such a time, of which merging saves a quarter. */
+	/** What is drawn after two seconds of frames of such a time, a quarter of which usual shells save, and merging again. */
 	const drawn = (time: number, merges: boolean) => {
 		const one = new Machine({ merges });
-		one.run(2, (scale) => time * scale ** 2 * (one.governor.merging ? 0.75 : 1));
-		return { merging: one.governor.merging, scale: one.scale };
+		const share = ({ coarseness, merging }: FurGovernor) => 0.75 ** (Number(coarseness === 1 && merges) + merging);
+		one.run(2, (scale) => time * scale ** 2 * share(one.governor));
+		const { coarseness, merging, scale } = one.governor;
+		return { coarseness, merging, scale };
 	};
 
-	it('merges them before it takes pixels away, and fewer of those', () => {
-		expect(drawn(9, true)).toEqual({ merging: 0, scale: 1 });
-		expect(drawn(18, true)).toEqual({ merging: 0, scale: 1 });
-		expect(drawn(19, true).merging).toBe(1);
+	it('draws fewer, then merges them before it takes pixels away, and fewer of those', () => {
+		expect(drawn(9, true)).toEqual({ coarseness: 2 / 3, merging: 0, scale: 1 });
+		expect(drawn(18, true)).toEqual({ coarseness: 2 / 3, merging: 0, scale: 1 });
+		expect(drawn(19, true)).toEqual({ coarseness: 1, merging: 0, scale: 1 });
+		expect(drawn(25, true)).toEqual({ coarseness: 1, merging: 1, scale: 1 });
+		expect(drawn(19, false)).toEqual({ coarseness: 1, merging: 0, scale: expect.closeTo(2 ** -0.25) });
 		expect(drawn(30, true).merging).toBe(1);
 		expect(drawn(30, true).scale).toBeGreaterThan(drawn(30, false).scale);
 		expect(drawn(30, false).merging).toBe(0);
@@ -221,6 +225,10 @@ describe('with shells that may be merged', () => {
 		one.run(2, pixels(30));
 		expect(one.governor.merging).toBe(1);
 		one.run(2, pixels(30), false);
-		expect([one.governor.merging, one.scale]).toEqual([0, 1]);
+		expect([one.governor.coarseness, one.governor.merging, one.scale]).toEqual([2 / 3, 0, 1]);
+		const slow = new Machine({ merges: true });
+		slow.run(10, pixels(400));
+		slow.run(2, pixels(400), false);
+		expect([slow.governor.coarseness, slow.governor.merging, slow.scale]).toEqual([1, 0, 1]);
 	});
 });
