@@ -1,8 +1,17 @@
 import { FurLoaderPlugin } from 'furbake';
-import { Color, DirectionalLight, HalfFloatType, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
+import {
+	Color,
+	DirectionalLight,
+	HalfFloatType,
+	LinearToneMapping,
+	PerspectiveCamera,
+	Scene,
+	WebGLRenderer,
+} from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
 const renderer = new WebGLRenderer({ antialias: true, outputBufferType: HalfFloatType });
+renderer.toneMapping = LinearToneMapping; // three draws straight to the canvas without
 renderer.setSize(innerWidth, innerHeight);
 document.body.replaceChildren(renderer.domElement);
 document.body.style.cssText = 'margin: 0; overflow: hidden';

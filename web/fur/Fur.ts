@@ -192,6 +192,7 @@ export class Fur {
 	}
 
 	set length(length: number) {
+		if (!(length >= 0)) throw new RangeError(`fur.length: got ${length}, expected 0 or more`);
 		this.material.trim = Math.min(length / this.asset.length, 1);
 		this.shells.furLength = length;
 		this.fins?.fit(this.shells);

@@ -131,7 +131,7 @@ describe('varyings', () => {
 
 	/** Rows of the packing that GLSL ES fixes: a vec4, a vec3 and each column of a matrix take a row, the rest fits beside. */
 	function rows(material: PeltMaterial): number {
-		const all = [...compiled(material).matchAll(/^(?:flat )?out (\w+) (\w+);/gm)];
+		const all = [...compiled(material).matchAll(/^(?:flat |centroid )?out (\w+) (\w+);/gm)];
 		const either = EITHER.every((wanted) => all.some(([, , name]) => name === wanted));
 		const found = all
 			.filter(([, , name]) => !(either && name === EITHER[0]))

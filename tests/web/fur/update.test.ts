@@ -105,4 +105,6 @@ it('has its length in the units of the model', () => {
 	expect(own.length).toBeCloseTo(asset.length, 12);
 	own.length = 1.5 * asset.length;
 	expect([own.length / asset.length, own.shells.furLength / asset.length, own.material.trim]).toEqual([1.5, 1.5, 1]);
+	expect(() => Object.assign(own, { length: Number.NaN })).toThrow('fur.length: got NaN, expected 0 or more');
+	expect(own.length).toBeCloseTo(1.5 * asset.length, 12);
 });

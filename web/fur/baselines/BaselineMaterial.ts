@@ -43,6 +43,7 @@ export class BaselineMaterial extends ShaderMaterial {
 		const { STRAIGHT: _, ...own } = shells.defines;
 		super({
 			glslVersion: shells.glslVersion,
+			fog: shells.fog,
 			uniforms: { ...shells.uniforms, ...UniformsUtils.clone(UniformsLib.lights), ...uniforms },
 			defines: { ...own, ...defines },
 			vertexShader: [

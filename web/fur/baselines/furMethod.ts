@@ -51,7 +51,7 @@ export interface FurMethod {
  *     // each frame, before it is drawn
  *     fur.update(seconds);
  *
- * @throws Error for `shadow-layers` without the option `renderer`
+ * @throws Error for another name, and for `shadow-layers` without the option `renderer`
  */
 export function furMethod(fur: FurMethodTarget, name: FurMethodName, given: FurMethodOptions = {}): FurMethod {
 	const options = { direction: fur.textures.direction, ...given };
@@ -81,5 +81,6 @@ export function furMethod(fur: FurMethodTarget, name: FurMethodName, given: FurM
 function lit(name: FurMethodName, own: FurMaterial, options: FurMethodOptions): FurMaterial | BaselineMaterial {
 	if (name === 'unlit') return new UnlitMaterial(own, options);
 	if (name === 'lengyel') return new LengyelMaterial(own, options);
-	return own;
+	if (name === 'ptm') return own;
+	throw new Error(`furMethod: got ${name}, expected ptm, unlit, lengyel or shadow-layers`);
 }

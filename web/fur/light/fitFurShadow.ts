@@ -18,8 +18,10 @@ const BEHIND = 8;
  *
  * @param body bounding sphere, fur included, world units
  * @param furLength world units
+ * @throws Error for a light that is not directional
  */
 export function fitFurShadow(light: DirectionalLight, body: Sphere, furLength: number): void {
+	if (!light.isDirectionalLight) throw new Error('fitFurShadow: got another light, expected a DirectionalLight');
 	const { shadow } = light;
 	const { camera } = shadow;
 	light.castShadow = true;

@@ -59,7 +59,7 @@ export const luminance = ({ r, g, b }: Color): number => LUMINANCE[0] * r + LUMI
  * NaN count as 0
  */
 export function visitEnvironment(texture: DataTexture, visit: Visit): void {
-	const { data, width, height } = texture.image;
+	const { data, width = 0, height = 0 } = texture.image ?? {};
 	const half = texture.type === HalfFloatType;
 	const usable = data instanceof (half ? Uint16Array : Float32Array) && data.length === 4 * width * height;
 	if (!usable || texture.format !== RGBAFormat || (!half && texture.type !== FloatType))

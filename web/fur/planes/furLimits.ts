@@ -11,8 +11,9 @@ export interface FurLimits {
 }
 
 /** Limits of the GPU behind a context. */
-export function furLimits(gl: WebGL2RenderingContext): FurLimits {
-	return { size: gl.getParameter(gl.MAX_TEXTURE_SIZE), layers: gl.getParameter(gl.MAX_ARRAY_TEXTURE_LAYERS) };
+export function furLimits(gl: WebGLRenderingContext | WebGL2RenderingContext): FurLimits {
+	const { MAX_TEXTURE_SIZE, MAX_ARRAY_TEXTURE_LAYERS } = gl as WebGL2RenderingContext;
+	return { size: gl.getParameter(MAX_TEXTURE_SIZE), layers: gl.getParameter(MAX_ARRAY_TEXTURE_LAYERS) };
 }
 
 /**

@@ -118,4 +118,5 @@ def soiled(clean: Volume, mud: Crumbs, opacity: float) -> Volume:
     tangent /= np.maximum(np.linalg.norm(tangent, axis=-1, keepdims=True), 1e-9)
     breadth = clean.breadth * (1 - fill) + mixed
     off_axis = None if clean.off_axis is None else clean.off_axis * (1 - share[..., None]).astype(np.float32)
-    return replace(clean, sigma=hair + mixed, breadth=breadth, tangent=tangent, tint=share, off_axis=off_axis)
+    sigma, breadth, tangent, tint = (part.astype(np.float32) for part in (hair + mixed, breadth, tangent, share))
+    return replace(clean, sigma=sigma, breadth=breadth, tangent=tangent, tint=tint, off_axis=off_axis)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 import scipy.sparse
@@ -13,6 +13,9 @@ from furbake.pelt.hairs.drawn import MIN_RADIUS, extinction
 from furbake.pelt.hairs.strands import Strands
 
 Array = NDArray[np.float64]
+Voxels = NDArray[Any]
+"""Numbers of voxels, of single precision in fine volumes, of double in stored slabs."""
+
 Real = TypeVar("Real", np.float32, np.float64)
 
 FINER = 2
@@ -47,12 +50,12 @@ class Volume:
         voxels show hairs in all of their width
     """
 
-    sigma: Array
-    breadth: Array
+    sigma: Voxels
+    breadth: Voxels
     radius: Array
-    tangent: Array
-    tint: Array
-    hue: Array
+    tangent: Voxels
+    tint: Voxels
+    hue: Voxels
     drift: Array
     height: float
     aside: Array | None = None
@@ -64,12 +67,12 @@ class Volume:
         return self.height / len(self.sigma)
 
     @property
-    def coverage(self) -> Array:
+    def coverage(self) -> Voxels:
         """α = 1 − exp(−σ·h), (K, N, N): what a slab hides, seen from straight above."""
         return -np.expm1(-self.sigma * self.slab)
 
     @property
-    def extinction(self) -> Array:
+    def extinction(self) -> Voxels:
         """Extinction of light across the hairs, per tile width, (K, N, N)."""
         return extinction(self.breadth, self.radius)
 
@@ -80,7 +83,6 @@ def fine_shape(layers: int, size: int, height: float) -> tuple[int, int]:
     return layers * max(FINER, min(even, -(-FINE_SLABS // layers))), size * FINER
 
 
-# Long: one pass over the planes fills all sums of the same crossings.
 def voxelise(
     strands: Strands, height: float, layers: int, size: int, opacity: float, aside: Array | None = None
 ) -> Volume:
@@ -91,69 +93,94 @@ def voxelise(
 
     `opacity` is the optical depth of 1/16 of the height filled with hair, `aside` as of `Volume`.
     """
-    points, radius = strands.points, strands.radius
-    low, high = points[:, :-1, 2], points[:, 1:, 2]
-    step = points[:, 1:] - points[:, :-1]
+    step = strands.points[:, 1:] - strands.points[:, :-1]
     direction = step / np.maximum(np.linalg.norm(step, axis=-1, keepdims=True), 1e-12)
-
-    solid = np.zeros((layers, size * size))
-    widths = np.zeros((layers, 2))
-    sums = np.zeros((layers, size * size, 7))  # of coverage times tangent x, y, z, tint, hue, 1; breadth
-    off_axis = np.zeros((layers, size * size, 2), np.float32)
-    drift = np.zeros((layers, 3))
     beside = np.zeros((layers, 2)) if aside is None else aside
+    # Slab by slab, since sums of all of them would be the most memory that a bake takes.
+    sigma, breadth, tint, hue = np.empty((4, layers, size * size), np.float32)
+    tangent, off_axis = (np.empty((layers, size * size, axes), np.float32) for axes in (3, 2))
+    radius, drift = np.zeros(layers), np.zeros((layers, 2))
+    for slab in range(layers):
+        drawn = _Drawn(size)
+        for plane in range(PLANES):
+            z = (slab + (plane + 0.5) / PLANES) / layers * height
+            drawn.cut(strands, step, direction, z, beside[slab])
+        empty = drawn.weight < 1e-6
+        mean = drawn.sums[:, :5] / np.maximum(drawn.weight, 1e-6)[:, None]
+        along = np.where(empty[:, None], [0.0, 0.0, 1.0], mean[:, :3])
+        tangent[slab] = along / np.maximum(np.linalg.norm(along, axis=-1, keepdims=True), 1e-9)
+        tint[slab], hue[slab] = np.where(empty, [[strands.tint.mean()], [strands.hue.mean()]], mean[:, 3:].T)
+        sigma[slab] = drawn.solid * opacity / (height * SOLID_SLAB)
+        breadth[slab] = drawn.sums[:, 6]
+        off_axis[slab] = (drawn.off_axis / np.maximum(drawn.weight, 1e-6)).T
+        radius[slab] = drawn.widths[0] / max(drawn.widths[1], 1e-12)
+        drift[slab] = drawn.drift[:2] / max(drawn.drift[2], 1e-12) + beside[slab]
+    shape = (layers, size, size)
+    return Volume(
+        sigma=sigma.reshape(shape),
+        breadth=breadth.reshape(shape),
+        radius=radius,
+        tangent=tangent.reshape(*shape, 3),
+        tint=tint.reshape(shape),
+        hue=hue.reshape(shape),
+        drift=drift,
+        height=height,
+        aside=aside,
+        off_axis=off_axis.reshape(*shape, 2),
+    )
 
-    for plane in range(layers * PLANES):
-        slab = plane // PLANES
-        z = (plane + 0.5) / (layers * PLANES) * height
-        hair, segment = np.nonzero((low <= z) != (high <= z))
+
+class _Drawn:
+    """Hairs drawn into a slab of voxels.
+
+    solid : (N²,) share of each voxel that hair fills; sums : (N², 7) of coverage times tangent x, y, z, tint, hue, 1,
+    and breadth; off_axis : (2, N²) of coverage times the place beside the axis; widths, drift : sums over the hairs
+    """
+
+    def __init__(self, size: int) -> None:
+        self.size, self.solid = size, np.zeros(size * size)
+        self.sums, self.off_axis = np.zeros((size * size, 7)), np.zeros((2, size * size))
+        self.widths, self.drift = np.zeros(2), np.zeros(3)
+
+    @property
+    def weight(self) -> Array:
+        """Coverage of each voxel by all its hairs, (N²,)."""
+        return self.sums[:, 5]
+
+    def cut(self, strands: Strands, step: Array, direction: Array, z: float, beside: Array) -> None:
+        """Draw the cross-sections of the hairs that a plane at height z meets.
+
+        step, direction : (S, P − 1, 3) from each point to the next, and made unit; beside : (2,) of the voxels
+        """
+        points, thickness, size = strands.points, strands.radius, self.size
+        hair, segment = np.nonzero((points[:, :-1, 2] <= z) != (points[:, 1:, 2] <= z))
         if not len(hair):
-            continue
-        t = (z - low[hair, segment]) / step[hair, segment, 2]
-        centre = points[hair, segment, :2] + t[:, None] * step[hair, segment, :2] - beside[slab]
-        thick = radius[hair, segment] * (1 - t) + radius[hair, segment + 1] * t
+            return
+        onwards = step[hair, segment]
+        t = (z - points[hair, segment, 2]) / onwards[:, 2]
+        centre = points[hair, segment, :2] + t[:, None] * onwards[:, :2] - beside
+        thick = thickness[hair, segment] * (1 - t) + thickness[hair, segment + 1] * t
         along = direction[hair, segment]
         along = along * np.where(along[:, 2:] < 0, -1.0, 1.0)
 
         cover, voxel, off = cross_sections(centre, thick, along, size)
         here = np.zeros(size * size)
         np.maximum.at(here, voxel.ravel(), cover.ravel())
-        solid[slab] += here / PLANES
+        self.solid += here / PLANES
         colour = [part[hair, segment] * (1 - t) + part[hair, segment + 1] * t for part in (strands.tint, strands.hue)]
         wide = 2 / (np.pi * PLANES * np.maximum(thick, MIN_RADIUS))
         values = np.column_stack([along, *colour, np.ones_like(thick), wide])
         starts = np.arange(len(hair) + 1) * cover.shape[1]
         drawn = scipy.sparse.csr_array((cover.ravel(), voxel.ravel(), starts), (len(hair), size * size))
-        sums[slab] += drawn.T @ values
+        self.sums += drawn.T @ values
         per_radius = 1 / np.maximum(thick * size, MIN_RADIUS)
         for axis, apart in enumerate(off):
-            off_axis[slab, :, axis] += np.bincount(
-                voxel.ravel(), (cover * apart * per_radius[:, None]).ravel(), size * size
-            )
-        widths[slab] += (thick * thick).sum(), thick.sum()
-        slope = np.linalg.norm(step[hair, segment, :2], axis=-1) / np.abs(step[hair, segment, 2])
+            shares = cover * apart * per_radius[:, None]
+            self.off_axis[axis] += np.bincount(voxel.ravel(), shares.ravel(), size * size)
+        self.widths += (thick * thick).sum(), thick.sum()
+        slope = np.linalg.norm(onwards[:, :2], axis=-1) / np.abs(onwards[:, 2])
         shown = thick * (slope + UPRIGHT)
-        drift[slab] += np.append(shown @ (centre - points[hair, 0, :2]), shown.sum())
-
-    shape = (layers, size, size)
-    weight, breadth = (np.ascontiguousarray(sums[..., channel]) for channel in (5, 6))
-    empty = (weight < 1e-6).reshape(shape)
-    means = (sums[..., :5] / np.maximum(weight, 1e-6)[..., None]).reshape(*shape, 5)
-    tangent = means[..., :3]
-    tangent = np.where(empty[..., None], [0.0, 0.0, 1.0], tangent)
-    tangent /= np.maximum(np.linalg.norm(tangent, axis=-1, keepdims=True), 1e-9)
-    return Volume(
-        sigma=solid.reshape(shape) * opacity / (height * SOLID_SLAB),
-        breadth=breadth.reshape(shape),
-        radius=widths[:, 0] / np.maximum(widths[:, 1], 1e-12),
-        tangent=tangent,
-        tint=np.where(empty, strands.tint.mean(), means[..., 3]),
-        hue=np.where(empty, strands.hue.mean(), means[..., 4]),
-        drift=drift[:, :2] / np.maximum(drift[:, 2:], 1e-12) + beside,
-        height=height,
-        aside=aside,
-        off_axis=np.asarray((off_axis / np.maximum(weight, 1e-6)[..., None]).reshape(*shape, 2), np.float32),
-    )
+        self.drift += np.append(shown @ (centre - points[hair, 0, :2]), shown.sum())
 
 
 def cross_sections(centre: Array, thick: Array, along: Array, size: int) -> tuple[Array, NDArray[np.int64], Array]:
@@ -257,15 +284,15 @@ def slab_means(fine: Array, layers: int) -> Array:
 def coarsen(fine: Volume, layers: int, size: int) -> Volume:
     """The stored slabs from the fine ones: coverage is kept exactly, all else is weighted by what the eye sees."""
     shares = seen_from_above(fine.coverage, layers)
-    coverage, hairs = pool(shares.sum(1), size), fine.breadth.mean((1, 2))
-    tangent = np.stack([average_down(fine.tangent[..., axis], shares, size) for axis in range(3)], -1)
+    coverage, hairs = pool(shares.sum(1), size).astype(float), fine.breadth.mean((1, 2), dtype=np.float64)
+    tangent = np.stack([average_down(fine.tangent[..., axis], shares, size) for axis in range(3)], -1).astype(float)
     return Volume(
         sigma=-np.log1p(-np.minimum(coverage, 1 - 1e-9)) / (fine.height / layers),
-        breadth=pool(fine.breadth.reshape(layers, -1, *fine.breadth.shape[1:]).mean(1), size),
+        breadth=pool(fine.breadth.reshape(layers, -1, *fine.breadth.shape[1:]).mean(1), size).astype(float),
         radius=(fine.radius * hairs).reshape(layers, -1).sum(1) / np.maximum(hairs.reshape(layers, -1).sum(1), 1e-12),
         tangent=tangent / np.maximum(np.linalg.norm(tangent, axis=-1, keepdims=True), 1e-9),
-        tint=average_down(fine.tint, shares, size),
-        hue=average_down(fine.hue, shares, size),
+        tint=average_down(fine.tint, shares, size).astype(float),
+        hue=average_down(fine.hue, shares, size).astype(float),
         drift=slab_means(fine.drift, layers),
         height=fine.height,
         aside=None if fine.aside is None else slab_means(fine.aside, layers),

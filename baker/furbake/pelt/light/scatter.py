@@ -56,18 +56,23 @@ def scatter(slabs: Slabs, light: Unscattered, *, albedo: float, skin: float, fai
     components as `LOST` allows, and only those are scattered. With `faint` these are components of the slabs' means,
     each light's brought to the same strength, and `LOST_FAINT` is what may be left out of them.
     """
+    basis, arriving = _principal(light, faint)
+    medium = Medium(slabs, skin)
+    return Scattered(basis, medium.all_orders(medium.entering(arriving), albedo))
+
+
+def _principal(light: Unscattered, faint: bool) -> tuple[Single, Arriving]:
+    """Shares (n, m) of the principal components of what arrives, and these; other fields are freed with this call."""
     count, layers, size = light.caught.shape[:3]
     fields = (light.caught, light.flux, light.floor)
     sources = np.concatenate([field.reshape(count, -1) for field in fields], 1)
     basis, back = _fewer(sources, layers, faint)
     parts = (back @ sources).reshape(-1, 4 * layers + 1, size, size)
-    arriving = Arriving(
+    return basis, Arriving(
         phi=np.moveaxis(parts[:, :layers], 0, 1),
         flux=np.moveaxis(parts[:, layers:-1].reshape(-1, 3, layers, size, size), 0, 2),
         floor=parts[:, -1],
     )
-    medium = Medium(slabs, skin)
-    return Scattered(basis, medium.all_orders(medium.entering(arriving), albedo))
 
 
 def between_hairs(slabs: Slabs, light: Unscattered, *, albedo: float, skin: float) -> Arriving:

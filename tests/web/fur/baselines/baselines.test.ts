@@ -111,6 +111,12 @@ describe('a method', () => {
 		expect(fur.method).toBeUndefined();
 	});
 
+	it('has no other name', () => {
+		expect(() => furMethod(grow(), 'phong' as 'ptm')).toThrow(
+			'furMethod: got phong, expected ptm, unlit, lengyel or shadow-layers',
+		);
+	});
+
 	it('says that its maps need a renderer', () => {
 		expect(() => furMethod(grow(), 'shadow-layers')).toThrow(
 			'furMethod: got shadow-layers without a renderer, expected the option renderer',

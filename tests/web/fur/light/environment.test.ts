@@ -88,6 +88,9 @@ describe('visitEnvironment', () => {
 		expect(() => visitEnvironment(bytes, () => {})).toThrow(/^environment: expected an equirectangular DataTexture/);
 		const few = new DataTexture(new Float32Array(12), 2, 2, RGBAFormat, FloatType);
 		expect(() => visitEnvironment(few, () => {})).toThrow(/^environment: expected/);
+		const unloaded = new DataTexture(null);
+		Object.assign(unloaded.source, { data: null });
+		expect(() => visitEnvironment(unloaded, () => {})).toThrow(/^environment: expected/);
 	});
 });
 

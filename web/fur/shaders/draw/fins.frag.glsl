@@ -12,7 +12,7 @@ vec3 rootColour; // colour at the roots of this fragment's hairs
 #define baseColour vSkin.rgb
 #endif
 
-in vec4 vSkin;
+centroid in vec4 vSkin;
 out vec4 fragColour;
 
 void main() {

@@ -16,8 +16,8 @@ uniform float finHeights; // second texture coordinate → heights
 uniform float finLength; // length of the fin, lengths of the fur here
 
 out vec2 vAt; // tiles along the edge, height
-out vec4 vSkin; // RGB = factor of the hairs' colour, A = mix of tip and tip2
-out float vFade; // opacity of the fin, and 2 more for each fur before its own
+centroid out vec4 vSkin; // RGB = factor of the hairs' colour, A = mix of tip and tip2
+centroid out float vFade; // opacity of the fin, and 2 more for each fur before its own
 
 // Cosines between the viewer and the two faces' normals. upright, across: axes about the edge from which their angles count.
 vec2 facesTowards(vec3 viewer, vec3 upright, vec3 across) {

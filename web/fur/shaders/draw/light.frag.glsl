@@ -1,9 +1,9 @@
 // Light from the vertices: see light.vert.glsl.
 
 #ifdef SKY
-in mat3 vSkyLow;
+centroid in mat3 vSkyLow;
 #ifdef TWO_PLANES
-in mat3 vSkyHigh;
+centroid in mat3 vSkyHigh;
 #endif
 #endif
 #ifdef LAMPS_PER_FRAGMENT
@@ -21,35 +21,35 @@ in float vCombX;
 in float vCombY;
 #else
 #ifdef ONE_HUE
-in vec3 vLampLow;
+centroid in vec3 vLampLow;
 #ifdef TWO_PLANES
-in vec3 vLampHigh;
+centroid in vec3 vLampHigh;
 #endif
 #else
-in mat3 vLampLow;
+centroid in mat3 vLampLow;
 #ifdef TWO_PLANES
-in mat3 vLampHigh;
+centroid in mat3 vLampHigh;
 #endif
 #endif
 #ifdef SHADOW_PER_FRAGMENT
-in float vShadowX;
-in float vShadowY;
-in float vShadowZ;
+centroid in float vShadowX;
+centroid in float vShadowY;
+centroid in float vShadowZ;
 #ifdef SHADOW_SHARE
-in float vShadowShare;
+centroid in float vShadowShare;
 #endif
 #endif
 #ifdef TINGED
-in vec3 vTinge;
+centroid in vec3 vTinge;
 #endif
 #ifdef BACKLIGHT
-in Strength vBack;
+centroid in Strength vBack;
 #endif
 #ifdef GLOSS
-in float vLobe;
-in float vTintedLobe;
+centroid in float vLobe;
+centroid in float vTintedLobe;
 #ifdef WET
-in float vPower;
+centroid in float vPower;
 #endif
 #endif
 #endif

@@ -1,11 +1,13 @@
 // Light from vertex to fragment: moments, summed here; or, where lamps are summed per fragment, the point.
 // WebGL2 guarantees 15 vectors. A shell uses four matrices and three vec3, with fifteen scalars in their gaps; where lamps
-// are summed per fragment, three matrices, three vec3 and sixteen scalars.
+// are summed per fragment, three matrices, three vec3 and sixteen scalars. All are taken at the centroid of the samples that a
+// triangle covers: beyond its edge a multisampled pixel would be far too bright. Places in textures are not, whose derivatives
+// choose a level, and vKept in the gap beside them.
 
 #ifdef SKY
-out mat3 vSkyLow;
+centroid out mat3 vSkyLow;
 #ifdef TWO_PLANES
-out mat3 vSkyHigh;
+centroid out mat3 vSkyHigh;
 #endif
 #endif
 #ifdef LAMPS_PER_FRAGMENT
@@ -24,35 +26,35 @@ out float vCombY; // comb along the second
 #else
 // Light moments of coefficients 0..2 (low) and 3..5 (high), a column each.
 #ifdef ONE_HUE
-out vec3 vLampLow;
+centroid out vec3 vLampLow;
 #ifdef TWO_PLANES
-out vec3 vLampHigh;
+centroid out vec3 vLampHigh;
 #endif
 #else
-out mat3 vLampLow;
+centroid out mat3 vLampLow;
 #ifdef TWO_PLANES
-out mat3 vLampHigh;
+centroid out mat3 vLampHigh;
 #endif
 #endif
 #ifdef SHADOW_PER_FRAGMENT
-out float vShadowX;
-out float vShadowY;
-out float vShadowZ;
+centroid out float vShadowX;
+centroid out float vShadowY;
+centroid out float vShadowZ;
 #ifdef SHADOW_SHARE
-out float vShadowShare;
+centroid out float vShadowShare;
 #endif
 #endif
 #ifdef TINGED
-out vec3 vTinge;
+centroid out vec3 vTinge;
 #endif
 #ifdef BACKLIGHT
-out Strength vBack;
+centroid out Strength vBack;
 #endif
 #ifdef GLOSS
-out float vLobe; // white highlight
-out float vTintedLobe;
+centroid out float vLobe; // white highlight
+centroid out float vTintedLobe;
 #ifdef WET
-out float vPower; // irradiance
+centroid out float vPower; // irradiance
 #endif
 #endif
 #endif

@@ -13,13 +13,13 @@ vec3 rootColour; // colour at the roots of this fragment's hairs
 #define baseColour vColour
 #endif
 
-in vec3 vColour;
+centroid in vec3 vColour;
 #ifdef COLOUR_PLANE
-in float vTip2;
+centroid in float vTip2;
 #ifdef TIGHT
 #define vRamp ((vAt.z - furLayer) / RAMP_SHARE)
 #else
-in float vRamp;
+centroid in float vRamp;
 #endif
 #endif
 

@@ -1,12 +1,12 @@
 // Part of the hairs' colour that is independent of the texel, for any light.
 
-out vec3 vColour; // linear; a factor where there is a colour plane, or a picture of the roots
+centroid out vec3 vColour; // linear; a factor where there is a colour plane, or a picture of the roots
 #ifdef COLOUR_PLANE
-out float vTip2; // mix of the texel's colour and tip2
+centroid out float vTip2; // mix of the texel's colour and tip2
 #ifdef TIGHT
 float vRamp; // in vAt instead
 #else
-out float vRamp; // place on the ramp
+centroid out float vRamp; // place on the ramp
 #endif
 #endif
 

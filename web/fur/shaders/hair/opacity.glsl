@@ -1,7 +1,7 @@
 // Opacity by the patch's weight, the number of shells and the slant of the view.
 
 #ifdef BODIES
-in float vShells; // shells of this body
+centroid in float vShells; // shells of this body
 flat in uint vDetail; // see shell.glsl
 #define shellCount vShells
 #define alphaCut unpackHalf2x16(vDetail).x
@@ -14,8 +14,8 @@ uniform float shellCount;
 #endif
 #endif
 
-in float vWeight;
-in float vFacing;
+centroid in float vWeight;
+centroid in float vFacing;
 
 #ifndef PARTED
 #define furShare() 1.0
@@ -39,7 +39,6 @@ float shellOpacity(float coverage) {
 	return clamp((coverage * most - HAIR) / max(fwidth(coverage), 1e-3) + 0.5, 0.0, 1.0);
 #else
 	float facing = max(abs(vFacing), 1.0 / MAX_SLANT);
-	// Extrapolation between samples may take the weight below 0.
-	return 1.0 - pow(1.0 - min(coverage, 0.996), max(vWeight, 0.0) * kept / facing);
+	return 1.0 - pow(1.0 - min(coverage, 0.996), vWeight * kept / facing);
 #endif
 }

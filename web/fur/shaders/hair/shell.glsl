@@ -6,7 +6,7 @@ layout(location = 12) in vec4 color; // colour of the skin, linear
 in vec4 bodyDetail; // per instance: X = shells of this body, no more than shellCount; Y = its alphaCut; ZW = its crispness
 #define crispness bodyDetail.zw
 
-out float vShells;
+centroid out float vShells;
 flat out uint vDetail; // two halves: alphaCut, X of crispness
 #endif
 
@@ -30,8 +30,8 @@ uniform vec2 crispness; // Y = share of the latter in the picture
 #endif
 
 out vec3 vAt; // XY = tiles, Z = slab, fur after fur; where TIGHT, the place on the ramp times RAMP_SHARE is added
-out float vWeight; // slabs that the shell stands for, times the patch's weight
-out float vFacing; // n·v
+centroid out float vWeight; // slabs that the shell stands for, times the patch's weight
+centroid out float vFacing; // n·v
 out float vKept;
 #ifdef PARTED
 in vec4 regionSlope; // growth of the two bounds along u and v, per unit of texture coordinates: XY of the lower, ZW of the upper
@@ -41,10 +41,10 @@ out vec2 vRoot; // root of the hairs, cells
 #endif
 // Bounds of the numbers of this fur's hairs there.
 #if REGIONS == 2
-out float vBound; // upper bound of the coat's; of the other's, which are counted from 1 down, too
+centroid out float vBound; // upper bound of the coat's; of the other's, which are counted from 1 down, too
 #else
-out float vLowest;
-out float vHighest;
+centroid out float vLowest;
+centroid out float vHighest;
 #endif
 #endif
 

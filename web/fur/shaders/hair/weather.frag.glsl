@@ -7,14 +7,14 @@
 #endif
 
 #ifdef WET
-in float vPlace;
+centroid in float vPlace;
 #define furTraits traitsAt(vPlace)
 #define furWetness wetnessAt(vPlace)
 #else
 #define furWetness 0.0
 #endif
 #ifdef DIRTY
-in float vDirt;
+centroid in float vDirt;
 uniform vec3 mud; // colour of the mud
 float mudShare = 0.0; // share of mud in the texel's coverage
 #define MUD_FILM 0.6 // opacity of mud on the hairs between crumbs

@@ -5,11 +5,11 @@ uniform highp sampler2D stains; // texel per follicle: R = wetness, G = dirt; 1 
 #define STAIN_STEPS 240.0
 #endif
 #ifdef WET
-out float vPlace; // place among the states
+centroid out float vPlace; // place among the states
 vec4 furTraits;
 #endif
 #ifdef DIRTY
-out float vDirt;
+centroid out float vDirt;
 #endif
 
 // Reads the weather; call it before all other functions of the hairs.

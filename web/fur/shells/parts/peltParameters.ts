@@ -43,8 +43,9 @@ export function peltParameters(
 	return {
 		glslVersion: GLSL3,
 		lights: true,
+		fog: true,
 		uniforms: {
-			...UniformsUtils.clone(UniformsLib.lights),
+			...UniformsUtils.clone({ ...UniformsLib.lights, ...UniformsLib.fog }),
 			plane0: { value: null },
 			plane1: { value: null },
 			colourPlane: { value: null },

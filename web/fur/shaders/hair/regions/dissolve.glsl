@@ -3,10 +3,10 @@
 
 #ifdef PARTED
 #if REGIONS == 2
-in float vBound; // see shell.glsl
+centroid in float vBound; // see shell.glsl
 #else
-in float vLowest;
-in float vHighest;
+centroid in float vLowest;
+centroid in float vHighest;
 #endif
 #ifdef TIGHT
 uniform float furCells; // see shell.glsl

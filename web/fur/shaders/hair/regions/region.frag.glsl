@@ -2,7 +2,7 @@
 
 #ifdef FIN
 in vec2 vAt; // tiles along the edge, height
-in float vFade; // opacity of the fin, and 2 more for each fur before its own
+centroid in float vFade; // opacity of the fin, and 2 more for each fur before its own
 #else
 in vec3 vAt; // see shell.glsl
 #ifdef TIGHT
