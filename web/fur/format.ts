@@ -33,6 +33,7 @@ export function fursOf({ regions, ...coat }: FurAsset): [FurAsset, ...FurAsset[]
 					surge: undefined,
 					spread: undefined,
 					open: undefined,
+					short: undefined,
 					bent: undefined,
 					...own,
 				}) as FurAsset,

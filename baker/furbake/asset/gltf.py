@@ -239,7 +239,7 @@ def extension(
         **lit,
         "drift": [numbers(row) for row in pelt.drift],
         **{name: [numbers(row) for row in law] for of, name in LAWS.items() if (law := getattr(pelt, of)) is not None},
-        **({} if pelt.surge is None else {"surge": numbers(pelt.surge)}),
+        **{name: numbers(row) for name in ("surge", "short") if (row := getattr(pelt, name)) is not None},
         **{name: numbers(np.array([value]))[0] for name in ("spread", "open") if (value := getattr(pelt, name))},
         "ramp": {
             **{name: numbers(np.array(getattr(pelt.ramp, name))) for name in ("root", "tip", "tip2")},

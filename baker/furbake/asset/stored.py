@@ -95,6 +95,7 @@ def _pelt(fur: dict[str, Any], asset: Asset, index: int) -> Pelt:
         eye=_law(fur, "eye"),
         fin_eye=_law(fur, "finEye"),
         surge=_array(fur["surge"], 3) if "surge" in fur else None,
+        short=_array(fur["short"], 3) if "short" in fur else None,
         spread=float(fur["spread"]) if "spread" in fur else None,
         open=float(fur.get("open", 0)),
         curves=curves,

@@ -210,7 +210,7 @@ def shared(
     joined = np.concatenate(each)
     rows = np.concatenate([_spread_out(r, lean) for r in range(len(RADII))])
     values = rows @ joined.reshape(len(joined), -1).T
-    weights = np.sqrt(np.maximum(np.concatenate([_seen(some) for some in cover]), MIN_SEEN))
+    weights = np.sqrt(np.maximum(np.concatenate([seen_shares(some) for some in cover]), MIN_SEEN))
     mean = values @ (weights**2 / (weights**2).sum())
     scale = (np.maximum(mean, 0) + FAINT * mean.max())[:, None]
     _, strength, found = np.linalg.svd(values * weights / scale, full_matrices=False)
@@ -223,7 +223,7 @@ def shared(
     return curves, [rounded(part) for part in np.split(solved, np.cumsum([len(part) for part in each])[:-1])]
 
 
-def _seen(cover: Array) -> Array:
+def seen_shares(cover: Array) -> Array:
     """Share of each slab in what is seen from above, (K,), where hairs of different slabs lie anyhow."""
     return np.asarray(cover * np.append(np.cumprod(1 - cover[:0:-1])[::-1], 1.0))
 

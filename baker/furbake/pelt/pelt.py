@@ -61,6 +61,7 @@ class Pelt:
     bent : (3, 8) numbers of the law of bent hairs, or None
     eye, surge : (3, 16) and (3,) numbers of the law of light and eye, or None
     fin_eye : (3, 16) numbers of the same law for fins, or None
+    short : (3,) numbers of the law of shorter hairs, or None: they are as bright
     direction : (K, N, N, 3) bytes of the hairs' mean tangent, or None
     curves, weights : the slabs' mean curves, of all states, and the (K, Q) weights of this one; None: the texels'
         polynomials alone
@@ -84,6 +85,7 @@ class Pelt:
     eye: Floats | None = None
     surge: Floats | None = None
     fin_eye: Floats | None = None
+    short: Floats | None = None
     spread: float | None = None
     open: float = 0.0
     curves: Curves | None = None

@@ -22,6 +22,7 @@ from furbake.pelt.hairs.volume import Volume, slab_means
 from furbake.pelt.light.beam import Beam, Fields
 from furbake.pelt.light.transport import Beams, beams_here
 from furbake.pelt.pelt import Pelt
+from furbake.pelt.short import fit_short
 from furbake.tile.fitting import fit_pelts
 from furbake.tile.lighting import Sampled, directions, on_bodies, options_of, parts, sampled, setting_of
 from furbake.tile.sides import fit_sides
@@ -103,6 +104,8 @@ class Tile:
         step(0.6)
         if not self.options.flat:
             pelt = replace(pelt, bent=fit_bends(pelt, results(self._bent), self._unbent.result()))
+        if self._short is not None:
+            pelt = replace(pelt, short=self._short.result())
         return [(pelt, figures), *others]
 
     def fit_fins(self, fitted: Fitted) -> Fitted:
@@ -119,7 +122,7 @@ class Tile:
 
     def begin(self) -> None:
         """Have the process beside this one begin with what needs no volume."""
-        _ = self._seen, self._level
+        _ = self._seen, self._level, self._short
 
     def _beams(self, beam: Beam, lights: Floats) -> Iterator[Fields]:
         return beams_here(beam, lights, lambda: self.beside.busy)
@@ -147,6 +150,13 @@ class Tile:
         if self.options.curves == "none" or self.options.flat:
             return None
         return self.beside.submit(level_hairs, *self._own_hairs)
+
+    @cached_property
+    def _short(self) -> Later[Floats] | None:
+        """Numbers of the law of shorter hairs."""
+        if self.options.curves == "none" or self.options.flat:
+            return None
+        return self.beside.submit(fit_short, *self._own_hairs)
 
     @property
     def _own_hairs(self) -> tuple[Strands, Coat, float, int, int]:

@@ -161,6 +161,8 @@ export interface FurAsset {
 	spread?: number;
 	/** Share of the skin that is seen from straight above between the hairs; absent where that is next to nothing. */
 	open?: number;
+	/** Light on shorter hairs: weights of 1, s and s² in its growth with −ln of the share of their length; absent: none. */
+	short?: [number, number, number];
 	/** Linear colours along a hair: mix(root, tip, s^power). */
 	ramp: {
 		/** At the skin. */
@@ -191,7 +193,7 @@ export interface FurAsset {
 export interface RegionFur
 	extends Pick<
 		FurAsset,
-		'height' | 'curves' | 'drift' | 'bent' | 'eye' | 'finEye' | 'surge' | 'spread' | 'open' | 'ramp' | 'pelts'
+		'height' | 'curves' | 'drift' | 'bent' | 'eye' | 'finEye' | 'surge' | 'spread' | 'open' | 'short' | 'ramp' | 'pelts'
 	> {
 	/** Name of the region. */
 	name: string;

@@ -31,6 +31,7 @@ const SHARED = [
 		'furLength',
 		'furTrim',
 		'bodyRadius',
+		'shorts',
 		'lean',
 		'bent',
 		'eye',

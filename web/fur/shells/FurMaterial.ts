@@ -148,6 +148,7 @@ export class FurMaterial extends PeltMaterial {
 					groups: { value: new Vector4() },
 					drift: { value: furs.flatMap(({ drift }) => driftKnots(drift)) },
 					spreads: { value: furs.map((fur) => spreadOf(fur, asset)) },
+					shorts: { value: furs.map((fur) => shortOf(fur, asset)) },
 					lean: { value: leanOf(asset) },
 					bent: { value: furs.flatMap(bentWeights) },
 					...eyeUniforms(furs),
@@ -206,6 +207,11 @@ function codingOf(asset: FurAsset): TexelCoding {
  */
 function spreadOf({ spread = 0, height, open = 0 }: FurAsset, asset: FurAsset): Vector3 {
 	return new Vector3(spread * height, asset.length / tileOf(asset), open);
+}
+
+/** Light on hairs shorter than a fur's own, see shaders/light/short.glsl. */
+function shortOf({ short = [0, 0, 0], height }: FurAsset, asset: FurAsset): Vector4 {
+	return new Vector4(...short, 1 / (height * tileOf(asset)));
 }
 
 /** Mean displacement of the hairs at the root and in every slab's middle, two to a vector. */

@@ -2,6 +2,7 @@ import {
 	BufferGeometry,
 	type Camera,
 	InstancedBufferGeometry,
+	type IUniform,
 	Matrix4,
 	type Object3D,
 	type Scene,
@@ -99,6 +100,8 @@ export class FurShells extends PosedMesh<InstancedBufferGeometry, FurMaterial> {
 			this.#light = new BodyLight(this, pose);
 			this.add(this.#light);
 		}
+		// Lengths of the pelts' hairs in the mesh's own units, too.
+		for (const short of (material.uniforms.shorts as IUniform<Vector4[]>).value) short.w *= this.scale.x;
 		this.furLength = length;
 	}
 

@@ -22,7 +22,7 @@ def alone(asset: Asset, number: int) -> Asset:
     coat = {key: value for key, value in asset.fur.items() if key != "regions"}
     if number:
         own = asset.fur["regions"]["furs"][number - 1]
-        for key in ("bent", "eye", "finEye", "surge", "spread", "open"):
+        for key in ("bent", "eye", "finEye", "surge", "short", "spread", "open"):
             coat.pop(key, None)
         coat |= {key: value for key, value in own.items() if key not in ("name", "tile")}
     document = asset.document | {"extensions": asset.document["extensions"] | {EXTENSION: coat}}

@@ -16,7 +16,7 @@ from furbake.pelt.pelt import FinPelt, Pelt
 
 Record = dict[str, Any]
 
-OWN = ("height", "curves", "drift", "bent", "eye", "finEye", "surge", "spread", "open", "ramp", "pelts")
+OWN = ("height", "curves", "drift", "bent", "eye", "finEye", "surge", "short", "spread", "open", "ramp", "pelts")
 """Members of the extension's object that each region has of its own."""
 
 CELLS = 16

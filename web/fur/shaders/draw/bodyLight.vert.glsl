@@ -18,6 +18,7 @@ void main() {
 	vec3 comb = furComb(_comb);
 	point.pointVS = (placement * vec4(furPoint(rootPosition, frame[2], comb, _fur.y, point.s), 1.0)).xyz;
 	point.curvature = furCurvature(_fur.y);
+	point.share = hairShare(_fur.y);
 	point.comb = comb * frame;
 	Bending bending = bendingOf(point.comb, point.s);
 	if (height < 0) {

@@ -21,6 +21,11 @@ float furReach(float lengthShare) {
 	return furLength * lengthShare * length(bodyModel()[0].xyz);
 }
 
+// Length of the hair over that of the pelt's. lengthShare: as above
+float hairShare(float lengthShare) {
+	return clamp(furLength / furTrim * lengthShare * ofFur(shorts, 1, 0).w / furWidth, SHORTEST, 1.0);
+}
+
 // Hairs in an area at height s over those in it at the skin: they diverge. bend: as furCurvature, whose light knows no smaller
 // body than β = 1 either.
 float divergence(vec3 bend, vec3 comb, float s) {

@@ -79,5 +79,5 @@ void main() {
 	vSkin.rgb *= furTraits.y;
 #endif
 	float slab = clamp(s * float(LAYERS) - 0.5, 0.0, float(LAYERS) - 1.0);
-	passLight(fade > 0.0, FurPoint(turn * frame, comb * frame, pointVS, furReach(_fur.y), s, slab, bend), _fur.z);
+	passLight(fade > 0.0, FurPoint(turn * frame, comb * frame, pointVS, furReach(_fur.y), hairShare(_fur.y), s, slab, bend), _fur.z);
 }

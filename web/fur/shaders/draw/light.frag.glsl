@@ -10,6 +10,7 @@ centroid in mat3 vSkyHigh;
 in mat3 vFrame;
 in vec3 vPoint;
 in float vReach;
+in float vShare;
 in float vS;
 #ifdef MEAN_CURVES
 in float vSlab;
@@ -59,9 +60,9 @@ Lamps receivedLamps() {
 	vec3 comb = vec3(vCombX, 0.0, 0.0);
 	comb[LEVEL] = vCombY;
 #ifdef MEAN_CURVES
-	FurPoint point = FurPoint(vFrame, comb, vPoint, vReach, vS, vSlab, vec3(vCurvatureX, vCurvatureY, vCurvatureXY));
+	FurPoint point = FurPoint(vFrame, comb, vPoint, vReach, vShare, vS, vSlab, vec3(vCurvatureX, vCurvatureY, vCurvatureXY));
 #else
-	FurPoint point = FurPoint(vFrame, comb, vPoint, vReach, vS, 0.0, vec3(0.0));
+	FurPoint point = FurPoint(vFrame, comb, vPoint, vReach, vShare, vS, 0.0, vec3(0.0));
 #endif
 	return lampsAt(point, bendingOf(comb, vS));
 #else

@@ -1,6 +1,6 @@
 // Light from vertex to fragment: moments, summed here; or, where lamps are summed per fragment, the point.
 // WebGL2 guarantees 15 vectors. A shell uses four matrices and three vec3, with fifteen scalars in their gaps; where lamps
-// are summed per fragment, three matrices, three vec3 and sixteen scalars. All are taken at the centroid of the samples that a
+// are summed per fragment, three matrices, three vec3 and seventeen scalars. All are taken at the centroid of the samples that a
 // triangle covers: beyond its edge a multisampled pixel would be far too bright. Places in textures are not, whose derivatives
 // choose a level, and vKept in the gap beside them.
 
@@ -14,6 +14,7 @@ centroid out mat3 vSkyHigh;
 out mat3 vFrame;
 out vec3 vPoint;
 out float vReach;
+out float vShare;
 out float vS;
 #ifdef MEAN_CURVES
 out float vSlab;
@@ -91,6 +92,7 @@ void passLight(bool seen, FurPoint point, float openness) {
 	vCombY = point.comb[LEVEL];
 	vPoint = point.pointVS;
 	vReach = point.reach;
+	vShare = point.share;
 	vS = point.s;
 #ifdef MEAN_CURVES
 	vSlab = point.slab;

@@ -31,7 +31,7 @@ uniform vec2 crispness; // Y = share of the latter in the picture
 
 out vec3 vAt; // XY = tiles, Z = slab, fur after fur; where TIGHT, the place on the ramp times RAMP_SHARE is added
 centroid out float vWeight; // slabs that the shell stands for, times the patch's weight
-centroid out float vFacing; // n·v
+centroid out float vFacing; // n·v, through the pelt
 out float vKept;
 #ifdef PARTED
 in vec4 regionSlope; // growth of the two bounds along u and v, per unit of texture coordinates: XY of the lower, ZW of the upper
@@ -115,8 +115,8 @@ float sharesOf(int slab, float count) {
 }
 
 // Skin that combed hairs lie along, over that of uncombed ones of this slope seen from straight above; times n·v where they are
-// seen from aside. See pelt/hairs/shown.py.
-float hairCover(ShellPoint point, vec2 own) {
+// seen from aside. eye: unit vector to the viewer through the pelt, in the frame. See pelt/hairs/shown.py.
+float hairCover(ShellPoint point, vec2 own, vec3 eye, float share) {
 	vec3 spread = spreads[furHairs];
 	if (spread.x <= 0.0) return 1.0;
 	float reach = spread.y * _fur.y / furWidth;
@@ -127,8 +127,7 @@ float hairCover(ShellPoint point, vec2 own) {
 	vec2 lie = own + more;
 	float apart = spread.x * spread.x, before = sqrt(dot(own, own) + apart), cover = sqrt(dot(lie, lie) + apart) / before;
 	if (spread.z > 0.0) {
-		vec3 eye = viewerVS(point.pointVS) * point.frameVS;
-		vec2 across = lie * eye.z - eye.xy * (reach * furRise(point.comb));
+		vec2 across = lie * eye.z - eye.xy * (reach / share * furRise(point.comb));
 		float sparse = clamp((pow(spread.z, cover) - DENSE) / (SPARSE - DENSE), 0.0, 1.0);
 		cover = mix(cover, max(cover, sqrt(dot(across, across) + apart * eye.z * eye.z) / before), sparse);
 	}
@@ -183,7 +182,12 @@ ShellPoint shellPoint() {
 	vec2 slope, drifted = driftAt(point.s, slope);
 	vAt = vec3(uv * furTiles - (drifted - driftKnot(slab + 1)), float(slab + furRegion * LAYERS));
 	point.slab = slab;
-	vWeight = _fur.x * FUR_SHARE * slabs * hairCover(point, slope) * divergence(furCurvature(_fur.y), point.comb, point.s);
+	// An eye meets of short hairs what it meets of the pelt's on a steeper way.
+	float lengthShare = hairShare(_fur.y);
+	vec3 eye = viewerVS(point.pointVS) * point.frameVS;
+	eye = normalize(vec3(eye.xy, eye.z / lengthShare));
+	vFacing = eye.z;
+	vWeight = _fur.x * FUR_SHARE * slabs * hairCover(point, slope, eye, lengthShare) * divergence(furCurvature(_fur.y), point.comb, point.s);
 #ifdef PARTED
 	drifted *= furWidth;
 #ifndef TIGHT
@@ -199,7 +203,6 @@ ShellPoint shellPoint() {
 #endif
 	vec2 kept = keptLevels(slab + furHairs * LAYERS);
 	vKept = mix(kept.x, kept.y, crispness.y);
-	vFacing = dot(point.turn * n, viewerVS(point.pointVS));
 	gl_Position = point.there ? projectionMatrix * vec4(point.pointVS, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 	return point;
 }

@@ -10,6 +10,7 @@ Arrival arrivalAt(FurPoint point, Eye from, Bending bending, vec3 lightVS) {
 	Arrival at;
 	at.radius = radiusTowards(point, lightTS);
 	at.height = lightTS.UP;
+	at.surge = surgeTowards(from, throughPelt(point, lightTS));
 	if (at.height < 0.0) {
 		lightTS.UP = 0.0;
 		lightTS /= max(length(lightTS), 1e-4);
@@ -17,7 +18,6 @@ Arrival arrivalAt(FurPoint point, Eye from, Bending bending, vec3 lightVS) {
 	at.lightTS = lightTS;
 	at.curves = curvesAt(at.height, horizonShare(point, at.height, at.radius), at.radius, lightTS);
 	at.nap = napTowards(from, bending.there ? unbent(lightTS, bending) : lightTS);
-	at.surge = surgeTowards(from, lightVS);
 #ifdef CURVES
 	basis(lightTS, at.low, at.high);
 #endif

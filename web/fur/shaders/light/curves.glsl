@@ -102,7 +102,7 @@ vec4 curvesAt(float height, float left, float radius, vec3 lightTS) {
 
 // Factor of Σ a·φ of the slab's texels; may be slightly below 0 where nearly dark, which keeps it linear.
 float meanLight(FurPoint point, vec4 curves) {
-	return dot(ofSlab(point, WEIGHTS), curves);
+	return shortGain(point) * dot(ofSlab(point, WEIGHTS), curves);
 }
 
 #ifdef MULTIPLE

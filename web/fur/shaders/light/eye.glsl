@@ -15,22 +15,22 @@ uniform vec4 surge; // light of a lamp beside the eye, which sees no shadows: ex
 // Eye from a point of the body. Bent hairs are seen as unbent ones by an eye that is turned as their light is: a flank seen onto
 // the tips then has .88 of the path tracer's light, without the turn .80.
 struct Eye {
-	vec3 viewer; // unit vector to it, view space
-	float up; // its height over the horizon, at least 0
-	vec3 level; // its horizontal part, turned and clamped to the horizon, the frame's axes
+	vec3 viewer; // unit vector to it through the pelt, the frame's axes
+	float up; // its height over the horizon, at least 0, as hairs that are not shorter see it
+	vec3 level; // the horizontal part of that way, turned and clamped to the horizon, the frame's axes
 	float q; // |level|²
 	float p; // level·leaning
 };
 
 Eye eyeAt(FurPoint point, Bending bending) {
 	Eye from;
-	from.viewer = viewerVS(point.pointVS);
-	from.level = from.viewer * point.frameVS;
-	from.up = max(from.level.UP, 0.0);
+	from.viewer = throughPelt(point, viewerVS(point.pointVS) * point.frameVS);
+	from.level = from.viewer;
 	if (from.level.UP < 0.0) {
 		from.level.UP = 0.0;
 		from.level /= max(length(from.level), 1e-4);
 	}
+	from.up = from.level.UP;
 	if (bending.there) from.level = unbent(from.level, bending);
 	from.level.UP = 0.0;
 #ifdef FIN_EYE
@@ -69,9 +69,9 @@ float surgeFrom(float up) {
 #endif
 }
 
-// Factor of the light of a lamp beside the eye.
-float surgeTowards(Eye from, vec3 lightVS) {
-	vec3 apart = (lightVS - from.viewer) / furSurge.z;
+// Factor of the light of a lamp beside the eye. way: unit vector to the lamp through the pelt, the frame's axes
+float surgeTowards(Eye from, vec3 way) {
+	vec3 apart = (way - from.viewer) / furSurge.z;
 	return 1.0 + surgeFrom(from.up) / (1.0 + dot(apart, apart));
 }
 
@@ -89,7 +89,7 @@ vec3 napTowards(Eye from, vec3 lightTS) {
 	return vec3(0.0);
 }
 
-float surgeTowards(Eye from, vec3 lightVS) {
+float surgeTowards(Eye from, vec3 way) {
 	return 1.0;
 }
 

@@ -59,6 +59,7 @@ struct FurPoint {
 	vec3 comb; // displacement of the tip in that frame, share of the length
 	vec3 pointVS;
 	float reach; // length of the hair, world units
+	float share; // length of the hair over that of the pelt's, at most 1
 	float s; // 0 at the skin, 1 at the tip
 	float slab; // slab shown; for a fin the place between slabs' middles
 	vec3 curvature; // curvature of the skin, per length of the hair here: along the frame's first level axis, along the second, mixed

@@ -81,7 +81,7 @@ void addChange(inout Moments moments, FurPoint point, Radiance radiance, Bending
 #ifdef EYE
 // Factor of the sky's light for the eye: X = mean over the half sphere above, weighted by n·ω and by the constant and the
 // gradient of the radiance's luminance; Y = with the surge beside the eye.
-vec2 seenSky(FurPoint point, Quadratic seen, Radiance around) {
+vec2 seenSky(FurPoint point, Eye from, Quadratic seen, Radiance around) {
 	const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 	float c = dot(LUMINANCE, around.constant);
 	vec3 g = LUMINANCE * around.gradient, upright = vec3(0.0);
@@ -98,8 +98,9 @@ vec2 seenSky(FurPoint point, Quadratic seen, Radiance around) {
 	vec3 viewer = viewerVS(point.pointVS) * point.frameVS;
 	viewer.UP = max(viewer.UP, 0.0);
 	viewer /= max(length(viewer), 1e-4);
+	float square = point.share * point.share;
 	float beside = max(c + dot(g, viewer), 0.0) / max(c + 0.5 * rise, 1e-6);
-	return vec2(mean, mean + surgeFrom(viewer.UP) * furSurge.w * beside * heldNap(seen, viewer));
+	return vec2(mean, mean + surgeFrom(from.up) * furSurge.w / (square + (1.0 - square) * furSurge.w) * beside * heldNap(seen, viewer));
 }
 #endif
 
@@ -113,7 +114,8 @@ struct Sky {
 // Moments of the radiance R(ω) = Σ_j radiance[j]·Y_j(ω) in the tangent frame (columns T, B, N), from three's ambient,
 // hemisphere and probe lights.
 Sky skyAt(FurPoint point, Bending bending) {
-	Quadratic seen = seenByEye(point, eyeAt(point, bending));
+	Eye from = eyeAt(point, bending);
+	Quadratic seen = seenByEye(point, from);
 	Moments moments;
 	float place = skyPlace(point), nap = 1.0;
 	mat3 frameVS = point.frameVS;
@@ -166,7 +168,7 @@ Sky skyAt(FurPoint point, Bending bending) {
 	addDip(moments, point, around, bending);
 #endif
 #ifdef EYE
-	vec2 mean = seenSky(point, seen, around);
+	vec2 mean = seenSky(point, from, seen, around);
 	nap = mean.y;
 	moments.low *= mean.x;
 	moments.high *= mean.x;
@@ -234,6 +236,9 @@ Moments environmentMoments(FurPoint point, Bending bending) {
 	Sky sky = skyAt(point, bending);
 #endif
 	Moments moments = sky.moments;
+	float gain = shortGain(point);
+	moments.low *= gain;
+	moments.high *= gain;
 #ifdef MULTIPLE
 	vec3 tinge = skyTinge(point, multipleGain(point), sky.place, sky.nap);
 	mat3 rows = mat3(tinge, tinge, tinge);

@@ -9,6 +9,7 @@ import root from '../../shaders/hair/pose/root.glsl?raw';
 import regionIn from '../../shaders/hair/regions/region.frag.glsl?raw';
 import region from '../../shaders/hair/regions/region.glsl?raw';
 import regionOut from '../../shaders/hair/regions/region.vert.glsl?raw';
+import hairShort from '../../shaders/hair/short.glsl?raw';
 import trim from '../../shaders/hair/trim.glsl?raw';
 import weatherIn from '../../shaders/hair/weather.frag.glsl?raw';
 import weather from '../../shaders/hair/weather.glsl?raw';
@@ -21,13 +22,14 @@ import glow from '../../shaders/light/glow.glsl?raw';
 import lamps from '../../shaders/light/lamps.glsl?raw';
 import moments from '../../shaders/light/moments.glsl?raw';
 import shadow from '../../shaders/light/shadow.glsl?raw';
+import short from '../../shaders/light/short.glsl?raw';
 import sky from '../../shaders/light/sky.glsl?raw';
 import trimmed from '../../shaders/light/trimmed.glsl?raw';
 import view from '../../shaders/light/view.glsl?raw';
 import { parts } from './parts.ts';
 
-/** Number of furs on a body. */
-const furChunks = (): string[] => [region, parts.regions?.furs ?? ''];
+/** Numbers of the furs on a body. */
+const furChunks = (): string[] => [region, parts.regions?.furs ?? '', hairShort];
 
 /** Positions of hairs. */
 export const hairChunks = (): string[] => [
@@ -41,7 +43,7 @@ export const texelChunks = (): string[] => [...furChunks(), regionIn, trim, dens
 /** Arrival of lamps at a point of the fur. @param curved whether by mean curves (format 2.x) */
 export const arrivalChunks = (curved: boolean): string[] => [
 	...['#include <common>', '#include <lights_pars_begin>'],
-	...[view, moments, trimmed, bent, eye, curved ? curves : (parts.horizon?.horizon ?? ''), arrival],
+	...[view, moments, short, trimmed, bent, eye, curved ? curves : (parts.horizon?.horizon ?? ''), arrival],
 ];
 
 /** Light of lamps. @param curved as above */
