@@ -5,14 +5,13 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TextIO
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.cluster.vq import kmeans2
 from scipy.spatial import Delaunay
 
-from furbake.study.verify.pathtrace import write_speck
+from furbake.study.verify.pathtrace import write_curves
 
 Floats = NDArray[np.float64]
 
@@ -42,10 +41,7 @@ def write_painted(folder: Path, control: Floats, colours: NDArray[np.floating]) 
         if len(hair) == 0:
             continue
         path = folder / f"hairs{number}.txt"
-        with path.open("w", encoding="ascii") as file:
-            for run in _runs(hair, piece):
-                _write(file, control, run)
-            write_speck(file, control[hair[0], piece[0], :3])
+        write_curves(path, _runs(control, hair, piece))
         yield path, shade
 
 
@@ -78,18 +74,11 @@ def shaded(between: Floats) -> tuple[Floats, NDArray[np.intp]]:
     return shades, mesh.simplices[around, corner].astype(np.intp).reshape(between.shape[:2])
 
 
-def _runs(hair: NDArray[np.intp], piece: NDArray[np.intp]) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp], int]]:
-    """Pieces of the same hair one after the other: (hairs, first pieces, their number), by that number."""
+def _runs(control: Floats, hair: NDArray[np.intp], piece: NDArray[np.intp]) -> Iterator[Floats]:
+    """Control points of pieces that follow each other on a hair, joined, by the number of pieces."""
     breaks = np.flatnonzero((np.diff(hair) != 0) | (np.diff(piece) != 1)) + 1
     first = np.concatenate([[0], breaks])
     length = np.diff(np.concatenate([first, [len(hair)]]))
     for count in np.unique(length):
         chosen = first[length == count]
-        yield hair[chosen], piece[chosen], int(count)
-
-
-def _write(file: TextIO, control: Floats, run: tuple[NDArray[np.intp], NDArray[np.intp], int]) -> None:
-    hair, piece, count = run
-    points = control[hair[:, None], piece[:, None] + np.arange(count + 3)]
-    line = "\n".join(["%.7g %.7g %.7g %.6g"] * (count + 3)) + "\n"
-    np.savetxt(file, points.reshape(len(points), -1), fmt=line)
+        yield control[hair[chosen, None], piece[chosen, None] + np.arange(count + 3)]

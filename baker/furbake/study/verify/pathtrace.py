@@ -6,9 +6,10 @@ Mitsuba 3 does the tracing (an optional extra); it knows nothing of slabs, optic
 from __future__ import annotations
 
 import importlib
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TextIO
+from typing import Any
 
 import numpy as np
 import scipy.linalg
@@ -92,25 +93,25 @@ def tiles_around(strands: Strands, lowest: float) -> int:
     return max(TILES, int(np.ceil(height * np.sqrt(1 - lowest**2) / lowest + aside)))
 
 
-def write_curves(path: Path, control: Array, around: int) -> None:
-    """The control points of (2·around + 1)² tiles as Mitsuba's text of curves: a line per point, a gap per strand."""
-    count, length, _ = control.shape
-    line = "\n".join(["%.6f %.6f %.6f %.7f"] * length) + "\n"
-    with path.open("w", encoding="ascii") as file:
-        for u in range(-around, around + 1):
-            for v in range(-around, around + 1):
-                np.savetxt(file, (control + np.array([u, v, 0, 0])).reshape(count, -1), fmt=line)
-        write_speck(file, control[0, 0, :3])
+def tiled(control: Array, around: int) -> Iterator[Array]:
+    """Control points of (2·around + 1)² tiles, tile by tile."""
+    steps = range(-around, around + 1)
+    yield from (control + np.array([u, v, 0, 0]) for u in steps for v in steps)
 
 
-def write_speck(file: TextIO, at: Array) -> None:
-    """A hair too small for rays to meet, the last of a file of curves.
+def write_curves(path: Path, parts: Iterable[Array]) -> None:
+    """Hairs as Mitsuba's text of curves: a line per control point, a gap per hair; parts : (S, P, 4) each.
 
-    Mitsuba reads past the end of a file where a ray meets the very tip of its last piece: the more rays, the likelier
-    is a segmentation fault.
+    The last hair is a speck, too small for rays to meet. Mitsuba reads past the end of a file where a ray meets the
+    very tip of its last piece: the more rays, the likelier is a segmentation fault.
     """
-    np.savetxt(file, [[*(at + k * SPECK), SPECK] for k in range(4)], fmt="%.9g")
-    file.write("\n")
+    with path.open("w", encoding="ascii") as file:
+        for control in parts:
+            line = "\n".join(["%.7g %.7g %.7g %.6g"] * control.shape[1]) + "\n"
+            np.savetxt(file, control.reshape(len(control), -1), fmt=line)
+            at = control[0, 0, :3]
+        np.savetxt(file, [[*(at + k * SPECK), SPECK] for k in range(4)], fmt="%.9g")
+        file.write("\n")
 
 
 @dataclass(frozen=True)

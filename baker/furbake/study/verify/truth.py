@@ -16,7 +16,7 @@ from furbake.pelt.hairs.ramp import RGB
 from furbake.pelt.hairs.strands import Strands
 from furbake.study.verify.cells import Cell, Floats, Frame
 from furbake.study.verify.paint import write_painted
-from furbake.study.verify.pathtrace import DEPTH, control_points, load, write_speck
+from furbake.study.verify.pathtrace import DEPTH, control_points, load, write_curves
 
 ROULETTE = 6
 """Vertices after which a path may end by chance (Russian roulette)."""
@@ -107,15 +107,6 @@ def splines(strands: Groom) -> Floats:
     return control_points(Strands(points, radius, tint=radius, hue=radius))
 
 
-def write_curves(path: Path, strands: Groom) -> None:
-    """The hairs as Mitsuba's text of curves: a line per control point, a gap per hair."""
-    control = splines(strands)
-    line = "\n".join(["%.7g %.7g %.7g %.6g"] * control.shape[1]) + "\n"
-    with path.open("w", encoding="ascii") as file:
-        np.savetxt(file, control.reshape(len(control), -1), fmt=line)
-        write_speck(file, control[0, 0, :3])
-
-
 def _shapes(mitsuba: Any, scene: Scene, scratch: Path) -> dict[str, Any]:
     """Skin and hairs, loaded."""
     _write_ply(scratch / "skin.ply", scene.vertices, scene.faces)
@@ -127,7 +118,7 @@ def _shapes(mitsuba: Any, scene: Scene, scratch: Path) -> dict[str, Any]:
             hairs = {"type": "bsplinecurve", "filename": str(path), "bsdf": _painted(colour)}
             found[f"hairs{number}"] = mitsuba.load_dict(hairs)
         return found
-    write_curves(scratch / "hairs.txt", scene.groom)
+    write_curves(scratch / "hairs.txt", [splines(scene.groom)])
     hairs = {"type": "bsplinecurve", "filename": str(scratch / "hairs.txt")}
     return {
         "skin": mitsuba.load_dict(skin | {"bsdf": _diffuse(scene.skin)}),
