@@ -5,7 +5,7 @@ import { fillHeader } from '../page/header.ts';
 import { fillIn, languageOf } from '../page/language.ts';
 import { copy } from '../page/share.ts';
 import type { FurView } from '../view/view.d.ts';
-import { SCRIPT, tagOf } from './tag.ts';
+import { filesOf, SCRIPT, tagOf } from './tag.ts';
 import { WORDS } from './words/index.ts';
 
 const language = languageOf(location.search, navigator.languages);
@@ -48,7 +48,12 @@ for (const view of document.querySelectorAll<FurView>('fur-view')) {
 	const place = document.querySelector<HTMLElement>(`.copy[data-for="${view.id}"]`);
 	if (!place) continue;
 	const write = copyable(place, text);
-	const update = () => write(tagOf(view.attributes));
+	const files = place.parentElement?.insertBefore(document.createElement('p'), place.nextSibling);
+	if (files) files.className = 'quiet files';
+	const update = () => {
+		write(tagOf(view.attributes));
+		if (files) files.textContent = words.files(filesOf(view.attributes).join(', '));
+	};
 	new MutationObserver(update).observe(view, { attributes: true });
 	update();
 }

@@ -1,6 +1,16 @@
 /** What one view shows: a furry model on its ground, its lights, lamp and camera. */
 
-import { Box3, type DataTexture, DirectionalLight, Group, Scene, Sphere, Vector3 } from 'three';
+import {
+	Box3,
+	type DataTexture,
+	DirectionalLight,
+	Group,
+	Mesh,
+	MeshStandardMaterial,
+	Scene,
+	Sphere,
+	Vector3,
+} from 'three';
 import { type Fur, fitFurShadow } from '../fur/index.ts';
 import { daylightSky, KEY_COLOUR } from '../page/daylight.ts';
 import { ContactShadow, Ground, SLATE } from '../page/ground.ts';
@@ -85,9 +95,20 @@ export class FurPicture {
 				backlight: DEFAULT_LOOK.backlight,
 				glow: GLOW * fur.extent,
 			});
+		else this.#bare(model);
 		this.scene.add(model.object);
 		this.#frame();
 		this.#followPose();
+	}
+
+	/** Lights a model without fur as skin is: there is nothing that metal could mirror. */
+	#bare({ object }: Model): void {
+		object.traverse((mesh) => {
+			if (!(mesh instanceof Mesh)) return;
+			mesh.castShadow = mesh.receiveShadow = true;
+			for (const material of [mesh.material].flat())
+				if (material instanceof MeshStandardMaterial) material.metalness = 0;
+		});
 	}
 
 	#setStanding(stands: boolean): void {

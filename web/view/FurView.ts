@@ -1,13 +1,13 @@
 /** `<fur-view>`: a furry model in any page, lit by dragging. */
 
 import { DEFAULT_CAMERA, DEFAULT_LIGHT } from '../page/light.ts';
-import { ATTRIBUTES, format, parseCamera, parseLight, type Triple } from './attributes.ts';
-import { type Frame, frame } from './frame.ts';
+import { ATTRIBUTES, format, parseCamera, parseLight, TRIPLE, type Triple } from './attributes.ts';
+import { type Failure, type Frame, frame } from './frame.ts';
 import { listenToHands } from './hands.ts';
 import { defineProperties, SWITCHES, set, TEXTS, TRIPLES } from './properties.ts';
 import { Session } from './Session.ts';
 import type { FurView as Face, FurViewState } from './view.d.ts';
-import { type Words, wordsFor } from './words.ts';
+import { wordsFor } from './words.ts';
 
 /** Node has no elements, and may import this module all the same. */
 const Base = (globalThis.HTMLElement ?? class {}) as typeof HTMLElement;
@@ -27,8 +27,11 @@ export class FurView extends Base implements Face {
 	#isStale = false;
 	/** True while drags turn the camera. */
 	#turns = false;
-	/** Whether the visitor wants the clip to play, once they have said so. */
-	#wantsPlay: boolean | undefined;
+	#failure: Failure | undefined;
+	/** Clip on show; one that comes is held where less motion is asked for. */
+	#clip = '';
+	/** Follows the language of the page. */
+	readonly #language = new MutationObserver(() => this.#label());
 	/** Attributes as the page has set them, and whether the view itself writes them now. */
 	readonly #home: Record<(typeof TRIPLES)[number], string | null> = { light: null, camera: null };
 	#writes = false;
@@ -52,12 +55,13 @@ export class FurView extends Base implements Face {
 		});
 		turn.setAttribute('aria-pressed', 'false');
 		play.addEventListener('click', () => {
-			const plays = !this.#plays;
-			this.paused = !plays;
-			this.#wantsPlay = plays;
-			this.#animate();
+			this.paused = !this.paused;
 		});
-		reset.addEventListener('click', () => this.reset());
+		reset.addEventListener('click', () => {
+			const before = format(this.light);
+			this.reset();
+			if (format(this.light) !== before) this.#dispatchLight();
+		});
 	}
 
 	get state(): FurViewState {
@@ -88,7 +92,6 @@ export class FurView extends Base implements Face {
 	reset(): void {
 		for (const name of TRIPLES) this.#write(name, this.#home[name]);
 		this.#aim();
-		this.#dispatchLight();
 	}
 
 	connectedCallback(): void {
@@ -105,11 +108,12 @@ export class FurView extends Base implements Face {
 			this.#load();
 		});
 		this.#session = session;
+		this.#language.observe(document.documentElement, { attributeFilter: ['lang'] });
 		this.#label();
 		if (session.works) {
 			this.#surround();
 			this.#aim();
-		} else this.#fail(this.#words.noWebGL2, 'this browser has no WebGL2');
+		} else this.#fail('noWebGL2');
 	}
 
 	disconnectedCallback(): void {
@@ -118,6 +122,7 @@ export class FurView extends Base implements Face {
 			if (this.isConnected || !this.#session) return;
 			this.#session.dispose();
 			this.#session = undefined;
+			this.#language.disconnect();
 			this.#isNear = false;
 			this.#setState('idle');
 		});
@@ -128,18 +133,14 @@ export class FurView extends Base implements Face {
 		if (name === 'light' || name === 'camera') {
 			if (this.#writes) return;
 			this.#home[name] = value;
+			const { parse, expected } = TRIPLE[name];
+			if (value && !parse(value)) this.#complain(`${name}: got ${value}, expected ${expected}`);
 			if (name === 'light' && this.#state === 'ready') this.#turnLight();
 			else this.#aim();
 		} else if (name === 'src' || name === 'preset') this.#load();
 		else if (name === 'environment') this.#surround();
-		else if (name === 'clip' || name === 'paused') {
-			this.#wantsPlay = undefined;
-			this.#animate();
-		} else this.#label();
-	}
-
-	get #words(): Words {
-		return wordsFor(this);
+		else if (name === 'clip' || name === 'paused') this.#animate();
+		else this.#label();
 	}
 
 	/** Whether nothing is to move by itself. */
@@ -147,12 +148,10 @@ export class FurView extends Base implements Face {
 		return matchMedia('(prefers-reduced-motion: reduce)').matches;
 	}
 
-	get #plays(): boolean {
-		return this.clip !== '' && (this.#wantsPlay ?? !(this.paused || this.#calm));
-	}
-
 	#setState(state: FurViewState): void {
 		this.#state = state;
+		if (state !== 'failed') this.#failure = undefined;
+		this.#label();
 		const { dataset } = this.#frame.root;
 		dataset.state = state;
 		// A picture stays while the next one is loading.
@@ -163,21 +162,24 @@ export class FurView extends Base implements Face {
 	/** Says what the controls do, and shows those that there are. */
 	#label(): void {
 		const { say, tools, play } = this.#frame;
-		say(this.#words, this.alt, this.#plays);
+		say(wordsFor(this), this.alt, !this.paused, this.#failure);
 		tools.classList.toggle('shown', this.controls);
-		play.hidden = !this.clip || this.clips.length === 0;
+		play.hidden = !this.clips.includes(this.clip);
 		this.#hold(false);
 	}
 
-	/** Says why there is no picture. @param reason in English, for the page */
-	#fail(text: string, reason: string): void {
-		this.#frame.explain(text);
+	/** Says why there is no picture. @param reason in English, beside the text */
+	#fail(text: Failure['text'], reason = ''): void {
+		this.#failure = { text, reason };
 		this.#setState('failed');
-		this.#complain(reason);
+		this.#complain(reason || 'this browser has no WebGL2');
 	}
 
-	#complain(message: string): void {
-		this.dispatchEvent(new ErrorEvent('error', { message: `fur-view: ${message}` }));
+	/** Tells the page, and its author unless the page takes it upon itself. */
+	#complain(reason: string): void {
+		const message = `fur-view: ${reason}`;
+		const event = new ErrorEvent('error', { message, cancelable: true });
+		if (this.dispatchEvent(event)) console.warn(`${message} (src="${this.src}")`);
 	}
 
 	/** Loads what the attributes say, after all changes of this moment. */
@@ -204,12 +206,12 @@ export class FurView extends Base implements Face {
 			const reason = await session.show({ src, preset }, () => this.#animate());
 			if (reason === undefined) return;
 			this.#setState('ready');
-			if (reason) this.#complain(`preset: ${reason}`);
+			if (reason) this.#complain(reason);
 			this.dispatchEvent(new Event('ready'));
 		} catch (error) {
 			const { message } = error as Error;
 			session.clear();
-			this.#fail(this.#words.notShown(message), message);
+			this.#fail('notShown', message);
 		}
 	}
 
@@ -243,12 +245,19 @@ export class FurView extends Base implements Face {
 
 	/** Plays or holds the clip. */
 	#animate(): void {
-		const { clips } = this.#session?.picture.shown?.model ?? {};
-		const { clip } = this;
-		if (clips && clip && clips.names.includes(clip)) clips.choose(clip);
-		else if (clips && clip) this.#complain(`clip: got ${clip}, expected one of ${clips.names.join(', ')}`);
-		else if (clip && this.#session?.picture.shown) this.#complain(`clip: got ${clip}, and a model without clips`);
-		if (this.#plays) clips?.play();
+		const { model } = this.#session?.picture.shown ?? {};
+		const { clips } = model ?? {};
+		const clip = this.clips.includes(this.clip) ? this.clip : '';
+		if (model && this.clip && !clip) {
+			const expected = clips ? `expected one of ${clips.names.join(', ')}` : 'and a model without clips';
+			this.#complain(`clip: got ${this.clip}, ${expected}`);
+		}
+		const isOther = clip !== this.#clip;
+		this.#clip = clip;
+		if (isOther && clip && this.#calm) this.paused = true;
+		// Without a clip as if there had never been one.
+		clips?.choose(clip || `${clips.names[0]}`);
+		if (clip && !this.paused) clips?.play();
 		else clips?.hold(clip ? clips.time : 0);
 		this.#label();
 		this.#session?.wake();

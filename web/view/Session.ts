@@ -61,7 +61,7 @@ export class Session implements Drawn {
 	 * Shows another model, once it is there.
 	 *
 	 * @param before called before it is drawn
-	 * @returns undefined where another was asked for meanwhile; else why it is not in the preset's fur, or '' where it is
+	 * @returns undefined where another was asked for meanwhile; else why it is not in the fur asked for, or '' where it is
 	 * @throws Error of one sentence
 	 */
 	async show({ src, preset }: Wanted, before: () => void): Promise<string | undefined> {
@@ -92,14 +92,16 @@ export class Session implements Drawn {
 		const url = gltfAt(src, document.baseURI);
 		const model = await loadBody(url, limits, manager);
 		let shown: Shown = plain(model);
-		let reason = '';
+		let reason = model.fur
+			? ''
+			: `fur: ${model.newer ? `got version ${model.newer}, newer than this element` : 'got a model without any, expected a baked one'}`;
 		try {
 			if (preset && !late()) {
 				const pelt = await findPelt(preset, url, document.baseURI, manager.abortController.signal);
 				shown = await dress(model, pelt, limits, manager);
 			}
 		} catch (error) {
-			reason = (error as Error).message;
+			reason = `preset: ${(error as Error).message}`;
 		}
 		return { shown, reason };
 	}

@@ -49,6 +49,12 @@ export function clampCamera([azimuth, elevation, distance]: Triple): Triple {
 	];
 }
 
+/** How attributes of three numbers are read, and what is expected of them. */
+export const TRIPLE = {
+	light: { parse: parseLight, expected: 'x,y,z' },
+	camera: { parse: parseCamera, expected: 'azimuth,elevation,distance' },
+} as const;
+
 /** Numbers as an attribute has them, to three places. */
 export function format(numbers: Readonly<Triple>): string {
 	return numbers.map((number) => String(Math.round(number * 1000) / 1000 + 0)).join(',');

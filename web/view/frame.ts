@@ -10,6 +10,14 @@ const ICONS = {
 	reset: ['M5 12a7 7 0 1 0 2.1-5', 'M4.5 4.5 7 7.2l2.9-2.4'],
 } as const;
 
+/** Why there is no picture. */
+export interface Failure {
+	/** Key of the sentence in the visitor's language. */
+	text: 'noWebGL2' | 'notShown';
+	/** More of it, in English. */
+	reason: string;
+}
+
 /** What the element writes into. */
 export interface Frame {
 	readonly root: HTMLElement;
@@ -18,10 +26,12 @@ export interface Frame {
 	readonly play: HTMLButtonElement;
 	readonly reset: HTMLButtonElement;
 	readonly tools: HTMLElement;
-	/** Writes the words; what the page says takes their place. */
-	say(words: Words, alt: string | null, playing: boolean): void;
-	/** Writes why there is no picture; read out where it comes later. */
-	explain(text: string): void;
+	/**
+	 * Writes the words; what the page says takes their place.
+	 *
+	 * @param failure why there is no picture, if so; read out where it comes later
+	 */
+	say(words: Words, alt: string, playing: boolean, failure: Failure | undefined): void;
 }
 
 let sheet: CSSStyleSheet | undefined;
@@ -80,34 +90,48 @@ export function frame(host: HTMLElement): Frame {
 	// It takes the arrow keys for itself, as on the demo page.
 	canvas.setAttribute('role', 'application');
 	canvas.setAttribute('aria-describedby', 'hint');
-	const hint = made('p', 'hidden');
+	const hint = made('p', '');
 	hint.id = 'hint';
-	const reason = made('p', '');
-	const words = made('div', 'words', slot('fallback', reason));
+	hint.hidden = true;
+	const [sentence, reason] = [made('p', ''), made('p', '')] as const;
+	reason.lang = 'en';
+	const words = made('div', 'words', slot('fallback', sentence, reason));
 	words.setAttribute('role', 'status');
-	// Long words in a small view scroll by keyboard, too.
-	words.tabIndex = 0;
+	// Words longer than a small view scroll by keyboard, too.
+	const reach = () => {
+		if (words.scrollHeight > words.clientHeight) words.tabIndex = 0;
+		else words.removeAttribute('tabindex');
+	};
+	new ResizeObserver(reach).observe(words);
 	const poster = made('div', 'poster', slot('poster'));
 	const [turn, play, reset] = [button(), button(), button()] as const;
 	turn.append(icon('turn'));
 	reset.append(icon('reset'));
 	const tools = made('div', 'tools', turn, play, reset);
 	tools.setAttribute('role', 'group');
-	const root = made('div', '', canvas, poster, words, tools, hint);
+	const root = made('div', 'root', canvas, poster, words, tools, hint);
 	shadow.append(root);
+	root.addEventListener('slotchange', ({ target }) => {
+		const place = target as HTMLSlotElement;
+		root.toggleAttribute(`data-${place.name}`, place.assignedNodes().length > 0);
+		reach();
+	});
 	return {
 		...{ root, canvas, turn, play, reset, tools },
-		say(words, alt, playing) {
-			canvas.setAttribute('aria-label', alt || words.label);
+		say(words, alt, playing, failure) {
+			canvas.ariaLabel = alt || words.label;
+			// The poster stands for the picture that cannot be had.
+			poster.role = failure ? 'img' : null;
+			poster.ariaLabel = failure ? canvas.ariaLabel : null;
 			hint.textContent = words.hint;
 			name(tools, words.controls);
 			name(turn, words.turn);
 			name(reset, words.reset);
 			name(play, playing ? words.pause : words.play);
 			play.replaceChildren(icon(playing ? 'pause' : 'play'));
-		},
-		explain(text) {
-			reason.textContent = text;
+			sentence.textContent = failure ? words[failure.text] : '';
+			reason.textContent = failure?.reason ?? '';
+			reach();
 		},
 	};
 }

@@ -12,7 +12,7 @@ export interface FurViewEventMap extends HTMLElementEventMap {
 	ready: Event;
 	/** A visitor has moved the light. */
 	lightchange: CustomEvent<{ light: Triple }>;
-	/** Something that was asked for cannot be had; `message` says what. */
+	/** Something that was asked for cannot be had; `message` says what, and the console unless the default is prevented. */
 	error: ErrorEvent;
 }
 
@@ -30,7 +30,7 @@ export interface FurView extends HTMLElement {
 	preset: string;
 	/** Clip to play; without one the model holds still. */
 	clip: string;
-	/** Whether the clip is held where it is. */
+	/** Whether the clip is held where it is; set by the view where a visitor wants less motion. */
 	paused: boolean;
 	/** Place around the model: studio, city, sky, sunset or forest; daylight without one. */
 	environment: string;

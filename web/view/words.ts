@@ -12,7 +12,7 @@ const en = {
 	reset: 'Light and view as they were',
 	loading: 'Growing fur …',
 	noWebGL2: 'This picture is drawn live and needs WebGL2, which this browser does not offer.',
-	notShown: (reason: string) => `This picture cannot be shown: ${reason}.`,
+	notShown: 'This picture cannot be shown.',
 };
 
 /** Words of one language. */
@@ -28,7 +28,7 @@ const zh: Words = {
 	reset: '恢复灯光与视角',
 	loading: '正在长毛 …',
 	noWebGL2: '这幅画面需要实时绘制，而此浏览器不支持 WebGL2。',
-	notShown: (reason: string) => `无法显示这幅画面：${reason}。`,
+	notShown: '无法显示这幅画面。',
 };
 
 const WORDS: Record<Language, Words> = { en, zh };

@@ -1,17 +1,17 @@
 /** The law of light and eye in the shaders: its terms, powers of the height and surge, and a sky beside lamps all around. */
 
-import { readFile } from "node:fs/promises";
-import type { Page } from "@playwright/test";
-import { wayOf } from "../../../web/fur/light/bent.ts";
-import { expect, test } from "../harness.ts";
-import type { Stage } from "../inPage/stage.ts";
-import { floats, openStage, repository, served } from "../library.ts";
+import { readFile } from 'node:fs/promises';
+import type { Page } from '@playwright/test';
+import { wayOf } from '../../../web/fur/light/bent.ts';
+import { expect, test } from '../harness.ts';
+import type { Stage } from '../inPage/stage.ts';
+import { floats, openStage, repository, served } from '../library.ts';
 
 declare const stage: Stage;
 
 type Vector = [number, number, number];
 
-const golden = "tests/golden/ptm-6-curves";
+const golden = 'tests/golden/ptm-6-curves';
 const zeros = () => [0, 1, 2].map(() => new Array<number>(16).fill(0));
 const dot = (a: Vector, b: Vector) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
@@ -31,13 +31,9 @@ const attributes = {
 /** Length of hairs that stand where they would untilted. */
 const SHORT = 1e-4;
 
-async function openEyes(
-	page: Page,
-): Promise<(laws: object[]) => Promise<string[]>> {
+async function openEyes(page: Page): Promise<(laws: object[]) => Promise<string[]>> {
 	await openStage(page);
-	const gltf = JSON.parse(
-		await readFile(`${repository}${golden}/model.gltf`, "utf8"),
-	);
+	const gltf = JSON.parse(await readFile(`${repository}${golden}/model.gltf`, 'utf8'));
 	return async (laws) => {
 		for (const [i, law] of laws.entries())
 			await page.route(new RegExp(`model\\.gltf\\?eye=${i}$`), (route) => {
@@ -55,37 +51,22 @@ async function openEyes(
 }
 
 /** Mean light of layer 3 under a lamp, of hairs with this share of their length. */
-async function lit(
-	page: Page,
-	url: string,
-	lamp: Vector,
-	share = 1,
-	perFragment = false,
-): Promise<number> {
+async function lit(page: Page, url: string, lamp: Vector, share = 1, perFragment = false): Promise<number> {
 	const look = { lamp, perFragment };
 	const own = { ...attributes, _fur: [1, share, 1, 0] };
-	const drawn = await page.evaluate(([u, a, l]) => stage.vertices(u, 3, a, l), [
-		url,
-		own,
-		look,
-	] as const);
-	return (
-		drawn.light.reduce((sum, light) => sum + light, 0) / drawn.light.length
-	);
+	const drawn = await page.evaluate(([u, a, l]) => stage.vertices(u, 3, a, l), [url, own, look] as const);
+	return drawn.light.reduce((sum, light) => sum + light, 0) / drawn.light.length;
 }
 
-test("every number meets its term and power of the height", async ({
-	page,
-}) => {
+test('every number meets its term and power of the height', async ({ page }) => {
 	const open = await openEyes(page);
-	const { drift } = JSON.parse(
-		await readFile(`${repository}${golden}/model.gltf`, "utf8"),
-	).extensions.FUR_ptm_shells;
+	const { drift } = JSON.parse(await readFile(`${repository}${golden}/model.gltf`, 'utf8')).extensions.FUR_ptm_shells;
 	const m = wayOf({ drift });
 	const lamp: Vector = [0.48, 0.36, 0.8];
-	const [l, v] = [lamp, [0, 0, 1] as Vector].map(
-		(way) => frame.map((axis) => dot(axis, way)) as Vector,
-	) as [Vector, Vector];
+	const [l, v] = [lamp, [0, 0, 1] as Vector].map((way) => frame.map((axis) => dot(axis, way)) as Vector) as [
+		Vector,
+		Vector,
+	];
 	const [a, b, p, z, q] = [
 		l[0] * v[0] + l[1] * v[1],
 		l[0] * m[0] + l[1] * m[1],
@@ -93,20 +74,7 @@ test("every number meets its term and power of the height", async ({
 		l[2],
 		1 - v[2] ** 2,
 	];
-	const terms = [
-		q,
-		a,
-		q * b,
-		p * b,
-		q * z,
-		q * b * b,
-		p,
-		a * a,
-		p * a * b,
-		q * p,
-		q * b * z,
-		q * a * b,
-	];
+	const terms = [q, a, q * b, p * b, q * z, q * b * b, p, a * a, p * a * b, q * p, q * b * z, q * a * b];
 	terms.push(a * z, p * z, q * z * z, q * p * b);
 	const s = 3.5 / 4;
 	// One number by itself, such that the light is 1.25 times what it was.
@@ -117,82 +85,53 @@ test("every number meets its term and power of the height", async ({
 		return { eye };
 	});
 	const urls = await open([{}, ...laws]);
-	const plain = await lit(page, urls[0] ?? "", lamp);
+	const plain = await lit(page, urls[0] ?? '', lamp);
 	expect(plain).toBeGreaterThan(0.1);
 	for (const [f] of terms.entries())
-		expect(
-			(await lit(page, urls[f + 1] ?? "", lamp)) / plain,
-			`term ${f}`,
-		).toBeCloseTo(1.25, 3);
+		expect((await lit(page, urls[f + 1] ?? '', lamp)) / plain, `term ${f}`).toBeCloseTo(1.25, 3);
 });
 
-test("light of a lamp beside the eye surges, more where it is seen from aside", async ({
-	page,
-}) => {
+test('light of a lamp beside the eye surges, more where it is seen from aside', async ({ page }) => {
 	const open = await openEyes(page);
-	const [plain = "", surging = ""] = await open([
-		{},
-		{ eye: zeros(), surge: [0.2, 0.5, 0.1] },
-	]);
+	const [plain = '', surging = ''] = await open([{}, { eye: zeros(), surge: [0.2, 0.5, 0.1] }]);
 	const most = 0.2 + 0.5 * (1 - cosine ** 2);
 	for (const angle of [0, 0.1, 0.5]) {
 		const lamp: Vector = [Math.sin(angle), 0, Math.cos(angle)];
 		const gain = 1 + most / (1 + (2 - 2 * Math.cos(angle)) / 0.01);
-		expect(
-			(await lit(page, surging, lamp)) / (await lit(page, plain, lamp)),
-			`${angle}`,
-		).toBeCloseTo(gain, 2);
+		expect((await lit(page, surging, lamp)) / (await lit(page, plain, lamp)), `${angle}`).toBeCloseTo(gain, 2);
 	}
 });
 
-test("the factor is never less than a tenth", async ({ page }) => {
+test('the factor is never less than a tenth', async ({ page }) => {
 	const open = await openEyes(page);
 	const dark = zeros();
 	if (dark[0]) dark[0][0] = -10;
-	const [plain = "", held = ""] = await open([{}, { eye: dark }]);
-	expect(
-		(await lit(page, held, [0, 0, 1])) / (await lit(page, plain, [0, 0, 1])),
-	).toBeCloseTo(0.1, 3);
+	const [plain = '', held = ''] = await open([{}, { eye: dark }]);
+	expect((await lit(page, held, [0, 0, 1])) / (await lit(page, plain, [0, 0, 1]))).toBeCloseTo(0.1, 3);
 });
 
-test("a fin has no surge, and shows at most what an upright hair sends back to a lamp beside the eye", async ({
+test('a fin has no surge, and shows at most what an upright hair sends back to a lamp beside the eye', async ({
 	page,
 }) => {
 	const open = await openEyes(page);
 	const bright = zeros();
 	if (bright[0]) bright[0][0] = 10;
-	const urls = await open([
-		{},
-		{ eye: bright },
-		{ eye: zeros(), surge: [2, 2, 0.4] },
-	]);
+	const urls = await open([{}, { eye: bright }, { eye: zeros(), surge: [2, 2, 0.4] }]);
 	const [plain, most, surging] = await Promise.all(
 		urls.map(async (url) => {
-			const { light } = await page.evaluate(
-				(u) => stage.fin(u, [[0, 0.6, 0.8]]),
-				url,
-			);
+			const { light } = await page.evaluate((u) => stage.fin(u, [[0, 0.6, 0.8]]), url);
 			return floats(light).reduce((sum, one) => sum + (one > 0 ? one : 0), 0);
 		}),
 	);
 	expect(plain).toBeGreaterThan(1);
 	// A Lambertian cylinder sends sin φ + (π − φ)·cos φ to an eye at φ from the lamp.
-	const steps = Array.from(
-		{ length: 1000 },
-		(_, i) => (Math.PI * (i + 0.5)) / 1000,
-	);
-	const mean =
-		steps.reduce(
-			(sum, phi) => sum + Math.sin(phi) + (Math.PI - phi) * Math.cos(phi),
-			0,
-		) / 1000;
+	const steps = Array.from({ length: 1000 }, (_, i) => (Math.PI * (i + 0.5)) / 1000);
+	const mean = steps.reduce((sum, phi) => sum + Math.sin(phi) + (Math.PI - phi) * Math.cos(phi), 0) / 1000;
 	expect((most ?? 0) / (plain ?? 1)).toBeCloseTo(Math.PI / mean, 2);
 	expect((surging ?? 0) / (plain ?? 1)).toBeCloseTo(1, 3);
 });
 
-test("a fin with numbers of its own shows light by them, and its eye is on the horizon", async ({
-	page,
-}) => {
+test('a fin with numbers of its own shows light by them, and its eye is on the horizon', async ({ page }) => {
 	const open = await openEyes(page);
 	const [finEye, bright] = [zeros(), zeros()];
 	if (finEye[0] && bright[0]) [finEye[0][0], bright[0][0]] = [0.25, 2];
@@ -200,10 +139,7 @@ test("a fin with numbers of its own shows light by them, and its eye is on the h
 	for (const tilt of [0, 0.1]) {
 		const [plain = 0, own = 0] = await Promise.all(
 			urls.map(async (url) => {
-				const { light } = await page.evaluate(
-					([u, t]) => stage.fin(u, [[0, 0.6, 0.8]], t),
-					[url, tilt] as const,
-				);
+				const { light } = await page.evaluate(([u, t]) => stage.fin(u, [[0, 0.6, 0.8]], t), [url, tilt] as const);
 				return floats(light).reduce((sum, one) => sum + (one > 0 ? one : 0), 0);
 			}),
 		);
@@ -211,14 +147,12 @@ test("a fin with numbers of its own shows light by them, and its eye is on the h
 	}
 });
 
-test("shorter hairs grow in light, and are seen on the way that meets as much of the whole ones", async ({
-	page,
-}) => {
+test('shorter hairs grow in light, and are seen on the way that meets as much of the whole ones', async ({ page }) => {
 	const open = await openEyes(page);
 	const [growth, eye] = [[0.3, 0.4, -0.2] as const, zeros()];
 	// The eye's q alone, at all heights.
 	if (eye[0]) eye[0][0] = 0.5;
-	const [plain = "", growing = "", aside = "", surging = ""] = await open([
+	const [plain = '', growing = '', aside = '', surging = ''] = await open([
 		{},
 		{ short: growth },
 		{ eye },
@@ -239,8 +173,7 @@ test("shorter hairs grow in light, and are seen on the way that meets as much of
 	] as const) {
 		const counts = Math.max(share, 1 / 16);
 		const whole = await lit(page, plain, lamp, share, perFragment);
-		const over = async (url: string) =>
-			(await lit(page, url, lamp, share, perFragment)) / whole;
+		const over = async (url: string) => (await lit(page, url, lamp, share, perFragment)) / whole;
 		expect(await over(growing), `growth, ${share}`).toBeCloseTo(
 			1 - Math.log(counts) * (growth[0] + growth[1] * s + growth[2] * s * s),
 			2,
@@ -251,9 +184,6 @@ test("shorter hairs grow in light, and are seen on the way that meets as much of
 		const q = 1 - v[2] ** 2;
 		expect(await over(aside), `eye, ${share}`).toBeCloseTo(1 + 0.5 * q, 2);
 		const apart = (l[0] - v[0]) ** 2 + (l[1] - v[1]) ** 2 + (l[2] - v[2]) ** 2;
-		expect(await over(surging), `surge, ${share}`).toBeCloseTo(
-			1 + (0.2 + 0.5 * q) / (1 + apart / 0.01),
-			2,
-		);
+		expect(await over(surging), `surge, ${share}`).toBeCloseTo(1 + (0.2 + 0.5 * q) / (1 + apart / 0.01), 2);
 	}
 });

@@ -25,7 +25,10 @@ test.afterAll(() => site?.close());
 
 const TORUS = 'src="models/torus-512/model.gltf" camera="20,38,0.9"';
 
-test('ten on one page show fur, after scrolling too, by one context and under a strict policy', async ({ page }) => {
+test('ten on one page show fur, after scrolling too, by one context and under a strict policy', async ({
+	page,
+	watch,
+}) => {
 	await watchDraws(page);
 	// The first is compressed: its decoder may not be WebAssembly here.
 	const views = Array.from({ length: 10 }, (_, i) => {
@@ -63,6 +66,9 @@ test('ten on one page show fur, after scrolling too, by one context and under a 
 	const before = await pixels(page, '#v9');
 	await page.locator('#v9').scrollIntoViewIfNeeded();
 	await expect.poll(() => pixels(page, '#v9')).not.toEqual(before);
+	expect(watch.complaints.splice(0)).toEqual([
+		'fur-view: fur: got a model without any, expected a baked one (src="bald/model.gltf")',
+	]);
 });
 
 test('what is removed frees all it had, the last one the context, and it can come back', async ({ page }) => {
@@ -128,7 +134,10 @@ test('a lost context comes back to the same picture', async ({ page }) => {
 	await expect.poll(async () => difference(before, await shot())).toBeLessThan(0.5);
 });
 
-test('drags and keys move the light, with Shift the camera; attributes and properties say so', async ({ page }) => {
+test('drags and keys move the light, with Shift the camera; attributes and properties say so', async ({
+	page,
+	watch,
+}) => {
 	await site.open(page, `<fur-view ${TORUS} light="-0.9,0.3,0.3" alt="A ring"></fur-view>`);
 	await until(page, 'ready');
 	const view = page.locator('fur-view');
@@ -165,9 +174,23 @@ test('drags and keys move the light, with Shift the camera; attributes and prope
 	await page.keyboard.press('Shift+ArrowUp');
 	await page.keyboard.press('+');
 	await expect(view).toHaveAttribute('camera', '24,42,0.833');
+	const before = (await heard()).length;
 	await withView(page, (view) => view.reset());
 	await expect(view).toHaveAttribute('light', '-0.9,0.3,0.3');
 	await expect(view).toHaveAttribute('camera', '20,38,0.9');
+	// A visitor has not moved it.
+	expect(await heard()).toHaveLength(before);
+	const resetButton = () =>
+		view
+			.locator('button')
+			.last()
+			.evaluate((button: HTMLElement) => button.click());
+	await resetButton();
+	expect(await heard()).toHaveLength(before);
+	await page.keyboard.press('ArrowLeft');
+	await resetButton();
+	await expect(view).toHaveAttribute('light', '-0.9,0.3,0.3');
+	expect(await heard()).toHaveLength(before + 2);
 	const set = await withView(page, (view) => {
 		Object.assign(view, { light: [0, 3, 4], camera: [5, 95, 9], controls: true, paused: true, clip: 'Go' });
 		return view.outerHTML;
@@ -177,6 +200,9 @@ test('drags and keys move the light, with Shift the camera; attributes and prope
 	const values = await withView(page, ({ light, camera }) => ({ light, camera }));
 	expect(values.camera).toEqual([5, 89.9, 4]);
 	for (const [i, value] of [0, 0.6, 0.8].entries()) expect(values.light[i]).toBeCloseTo(value, 9);
+	expect(watch.complaints.splice(0).join()).toMatch(
+		/^fur-view: clip: got Go, and a model without clips \(src="[^"]*"\)$/,
+	);
 });
 
 test('a finger that goes aside moves the light, one that goes up scrolls the page', async ({ browser }) => {
@@ -228,10 +254,13 @@ test('what cannot be had is told in words and by an event; a later address cance
 	const heard = () => page.evaluate(() => (window as unknown as { heard: string[] }).heard.splice(0));
 	await site.open(page, '<fur-view src="models/none" lang="zh"><p slot="poster">soon</p></fur-view>');
 	await until(page, 'failed');
-	await expect(page.getByText('无法显示这幅画面：model.gltf: there is no such file。')).toBeVisible();
-	await expect(page.getByText('soon')).toBeHidden();
+	await expect(page.getByText('无法显示这幅画面。')).toBeVisible();
+	await expect(page.getByText('model.gltf: there is no such file')).toHaveAttribute('lang', 'en');
+	await expect(page.getByText('soon')).toBeVisible();
 	expect(await heard()).toEqual(['fur-view: model.gltf: there is no such file']);
-	expect(watch.complaints.splice(0).join()).toContain('404');
+	const complaints = watch.complaints.splice(0).join();
+	expect(complaints).toContain('404');
+	expect(complaints).toContain('fur-view: model.gltf: there is no such file (src="models/none")');
 
 	await page.route('**/slow/**', () => {});
 	await withView(page, (view) => {
@@ -249,7 +278,7 @@ test('what cannot be had is told in words and by an event; a later address cance
 	expect(await heard()).toEqual(['ready']);
 
 	await withView(page, (view) => {
-		Object.assign(view, { preset: 'mouse', environment: 'moon', clip: 'Go' });
+		Object.assign(view, { preset: 'mouse', environment: 'moon', clip: 'Go', light: 'left', camera: '1,2' });
 	});
 	// The picture stays meanwhile.
 	await expect(page.getByText('soon')).toBeHidden();
@@ -260,8 +289,20 @@ test('what cannot be had is told in words and by an event; a later address cance
 			'fur-view: environment: got moon, expected one of studio, city, sky, sunset, forest',
 			'fur-view: clip: got Go, and a model without clips',
 			'fur-view: preset: got mouse, expected one of paper, bunny, fox, wolf, sheep, teddy, mole',
+			'fur-view: light: got left, expected x,y,z',
+			'fur-view: camera: got 1,2, expected azimuth,elevation,distance',
 		]),
 	);
+	for (const message of said.filter((message) => message !== 'ready'))
+		expect(watch.complaints).toContain(`${message} (src="models/torus-512")`);
+
+	// A page that takes it upon itself has a quiet console.
+	watch.complaints.splice(0);
+	await withView(page, (view) => {
+		view.addEventListener('error', (event) => event.preventDefault());
+		view.setAttribute('light', 'right');
+	});
+	expect(await heard()).toEqual(['fur-view: light: got right, expected x,y,z']);
 });
 
 test('a clip plays until it is paused, and is held where less motion is asked for', async ({ page, watch }) => {
@@ -276,6 +317,16 @@ test('a clip plays until it is paused, and is held where less motion is asked fo
 		await page.waitForTimeout(300);
 		return (await counts(page, ({ draws }) => draws)) - before;
 	};
+	expect(await frames()).toBe(0);
+	// The page can tell, and play it by a button of its own.
+	const paused = () => withView(page, ({ paused }) => paused);
+	expect(await paused()).toBe(true);
+	await withView(page, (view) => Object.assign(view, { paused: false }).state);
+	expect(await frames()).toBeGreaterThan(0);
+	await withView(page, (view) => Object.assign(view, { clip: 'Go' }).state);
+	expect(await paused()).toBe(true);
+	await withView(page, (view) => Object.assign(view, { clip: 'Walk' }).state);
+	await page.waitForTimeout(100);
 	expect(await frames()).toBe(0);
 	await page.getByRole('button', { name: 'Play' }).click();
 	expect(await frames()).toBeGreaterThan(0);

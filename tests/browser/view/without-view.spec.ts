@@ -34,4 +34,6 @@ test('without WebGL2 there are words, the page’s own where it has some, and no
 	await expect(page.getByText('A ring of fur')).toBeVisible();
 	await expect(page.locator('#own')).toHaveAttribute('data-heard', 'fur-view: this browser has no WebGL2');
 	expect(watch.requests.filter((url) => url.includes('/models/'))).toEqual([]);
+	const warning = 'fur-view: this browser has no WebGL2 (src="models/torus-512")';
+	expect(watch.complaints.splice(0)).toEqual([warning, warning]);
 });

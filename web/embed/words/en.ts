@@ -13,7 +13,9 @@ export const en = {
 	stepFile:
 		'Put this file onto your server. All that is needed is in it, three.js too; it asks no other host for anything.',
 	size: (kilobytes: number) => `${kilobytes} kB, as this host sends it`,
-	stepFolder: 'Put a baked folder beside it: one of the models of this site, or your own model in fur.',
+	stepFolder:
+		'Put a baked folder beside it: one of the models of this site, or your own model in fur. Each tag says below what it wants beside your page; copy folders whole, from public/models of furbake.',
+	files: (names: string) => `Beside your page: ${names}`,
 	stepTag: 'Write two lines into your page.',
 	galleryHeading: 'Gallery',
 	galleryIntro: 'Each has its own light: drag it. All share one WebGL context, and what nobody sees is not drawn.',

@@ -14,7 +14,9 @@ export const zh: Words = {
 	howHeading: '三步',
 	stepFile: '把这个文件放到自己的服务器上。所需的一切都在其中，包括 three.js；它不向其他主机请求任何内容。',
 	size: (kilobytes: number) => `本站发送 ${kilobytes} kB`,
-	stepFolder: '在旁边放一个烘焙好的文件夹：本站的模型，或你自己的、长了毛的模型。',
+	stepFolder:
+		'在旁边放一个烘焙好的文件夹：本站的模型，或你自己的、长了毛的模型。每个标签下面都写明网页旁边需要什么；文件夹从 furbake 的 public/models 整个复制。',
+	files: (names) => `放在网页旁边：${names}`,
 	stepTag: '在网页里写两行。',
 	galleryHeading: '画廊',
 	galleryIntro: '每一幅都有自己的灯光，可以拖动。它们共用一个 WebGL 上下文，看不见的不绘制。',

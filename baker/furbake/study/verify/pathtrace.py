@@ -105,6 +105,7 @@ def write_curves(path: Path, parts: Iterable[Array]) -> None:
     The last hair is a speck, too small for rays to meet. Mitsuba reads past the end of a file where a ray meets the
     very tip of its last piece: the more rays, the likelier is a segmentation fault.
     """
+    at = np.zeros(3)
     with path.open("w", encoding="ascii") as file:
         for control in parts:
             line = "\n".join(["%.7g %.7g %.7g %.6g"] * control.shape[1]) + "\n"
