@@ -7,6 +7,37 @@ import type { SharedLight } from './light.ts';
 
 const STEP = MathUtils.degToRad(5); // per arrow key
 
+/** Steps of an arrow key in one of Page Up and Page Down. */
+const PAGE = 5;
+
+/** Value that a handle of role `slider` sets. */
+export interface Handle {
+	least: number;
+	most: () => number;
+	/** Change by an arrow key. */
+	step: () => number;
+	value: () => number;
+	put: (value: number) => void;
+}
+
+/** Lets keys move a handle as they move a slider: arrows, Page Up, Page Down, Home, End. */
+export function slideByKeys(target: GlobalEventHandlers, { least, most, step, value, put }: Handle): void {
+	const bounded = (to: number) => put(Math.min(Math.max(to, least), most()));
+	arrows(target, (right, up) => bounded(value() + (right + up) * step()));
+	const jumps: Record<string, () => number> = {
+		PageUp: () => value() + PAGE * step(),
+		PageDown: () => value() - PAGE * step(),
+		Home: () => least,
+		End: most,
+	};
+	target.addEventListener('keydown', (event: KeyboardEvent) => {
+		const jump = jumps[event.key];
+		if (!jump || event.ctrlKey || event.metaKey || event.altKey) return;
+		event.preventDefault();
+		bounded(jump());
+	});
+}
+
 /** Lets arrow keys move the light while `target` is focused. */
 export function lightByKeys(target: HTMLElement, light: SharedLight): void {
 	arrows(target, (right, up) => light.turn(right * STEP, up * STEP));

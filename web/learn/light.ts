@@ -17,6 +17,7 @@ export class SharedLight {
 	readonly #wake: () => void;
 	/** Seconds since the last step. */
 	#late = 0;
+	#moved = false;
 
 	/**
 	 * @param first initial direction to the lamp
@@ -39,6 +40,11 @@ export class SharedLight {
 		return this.#moving.drifting;
 	}
 
+	/** Whether anybody has set the light. */
+	get moved(): boolean {
+		return this.#moved;
+	}
+
 	/** Sets the light's target, raised to the horizon if below. */
 	set(x: number, y: number, z: number): void {
 		this.#want((wanted) => wanted.set(x, y, z).normalize());
@@ -50,6 +56,7 @@ export class SharedLight {
 	}
 
 	#want(set: (wanted: Vector3) => void): void {
+		this.#moved = true;
 		this.#moving.want((wanted) => {
 			set(wanted);
 			if (wanted.y >= LOWEST) return;

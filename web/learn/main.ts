@@ -6,6 +6,7 @@ import { fillHeader } from '../page/header.ts';
 import { fillIn, type Language, languageOf } from '../page/language.ts';
 import { MARGIN, Painter } from '../scene/Painter.ts';
 import { action } from './controls.ts';
+import { arriveAtSteps } from './guide/arrive.ts';
 import { fillContents } from './guide/contents.ts';
 import type { Lesson, Mount } from './lesson.ts';
 import { SharedLight } from './light.ts';
@@ -92,8 +93,7 @@ async function start(): Promise<void> {
 	fillHeader(document.querySelector('nav.site') as HTMLElement, 'learn', language);
 	element('lesson').innerHTML = (await texts[language]()).default;
 	fillContents(element('steps'), WORDS[language].steps);
-	// The inserted text moves the address's target.
-	document.getElementById(location.hash.slice(1))?.scrollIntoView({ behavior: 'instant' });
+	arriveAtSteps();
 
 	const lesson = newLesson(language);
 	const waiting = new Set<HTMLElement>();

@@ -2,6 +2,7 @@
 
 import { readFileSync } from 'node:fs';
 import { decode } from 'fast-png';
+import { whole } from '../../../web/learn/words/whole.ts';
 import { expect, open, site, state, test } from '../harness.ts';
 import { apart, figure, pixels, show } from './figures.ts';
 
@@ -64,12 +65,12 @@ test('the body has as many patches and fins as were baked', async ({ page }) => 
 	await show(page, 'body');
 	const { asset } = json('bunny/bake.json');
 	const numbers = (await figure(page, 'body').locator('.note').textContent()) ?? '';
-	expect(numbers).toContain(`${asset.skin.faces} triangles of skin`);
+	expect(numbers).toContain(`${whole(asset.skin.faces)} triangles of skin`);
 	expect(numbers).toContain(
-		`of ${asset.shells.faces} triangles, ${(asset.shells.faces / asset.skin.faces).toFixed(2)}`,
+		`in all of ${whole(asset.shells.faces)} triangles, ${(asset.shells.faces / asset.skin.faces).toFixed(2)}`,
 	);
 	// Each fin is cut into four strips, so that light changes along its height.
-	expect(numbers).toContain(`${4 * asset.fins.faces} triangles of fins`);
+	expect(numbers).toContain(`${whole(4 * asset.fins.faces)} triangles of fins`);
 	for (const name of ['shells alone', 'a colour per patch', 'fins alone', 'hull', 'shells and fins']) {
 		const before = await pixels(page, 'body');
 		await page.getByRole('radio', { name }).check();
@@ -151,6 +152,25 @@ test('the eye turns the nap: brighter than texels beside the lamp, darker agains
 	for (let i = 0; i < 12; i++) await page.keyboard.press('ArrowRight');
 	await expect.poll(async () => Math.abs((await factor()) - before)).toBeGreaterThan(0.1);
 	await expect(eye).toHaveValue('120');
+
+	// Under the lowest lamp the factor is largest: the curves stay in their plots.
+	for (let i = 0; i < 12; i++) await page.keyboard.press('ArrowDown');
+	await slide('Eye, height', '8');
+	for (const around of ['-180', '0', '180']) {
+		await slide('Eye, around', around);
+		const beyond = await figure(page, 'nap')
+			.locator('svg[role=img]')
+			.evaluateAll((plots) =>
+				plots.map((plot) => {
+					const [room, curve] = [plot, plot.querySelector('path.ptm') as Element].map((each) =>
+						each.getBoundingClientRect(),
+					) as [DOMRect, DOMRect];
+					return Math.max(room.left - curve.left, curve.right - room.right, room.top - curve.top);
+				}),
+			);
+		expect(beyond).toHaveLength(2);
+		expect(Math.max(...beyond), around).toBeLessThan(0);
+	}
 });
 
 test('Table 1 is measured beside the article’s, and figures go on after it', async ({ page }) => {

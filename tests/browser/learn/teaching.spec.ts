@@ -6,14 +6,14 @@ import { changes, figure, show } from './figures.ts';
 
 test.use({ viewport: { width: 1100, height: 760 } });
 
-/** Opens the lesson with these figures alone. */
-async function openWith(page: Page, names: string): Promise<void> {
+/** Opens the lesson with these figures alone. @param at hash of the address */
+async function openWith(page: Page, names: string, at = ''): Promise<void> {
 	await page.route(/\/assets\/(en|index)-[\w-]+\.js$/, async (route) => {
 		const response = await route.fetch();
 		const others = new RegExp(`data-figure="(?!(?:${names})")`, 'g');
 		await route.fulfill({ response, body: (await response.text()).replaceAll(others, 'data-left-out="') });
 	});
-	await open(page, 'learn.html?still=1&lang=en');
+	await open(page, `learn.html?still=1&lang=en${at}`);
 	await expect(page.locator('figure[data-left-out]')).not.toHaveCount(0);
 }
 
@@ -32,6 +32,36 @@ test('a parabola is fitted by hand', async ({ page }) => {
 	const dragged = await own();
 	await middle.press('ArrowDown');
 	await expect.poll(own).not.toBe(dragged);
+	const at = async () => Number(await middle.getAttribute('aria-valuenow'));
+	const most = Number(await middle.getAttribute('aria-valuemax'));
+	for (const [key, value] of [
+		['Home', 0],
+		['PageUp', 0.1 * most],
+		['End', most],
+		['PageDown', 0.9 * most],
+	] as const) {
+		await middle.press(key);
+		await expect.poll(at, key).toBeCloseTo(value, 2);
+	}
+	const lamp = figure(page, 'hair').locator('.sketch');
+	for (const [key, angle] of [
+		['Home', '-84'],
+		['PageUp', '-64'],
+		['End', '84'],
+	] as const) {
+		await lamp.press(key);
+		await expect(lamp).toHaveAttribute('aria-valuenow', angle);
+	}
+	// The ray has the lamp's direction, and the spot is as high as the layer.
+	const ray = await lamp.locator('.beam:not(.aside)').evaluate((line) => {
+		const [x1 = 0, y1 = 0, x2 = 0, y2 = 0] = ['x1', 'y1', 'x2', 'y2'].map((name) => Number(line.getAttribute(name)));
+		return (Math.atan2(x1 - x2, y2 - y1) * 180) / Math.PI;
+	});
+	expect(ray).toBeCloseTo(84, 0);
+	const spot = async () => Number(await lamp.locator('.spot').getAttribute('cy'));
+	const middleLayer = await spot();
+	await figure(page, 'hair').getByRole('radio', { name: '14', exact: true }).check();
+	await expect.poll(spot).toBeLessThan(middleLayer - 10);
 	await figure(page, 'hair').getByRole('button', { name: 'Show the best parabola' }).click();
 	const [, hand = '', best = ''] = /off by (\d+\.\d+).*the best is off by (\d+\.\d+)/.exec(
 		(await figure(page, 'hair').textContent()) ?? '',
@@ -56,6 +86,14 @@ test('a question tells whether the guess was right, and shows it in the figure',
 	await bits.getByRole('radio').nth(2).check();
 	await expect(bits).toHaveAttribute('data-answer', /right|wrong/);
 	await expect(bits.locator('.right')).toHaveCount(1);
+	// Both values beside the curves can be read, however near the curves are.
+	for (const few of ['2', '3', '8']) {
+		await figure(page, 'bits').getByRole('slider').fill(few);
+		const values = figure(page, 'bits').locator('.plot .value');
+		await expect(values).toHaveCount(2);
+		const [a, b] = await values.evaluateAll((all) => all.map((each) => each.getBoundingClientRect().toJSON()));
+		expect(Math.max(a.top, b.top), few).toBeGreaterThan(Math.min(a.bottom, b.bottom));
+	}
 });
 
 test('means over neighbours err less, and hardly without what the layer shares', async ({ page }) => {
@@ -63,6 +101,10 @@ test('means over neighbours err less, and hardly without what the layer shares',
 	await show(page, 'mean');
 	const wrong = async () => Number(await figure(page, 'mean').locator('[data-wrong]').getAttribute('data-wrong'));
 	const alone = await wrong();
+	// Its first lamp shows what the layer shares.
+	const own = /This lamp: (\d+) % off, (\d+) % without/;
+	const [, all, without] = own.exec((await figure(page, 'mean').textContent()) ?? '') as RegExpExecArray;
+	expect(Number(without)).toBeLessThan(0.6 * Number(all));
 	await figure(page, 'mean').getByRole('slider').fill('3');
 	await expect.poll(wrong).toBeLessThan(0.55 * alone);
 	const means = await wrong();
@@ -91,4 +133,44 @@ test('the first screen has fur under a lamp, and the rail leads to every step', 
 	expect(names.length).toBeGreaterThanOrEqual(15);
 	await rail.getByRole('link', { name: 'References' }).click();
 	await expect(page.locator('#more')).toBeInViewport();
+});
+
+test('a step stays where it belongs while figures above it grow, until the visitor scrolls', async ({ page }) => {
+	/** Pixels between a step's top and where the style sheet wants it. */
+	const off = (id: string) =>
+		page.locator(`#${id}`).evaluate((step) => {
+			const wanted = Number.parseFloat(getComputedStyle(document.documentElement).scrollPaddingTop);
+			return Math.abs(step.getBoundingClientRect().top - wanted);
+		});
+	const drawn = async (...names: string[]) => {
+		for (const name of names) await expect(figure(page, name)).toHaveAttribute('data-state', 'ready');
+	};
+	await openWith(page, 'slices|hair|bits|nap', '#hair');
+	await drawn('slices', 'hair');
+	expect(await off('hair')).toBeLessThan(2);
+
+	const link = page.locator('#steps').getByRole('link', { name: 'The rivals' });
+	await page.evaluate(() => scrollTo({ top: 0, behavior: 'instant' }));
+	await link.click();
+	await drawn('nap');
+	expect(await off('rivals')).toBeLessThan(2);
+	expect(page.url()).toContain('#rivals');
+
+	// By the wheel the visitor leaves; a figure that changes then moves nothing back.
+	await page.mouse.move(600, 400);
+	await page.mouse.wheel(0, 300);
+	await expect.poll(() => off('rivals')).toBeGreaterThan(250);
+	await figure(page, 'nap').evaluate((element) => {
+		element.style.paddingBottom = '100px';
+	});
+	await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+	expect(await off('rivals')).toBeGreaterThan(150);
+});
+
+test('steps of the list have their numbers', async ({ page }) => {
+	await openWith(page, 'hello');
+	const links = page.locator('#steps').getByRole('link');
+	await expect(links.first()).toHaveAccessibleName('1 Why shells?');
+	await expect(links.filter({ hasText: 'The rivals' })).toHaveAccessibleName('11 The rivals');
+	await expect(links.last()).toHaveAccessibleName('References');
 });

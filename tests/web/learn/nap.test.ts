@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { coverages, factorOf, factorSeen, sharesSeen, surgeOf, termsOf, type Way } from '../../../web/learn/nap/law.ts';
+import { rimFor } from '../../../web/learn/nap/polar.ts';
 
 const way = (around: number, up: number): Way => {
 	const [a, e] = [(around * Math.PI) / 180, (up * Math.PI) / 180];
@@ -67,5 +68,14 @@ describe('what an eye sees of the fur', () => {
 		const asset = { eye: rows({ 0: [0, 0.4, 0] }) };
 		expect(factorSeen(asset, [0.5, 1], above, way(0, 30))).toBeCloseTo(1 + 0.75 * 0.4 * 0.75, 6);
 		expect(factorSeen(asset, [0.5, 0], above, way(0, 30))).toBeCloseTo(1 + 0.75 * 0.4 * 0.25, 6);
+	});
+});
+
+describe('the rim of a polar plot', () => {
+	const rim = (most: number) =>
+		rimFor({ factor: (angle) => (angle === 90 ? most : 1), eye: 0, light: 0, lean: [0, 0] }, 0, 180);
+
+	it('is at 2, or as far out as the curve needs', () => {
+		expect([0.5, 2, 2.01, 3.4].map(rim)).toEqual([2, 2, 3, 4]);
 	});
 });

@@ -1,6 +1,6 @@
-/** Plot with a parabola that hangs on three handles, which are dragged up and down or moved by arrow keys. */
+/** Plot with a parabola that hangs on three handles, which are dragged up and down or moved by keys. */
 
-import { arrows } from '../../scene/drag.ts';
+import { slideByKeys } from '../drag.ts';
 import { type Axes, axes, decimal, draw, mark, Plot, line as path } from '../plot/plot.ts';
 import type { Words } from '../words/index.ts';
 import { type Parabola, type Point, parabolaOf, valueAt } from './parabola.ts';
@@ -116,7 +116,13 @@ export class Handles {
 			if (!area.hasPointerCapture(pointerId)) return;
 			put((this.#top * (clientY - svg.getBoundingClientRect().top - y(0))) / (y(this.#top) - y(0)));
 		});
-		arrows(area, (right, up) => put((this.heights[i] ?? 0) + (right + up) * NUDGE * this.#top));
+		slideByKeys(area, {
+			least: 0,
+			most: () => this.#top,
+			step: () => NUDGE * this.#top,
+			value: () => this.heights[i] ?? 0,
+			put,
+		});
 		return () => {
 			const height = this.heights[i] ?? 0;
 			for (const circle of [knob, area]) circle.setAttribute('cy', String(y(height)));

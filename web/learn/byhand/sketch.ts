@@ -6,8 +6,8 @@ import { draw } from '../plot/plot.ts';
 
 /** Hairs of the sketch: number, and height as a share of the drawing's. */
 const [HAIRS, TALL] = [34, 0.4];
-/** Index of the watched hair, and height of the spot on it as a share of the hair. */
-const [WATCHED, SPOT] = [17, 0.55];
+/** Index of the watched hair. */
+const WATCHED = 17;
 const GROUND = 14;
 /** Space above and beside the lamp's arc. */
 const ROOM = 20;
@@ -24,8 +24,14 @@ export function angleAt(x: number, y: number, width: number, height: number, mos
 	return Math.min(Math.max(angle, -most), most);
 }
 
-/** @param angle of the lamp from upright, radians; @param colour of the spot */
-export function drawSketch(svg: SVGElement, width: number, height: number, angle: number, colour: RGB): void {
+/** Watched spot: its height as a share of the hair, and its colour. */
+export interface Spot {
+	height: number;
+	colour: RGB;
+}
+
+/** @param angle of the lamp from upright, radians; @param watched spot on the hair */
+export function drawSketch(svg: SVGElement, width: number, height: number, angle: number, watched: Spot): void {
 	const arc = arcOf(width, height);
 	const [left, right] = [arc.x - arc.radius, arc.x + arc.radius];
 	draw(svg, 'path', { class: 'arc', d: `M${left} ${arc.y}A${arc.radius} ${arc.radius} 0 0 1 ${right} ${arc.y}` });
@@ -39,17 +45,24 @@ export function drawSketch(svg: SVGElement, width: number, height: number, angle
 		const point = (t: number) => [root + lean * t * t, arc.y - up * t] as const;
 		const [bendX, bendY] = [root, arc.y - up / 2];
 		const [tipX, tipY] = point(1);
-		const watched = i === WATCHED;
 		draw(svg, 'path', {
-			class: watched ? 'hair watched' : 'hair',
+			class: i === WATCHED ? 'hair watched' : 'hair',
 			d: `M${root} ${arc.y}Q${bendX} ${bendY} ${tipX} ${tipY}`,
 		});
-		if (watched) spot = point(SPOT);
+		if (i === WATCHED) spot = point(watched.height);
 	}
-	const [lampX, lampY] = [arc.x + arc.radius * Math.sin(angle), arc.y - arc.radius * Math.cos(angle)];
+	const [sin, cos] = [Math.sin(angle), Math.cos(angle)];
+	const [lampX, lampY] = [arc.x + arc.radius * sin, arc.y - arc.radius * cos];
 	const [spotX, spotY] = spot;
-	draw(svg, 'line', { class: 'beam', x1: lampX, y1: lampY, x2: spotX, y2: spotY });
-	draw(svg, 'circle', { class: 'spot', cx: spotX, cy: spotY, r: 8, fill: css(colour) });
+	// The lamp is far away: its rays are parallel, drawn from one front on.
+	for (const [x, y, kind] of [
+		[arc.x, arc.y, 'beam aside'],
+		[spotX, spotY, 'beam'],
+	] as const) {
+		const long = (lampX - x) * sin - (lampY - y) * cos;
+		draw(svg, 'line', { class: kind, x1: x + long * sin, y1: y - long * cos, x2: x, y2: y });
+	}
+	draw(svg, 'circle', { class: 'spot', cx: spotX, cy: spotY, r: 8, fill: css(watched.colour) });
 	draw(svg, 'circle', { class: 'halo', cx: lampX, cy: lampY, r: 15 });
 	draw(svg, 'circle', { class: 'bulb', cx: lampX, cy: lampY, r: 7 });
 }

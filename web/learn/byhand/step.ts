@@ -1,9 +1,9 @@
 /** One lamp over one hair, the curve of its light, and a parabola laid through it by hand. */
 
-import { arrows } from '../../scene/drag.ts';
 import { action, controlRow } from '../controls.ts';
 import { toTile } from '../data/lights.ts';
 import { Selection } from '../data/Selection.ts';
+import { slideByKeys } from '../drag.ts';
 import type { Lesson, Mount } from '../lesson.ts';
 import { lightColour } from '../plot/colours.ts';
 import { layerChoice, line } from '../plot/parts.ts';
@@ -11,7 +11,7 @@ import { decimal, Plot } from '../plot/plot.ts';
 import { panels } from '../plot/slice.ts';
 import { Handles } from './handles.ts';
 import { errorOf, type Point, parabolaOf } from './parabola.ts';
-import { angleAt, drawSketch } from './sketch.ts';
+import { angleAt, drawSketch, type Spot } from './sketch.ts';
 import './style.css';
 
 /** Largest angle of the lamp from upright, and the step of an arrow key, radians. */
@@ -34,7 +34,8 @@ export const mount: Mount = async (place, lesson) => {
 	const points = () => measuredArc(selection);
 	const sketch = lampSketch(left, lesson, angle, () => {
 		const [, value] = nearestPoint(points(), Math.sin(angle()));
-		return lightColour(value, record.peak);
+		const height = (selection.layer.number + 0.5) / record.options.layers;
+		return { height, colour: lightColour(value, record.peak) };
 	});
 	const says = line(right);
 	const tell = () => {
@@ -92,10 +93,10 @@ function lampSketch(
 	place: HTMLElement,
 	{ light, words: { hair: words } }: Lesson,
 	angle: () => number,
-	colour: () => ReturnType<typeof lightColour>,
+	spot: () => Spot,
 ): () => void {
 	const plot = new Plot(place, words.sketch, 250, (svg, width, height) => {
-		drawSketch(svg, width, height, angle(), colour());
+		drawSketch(svg, width, height, angle(), spot());
 		svg.setAttribute('aria-valuenow', (DEGREES * angle()).toFixed(0));
 		svg.setAttribute('aria-valuetext', words.degrees(decimal(DEGREES * angle(), 0)));
 	});
@@ -116,8 +117,6 @@ function lampSketch(
 	svg.addEventListener('pointermove', (event) => {
 		if (svg.hasPointerCapture(event.pointerId)) follow(event);
 	});
-	arrows(svg, (right, up) => {
-		put(Math.min(Math.max(angle() + (right + up) * STEP, -MOST), MOST));
-	});
+	slideByKeys(svg, { least: -MOST, most: () => MOST, step: () => STEP, value: angle, put });
 	return () => plot.redraw();
 }

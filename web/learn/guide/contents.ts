@@ -1,12 +1,14 @@
-/** Links to all steps: a rail of dots with names, or a strip in narrow windows. */
+/** Links to all steps: a rail of numbers with names, or a strip in narrow windows. */
 
-/** Fills the rail, and marks the step being read. */
+/** Fills the rail, and marks the step being read. Sections of class `end` have no number. */
 export function fillContents(nav: HTMLElement, label: string): void {
 	nav.setAttribute('aria-label', label);
 	const links = new Map<Element, HTMLAnchorElement>();
+	let number = 0;
 	for (const section of document.querySelectorAll('main section[id]')) {
 		const link = document.createElement('a');
 		link.href = `#${section.id}`;
+		if (!section.classList.contains('end')) link.dataset.number = String(++number);
 		const name = document.createElement('span');
 		name.textContent = section.querySelector('h2')?.textContent ?? section.id;
 		link.append(name);

@@ -49,12 +49,14 @@ export interface BlockErrors {
  *
  * @param relit relit light of every texel with hair under a lamp
  * @param side texels per side of a square
+ * @param bright light that errors are shares of; the layer's mean under these lamps by default
  */
 export function blockErrors(
 	layer: Layer,
 	lamps: readonly number[],
 	relit: (lamp: number) => ArrayLike<number>,
 	side: number,
+	bright?: number,
 ): BlockErrors {
 	const count = layer.texels.length;
 	let [all, own, light, total] = [0, 0, 0, 0];
@@ -75,6 +77,6 @@ export function blockErrors(
 		light += weight * layerMean(layer, measured);
 		total += weight;
 	}
-	const bright = light / total;
-	return { all: Math.sqrt(all / total) / bright, own: Math.sqrt(own / total) / bright };
+	const unit = bright ?? light / total;
+	return { all: Math.sqrt(all / total) / unit, own: Math.sqrt(own / total) / unit };
 }

@@ -1,21 +1,17 @@
 /** Texels err, means over neighbours hardly do. */
 
-import { choice, controlRow, slider } from '../controls.ts';
-import { nearest, toTile } from '../data/lights.ts';
-import { RelitLayer } from '../data/relit.ts';
+import { action, choice, controlRow, slider } from '../controls.ts';
+import { elevationOf, nearest, toTile, toWorld } from '../data/lights.ts';
 import { Selection } from '../data/Selection.ts';
 import type { Lesson, Mount } from '../lesson.ts';
 import { differenceColour, lightColour, type RGB } from '../plot/colours.ts';
 import { layerChoice, line, live } from '../plot/parts.ts';
 import { decimal, legend, Plot } from '../plot/plot.ts';
 import { lightFromAbove, panel, panels } from '../plot/slice.ts';
-import { type BlockErrors, blockErrors, blockMeans, layerMean } from './blocks.ts';
+import { type BlockErrors, blockMeans } from './blocks.ts';
 import { drawBlocks, drawErrors } from './draw.ts';
+import { Errors, LARGEST } from './Errors.ts';
 
-/** Exponents of the squares' sides: 1 to 32 texels. */
-const LARGEST = 5;
-/** Numbers per texel. */
-const COUNT = 6;
 const AMPLIFIED = 2;
 
 export const mount: Mount = async (place, lesson) => {
@@ -25,13 +21,14 @@ export const mount: Mount = async (place, lesson) => {
 	let [exponent, without] = [0, false];
 
 	const row = panels(place, 3);
-	const names = [words.measured, words.relit, words.off(AMPLIFIED)];
+	const names = [lesson.words.measured.measured, words.relit, words.off(AMPLIFIED)];
 	const [truth, relit, off] = names.map((name) => panel(row, name)) as [Panel, Panel, Panel];
 	for (const { canvas } of [truth, relit, off]) lightFromAbove(canvas, lesson.light);
+	line(place)(lesson.words.measured.differs);
 	const controls = controlRow(place);
 	const says = line(place);
 	const plot = new Plot(place, words.plot, 190, (svg, width, height) =>
-		drawErrors(svg, width, height, errors.all(), exponent, words),
+		drawErrors(svg, width, height, errors.known.errors, exponent, words),
 	);
 	legend(place, [
 		['dot', 'ptm', words.all],
@@ -40,8 +37,7 @@ export const mount: Mount = async (place, lesson) => {
 
 	const redraw = liveBlocks(lesson, errors, [truth, relit, off], () => ({ side: 2 ** exponent, without }));
 	const changed = () => {
-		const { all, own } = errors.all()[exponent] as BlockErrors;
-		const percent = (share: number) => decimal(100 * share, 0);
+		const { all, own } = errors.known.errors[exponent] as BlockErrors;
 		says(words.says(2 ** exponent, percent(all), percent(own)));
 		place.dataset.wrong = String(without ? own : all);
 		plot.redraw();
@@ -64,13 +60,17 @@ export const mount: Mount = async (place, lesson) => {
 		changed();
 	});
 	layerChoice(controls, lesson, selection);
+	action(controls, words.worst, () => lesson.light.set(...toWorld(selection.lamps[errors.known.worst] ?? [0, 0, 1])));
 	selection.listen(changed);
 };
+
+const percent = (share: number): string => decimal(100 * share, 0);
 
 type Panel = ReturnType<typeof panel>;
 
 /**
- * Draws measured and relit light and their difference, averaged, under the held-out lamp nearest to the light.
+ * Draws measured and relit light and their difference, averaged, under the held-out lamp nearest to the light; until
+ * somebody has moved the light, under the lamp whose shared error is largest.
  *
  * @param chosen side of the squares, and whether the error that the layer shares is taken out
  * @returns function that redraws all of them
@@ -84,12 +84,17 @@ function liveBlocks(
 	const { selection } = errors;
 	const { record } = selection;
 	const { peak } = record;
+	const words = lesson.words.mean;
+	const unseen = selection.lamps.slice(record.fitted);
+	const lampNow = () => {
+		const { moved, direction } = lesson.light;
+		return moved ? record.fitted + nearest(unseen, toTile(direction)) : errors.known.worst;
+	};
 	const now = () => {
-		const unseen = selection.lamps.slice(record.fitted);
-		const lamp = record.fitted + nearest(unseen, toTile(lesson.light.direction));
-		const measured = selection.measured(lamp);
-		const made = errors.relit(lamp);
-		const shared = layerMean(selection.layer, made) - layerMean(selection.layer, measured);
+		const lit = lampNow();
+		const measured = selection.measured(lit);
+		const made = errors.relit(lit);
+		const shared = errors.shared(lit);
 		return { measured, made: chosen().without ? made.map((value) => value - shared) : made };
 	};
 	const show = ({ canvas }: Panel, values: ArrayLike<number>, colour: (value: number) => RGB) => {
@@ -99,7 +104,14 @@ function liveBlocks(
 	const light = (value: number) => lightColour(value, peak);
 	const difference = (value: number) => differenceColour((AMPLIFIED * value) / peak);
 	return live(lesson, selection, [
-		[truth.canvas, () => show(truth, now().measured, light)],
+		[
+			truth.canvas,
+			() => {
+				show(truth, now().measured, light);
+				const high = elevationOf(selection.lamps[lampNow()] ?? [0, 0, 1]);
+				truth.say(words.measured(decimal(high, 0)));
+			},
+		],
 		[relit.canvas, () => show(relit, now().made, light)],
 		[
 			off.canvas,
@@ -107,36 +119,9 @@ function liveBlocks(
 				const { measured, made } = now();
 				const wrong = made.map((value, i) => value - (measured[i] ?? 0));
 				show(off, wrong, difference);
+				const { all, own } = errors.under(lampNow(), chosen().side);
+				off.say(words.offNow(AMPLIFIED, percent(all), percent(own)));
 			},
 		],
 	]);
-}
-
-/** Errors of the selected layer over the held-out lamps, computed once per layer. */
-class Errors {
-	readonly #relit: RelitLayer;
-	readonly #known = new Map<number, BlockErrors[]>();
-
-	constructor(readonly selection: Selection) {
-		this.#relit = new RelitLayer(selection, COUNT);
-	}
-
-	relit(lamp: number): Float32Array {
-		return this.#relit.under('ptm', this.selection.lamps[lamp] ?? [0, 0, 1]);
-	}
-
-	/** By the exponent of the squares' side. */
-	all(): BlockErrors[] {
-		const { layer, record } = this.selection;
-		let found = this.#known.get(layer.number);
-		if (!found) {
-			const lamps = Array.from({ length: record.held_out }, (_, i) => record.fitted + i);
-			const light = new Map(lamps.map((lamp) => [lamp, this.relit(lamp)]));
-			found = Array.from({ length: LARGEST + 1 }, (_, exponent) =>
-				blockErrors(layer, lamps, (lamp) => light.get(lamp) ?? [], 2 ** exponent),
-			);
-			this.#known.set(layer.number, found);
-		}
-		return found;
-	}
 }

@@ -3,8 +3,8 @@
 import './style.css';
 import { decimal, draw, line, mark } from '../plot/plot.ts';
 
-/** Value at the rim. */
-const MAX_FACTOR = 2;
+/** Smallest value at the rim. */
+const LEAST_RIM = 2;
 /** Room for marks around the rim, pixels. */
 const AROUND = 20;
 /** Step of the curves, degrees. */
@@ -26,23 +26,35 @@ export interface Polar {
 
 interface Disc {
 	svg: SVGElement;
+	/** Value at the rim, a whole number. */
+	rim: number;
 	at: (angle: number, factor: number) => [number, number];
 }
+
+/** Value at the rim of a plot that has room for every point of its curve. */
+export function rimFor({ factor }: Polar, from: number, to: number): number {
+	return Math.max(LEAST_RIM, ...anglesOf(from, to).map((angle) => Math.ceil(factor(angle))));
+}
+
+const anglesOf = (from: number, to: number) =>
+	Array.from({ length: Math.ceil((to - from) / STEP) + 1 }, (_, i) => Math.min(from + i * STEP, to));
+
+const rings = (rim: number) => Array.from({ length: rim }, (_, i) => i + 1);
 
 /** Draws the factor around the fur, seen from above. */
 export function drawAround(svg: SVGElement, width: number, height: number, shown: Polar): void {
 	const radius = Math.min(width, height) / 2 - AROUND;
-	const disc = discAt(svg, width / 2, height / 2, radius);
-	for (const ring of [1, MAX_FACTOR])
+	const disc = discAt(svg, width / 2, height / 2, radius, rimFor(shown, 0, 360));
+	for (const ring of rings(disc.rim))
 		draw(svg, 'circle', {
 			class: ring === 1 ? 'one' : 'grid',
 			cx: width / 2,
 			cy: height / 2,
-			r: (ring / MAX_FACTOR) * radius,
+			r: (ring / disc.rim) * radius,
 		});
 	labels(disc, clear([shown.eye, shown.light]));
-	const [x, y] = disc.at(shown.lean[0], 0.42);
-	const [fromX, fromY] = disc.at(shown.lean[0] + 180, 0.42);
+	const [x, y] = disc.at(shown.lean[0], 0.21 * disc.rim);
+	const [fromX, fromY] = disc.at(shown.lean[0] + 180, 0.21 * disc.rim);
 	draw(svg, 'path', { class: 'lean', d: `M${fromX} ${fromY}L${x} ${y}` });
 	draw(svg, 'path', {
 		class: 'tip',
@@ -57,9 +69,9 @@ export function drawAround(svg: SVGElement, width: number, height: number, shown
 export function drawOver(svg: SVGElement, width: number, height: number, shown: Polar, lowest: number): void {
 	const radius = Math.min(width / 2, height) - AROUND;
 	const [cx, cy] = [width / 2, (height + radius) / 2];
-	const disc = discAt(svg, cx, cy, radius);
-	for (const ring of [1, MAX_FACTOR]) {
-		const r = (ring / MAX_FACTOR) * radius;
+	const disc = discAt(svg, cx, cy, radius, rimFor(shown, lowest, 180 - lowest));
+	for (const ring of rings(disc.rim)) {
+		const r = (ring / disc.rim) * radius;
 		draw(svg, 'path', { class: ring === 1 ? 'one' : 'grid', d: `M${cx - r} ${cy}A${r} ${r} 0 0 1 ${cx + r} ${cy}` });
 	}
 	labels(disc, 0);
@@ -74,12 +86,12 @@ export function drawOver(svg: SVGElement, width: number, height: number, shown: 
 	marks(disc, shown);
 }
 
-function discAt(svg: SVGElement, cx: number, cy: number, radius: number): Disc {
+function discAt(svg: SVGElement, cx: number, cy: number, radius: number, rim: number): Disc {
 	const at = (angle: number, factor: number): [number, number] => {
-		const out = (factor / MAX_FACTOR) * radius;
+		const out = (factor / rim) * radius;
 		return [cx + out * Math.cos(radians(angle)), cy - out * Math.sin(radians(angle))];
 	};
-	return { svg, at };
+	return { svg, rim, at };
 }
 
 /** Diagonal that is farthest from all of these angles. */
@@ -89,8 +101,8 @@ function clear(angles: readonly number[]): number {
 }
 
 /** Draw the rings' values, outside of them; below the axis at 0°. */
-function labels({ svg, at }: Disc, angle: number): void {
-	for (const ring of [1, MAX_FACTOR]) {
+function labels({ svg, rim, at }: Disc, angle: number): void {
+	for (const ring of rings(rim)) {
 		const [x, y] = at(angle, ring);
 		const left = Math.cos(radians(angle)) < 0;
 		const below = Math.sin(radians(angle)) <= 0;
@@ -100,21 +112,21 @@ function labels({ svg, at }: Disc, angle: number): void {
 }
 
 function curve({ svg, at }: Disc, { factor }: Polar, from: number, to: number): void {
-	const points = Array.from({ length: Math.ceil((to - from) / STEP) + 1 }, (_, i) => {
-		const angle = Math.min(from + i * STEP, to);
-		return at(angle, factor(angle));
-	});
-	line(svg, points, 'ptm');
+	line(
+		svg,
+		anglesOf(from, to).map((angle) => at(angle, factor(angle))),
+		'ptm',
+	);
 }
 
 /** Draw lamp and eye on the rim, and the curve's point under the eye. */
-function marks({ svg, at }: Disc, { factor, eye, light }: Polar): void {
+function marks({ svg, rim, at }: Disc, { factor, eye, light }: Polar): void {
 	for (const [angle, kind, shape, size] of [
 		[light, 'bulb', 'dot', 5],
 		[eye, 'watcher', 'ring', 9],
 	] as const) {
 		const [x0, y0] = at(angle, 0);
-		const [x1, y1] = at(angle, OUTSIDE * MAX_FACTOR);
+		const [x1, y1] = at(angle, OUTSIDE * rim);
 		draw(svg, 'line', { class: `ray ${kind}`, x1: x0, y1: y0, x2: x1, y2: y1 });
 		mark(svg, shape, kind, x1, y1, size);
 	}

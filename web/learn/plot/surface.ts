@@ -39,6 +39,7 @@ export function drawSurface(
 		return [width / 2 + radius * x, base - radius * y * Math.sin(TILT) - rise * value];
 	};
 	drawDiscBelow(svg, at);
+	drawScale(svg, at, highest);
 	drawNet(svg, at, surface);
 
 	// Sort key from back to front.
@@ -79,8 +80,28 @@ function drawDiscBelow(svg: SVGElement, at: Project): void {
 	] as const) {
 		line(svg, [at(-u, -v, 0), at(u, v, 0)], 'grid');
 		const [x, y] = at(1.09 * u, 1.09 * v, 0);
-		draw(svg, 'text', { x, y: y + 4, 'text-anchor': 'middle' }, name);
+		draw(svg, 'text', { class: 'name large', x, y: y + 5, 'text-anchor': 'middle' }, name);
 	}
+}
+
+/** Upright axis of L over the rim's left end. @param highest value to be shown */
+function drawScale(svg: SVGElement, at: Project, highest: number): void {
+	const [u, v] = [-Math.cos(TURN), Math.sin(TURN)];
+	line(svg, [at(u, v, 0), at(u, v, highest)], 'axis');
+	for (let value = 0; value <= highest; value++) {
+		const [x, y] = at(u, v, value);
+		line(
+			svg,
+			[
+				[x - 4, y],
+				[x, y],
+			],
+			'axis',
+		);
+		draw(svg, 'text', { class: 'name', x: x - 7, y: y + 4, 'text-anchor': 'end' }, String(value));
+	}
+	const [x, y] = at(u, v, highest);
+	draw(svg, 'text', { class: 'name large', x, y: y - 8, 'text-anchor': 'middle' }, 'L');
 }
 
 /** Rings and spokes of the polynomial. */

@@ -7,7 +7,8 @@ import type { TexelState } from '../data/texel.ts';
 import type { MeasuredWords } from '../words/index.ts';
 import { decimal } from './plot.ts';
 
-const TERMS = ['lᵤ²', 'lᵥ²', 'lᵤlᵥ', 'lᵤ', 'lᵥ', '1'];
+/** Terms of eq. (2), in the order of the numbers. */
+export const TERMS = ['lᵤ²', 'lᵥ²', 'lᵤlᵥ', 'lᵤ', 'lᵥ', '1'];
 const SUB = '₀₁₂₃₄₅';
 
 function add<K extends keyof HTMLElementTagNameMap>(parent: Element, tag: K, text = ''): HTMLElementTagNameMap[K] {
@@ -85,8 +86,7 @@ export class Substituted {
 		say(`L(${decimal(light[0])}, ${decimal(light[1])}) =`);
 		for (const part of parts) say(part);
 		say(`= ${decimal(value)}`, 'b');
-		say(`· ${words.fromBytes(decimal(stored))}`);
-		say(`· ${words.measuredBy(decimal(measured), decimal(away, 0))}`);
+		for (const part of words.beside(decimal(stored), decimal(measured), decimal(away, 0))) say(part);
 		this.#line.dataset.exact = String(value);
 		this.#line.dataset.stored = String(stored);
 	}

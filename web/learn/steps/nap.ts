@@ -142,7 +142,7 @@ function sliders(
 		max: 180,
 		step: 1,
 		value: FIRST.around,
-		text: words.degrees,
+		text: words.fromLean,
 		input: (degrees) => move({ azimuth: leaning + degrees }),
 	});
 	const height = slider(controls, {

@@ -11,6 +11,7 @@ import { drawArc, drawDecibels } from '../plot/numbers.ts';
 import { layerChoice, line, live } from '../plot/parts.ts';
 import { decimal, legend, Plot } from '../plot/plot.ts';
 import { drawSlice, lightFromAbove, panel, panels, texelByHand } from '../plot/slice.ts';
+import { TERMS } from '../plot/table.ts';
 
 const MAX_NUMBERS = 6;
 const AMPLIFIED = 2;
@@ -23,7 +24,7 @@ export const mount: Mount = async (place, lesson) => {
 	const { truth, shown } = slices(place, lesson, selection);
 	const controls = controlRow(place);
 
-	const arc = new Plot(place, words.arc, 230, (svg, width, height) =>
+	const arc = new Plot(place, words.arc, 220, (svg, width, height) =>
 		drawArc(svg, width, height, { selection, relit, light: toTile(lesson.light.direction), words }),
 	);
 	legend(place, [
@@ -32,7 +33,7 @@ export const mount: Mount = async (place, lesson) => {
 		['line', 'eigen', words.eigen],
 	]);
 	const figures = { ptm: record.ptm, eigen: record.eigen_figures, best: record.bound };
-	const decibels = new Plot(place, words.byNumbers, 230, (svg, width, height) =>
+	const decibels = new Plot(place, words.byNumbers, 220, (svg, width, height) =>
 		drawDecibels(svg, width, height, figures, relit.count, words),
 	);
 	legend(place, [
@@ -46,8 +47,11 @@ export const mount: Mount = async (place, lesson) => {
 	const options = Object.fromEntries(record.ptm.map(({ numbers }) => [String(numbers), String(numbers)]));
 	choice(controls, words.numbersOf, options, String(relit.count), (value) => {
 		relit.count = Number(value);
-		const at = (rows: typeof record.ptm) => decimal(rows.find(({ numbers }) => numbers === relit.count)?.psnr ?? 0);
-		says(words.atNumbers(relit.count, at(figures.ptm), at(figures.eigen), at(figures.best)));
+		const { count } = relit;
+		const at = (rows: typeof record.ptm) => decimal(rows.find(({ numbers }) => numbers === count)?.psnr ?? 0);
+		const terms = record.terms.slice(0, count).map((term) => TERMS[term] ?? '');
+		const [ptm, eigen, best] = [at(figures.ptm), at(figures.eigen), at(figures.best)];
+		says(words.atNumbers({ count, terms, ptm, eigen, best }));
 		arc.redraw();
 		decibels.redraw();
 		redraw();

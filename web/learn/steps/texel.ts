@@ -103,7 +103,7 @@ function plotSingularValues(place: HTMLElement, words: Words['measured'], values
 			const top = y(value);
 			draw(svg, 'rect', { class: 'column', x: x - step * 0.28, y: top, width: step * 0.56, height: height - 24 - top });
 			draw(svg, 'text', { class: 'value', x, y: top - 5, 'text-anchor': 'middle' }, decimal(value));
-			draw(svg, 'text', { x, y: height - 8, 'text-anchor': 'middle' }, `σ${'₁₂₃₄₅₆'[i]}`);
+			draw(svg, 'text', { x, y: height - 8, 'text-anchor': 'middle' }, String(i + 1));
 		});
 	});
 	line(place)(words.condition(decimal(first / last, 1)));

@@ -98,7 +98,7 @@ function sliders(
 		max: 1,
 		step: 0.025,
 		value: now.wetness,
-		text: (value) => value.toFixed(3),
+		text: words.amount,
 		input: (value) => {
 			now.wetness = value;
 			show();
@@ -110,7 +110,7 @@ function sliders(
 		max: 1,
 		step: 0.01,
 		value: now.dirt,
-		text: (value) => value.toFixed(2),
+		text: words.amount,
 		input: (value) => {
 			now.dirt = value;
 			show();

@@ -1,4 +1,14 @@
 import { teaching } from './teaching/en.ts';
+import { whole } from './whole.ts';
+
+/** Numbers per texel with their decibels, and the polynomial's terms. */
+interface NumbersSaid {
+	count: number;
+	terms: readonly string[];
+	ptm: string;
+	eigen: string;
+	best: string;
+}
 
 interface BodyNumbers {
 	skin: number;
@@ -7,6 +17,9 @@ interface BodyNumbers {
 	overlap: number;
 	fins: number;
 }
+
+/** Share in per cent, to a tenth where it has one. */
+const percent = (share: number) => `${Number((100 * share).toFixed(1))} %`;
 
 export const en = {
 	...teaching,
@@ -46,8 +59,8 @@ export const en = {
 			hull: 'hull',
 		},
 		numbers: ({ skin, patches, faces, overlap, fins }: BodyNumbers) =>
-			`${skin} triangles of skin · ${patches} patches of ${faces} triangles, ${overlap.toFixed(2)} per triangle of skin · ` +
-			`${fins} triangles of fins`,
+			`${whole(skin)} triangles of skin · ${patches} patches, in all of ${whole(faces)} triangles, ` +
+			`${overlap.toFixed(2)} per triangle of skin · ${whole(fins)} triangles of fins`,
 	},
 	nap: {
 		pictures: [
@@ -61,6 +74,7 @@ export const en = {
 		around: 'Eye, around',
 		height: 'Eye, height',
 		degrees: (degrees: number) => `${degrees}°`.replace('-', '−'),
+		fromLean: (degrees: number) => `${degrees}° from the lean`.replace('-', '−'),
 		aroundPlot: 'The factor for eyes all around the fur at this height, as a curve; lamp, eye and lean are marked.',
 		aroundName: 'Once around, seen from above; the arrow is the hairs’ lean',
 		overPlot: 'The factor for eyes from horizon to horizon in the plane of this eye; lamp and eye are marked.',
@@ -80,12 +94,14 @@ export const en = {
 			},
 			'shadow-layers': {
 				name: 'Shadow layers',
-				costs: 'True shadow; the whole fur is drawn again from the lamp whenever it moves.',
+				costs: 'Shadow of hairs on hairs; the whole fur is drawn again from the lamp whenever it moves.',
 			},
-			ptm: { name: 'PTM', costs: 'True shadow; two fetches and one dot product, wherever the lamp is.' },
+			ptm: { name: 'PTM', costs: 'Shadow of hairs on hairs; two fetches and one dot product, wherever the lamp is.' },
 			article: {
 				name: 'PTM as in the article',
-				costs: 'The polynomial alone, without mean curves; a third fetch for the hairs’ own colours.',
+				costs:
+					'The polynomial alone, without mean curves. A third fetch gives each hair its own colour, many paler ' +
+					'than the one that all hairs have in the other pictures.',
 			},
 		},
 		lamp: 'Lamp',
@@ -101,12 +117,14 @@ export const en = {
 			costs: 'The truth: every hair by itself, 256 light paths per pixel, minutes per picture.',
 			elsewhere: 'The truth, for the four lamps below alone: choose one.',
 		},
-		table: 'Table 1: frames per second, by triangles of the body; 16 shells, light moving',
+		table:
+			'Table 1: frames per second; 16 shells, light moving. Here triangles are those of the body; the article does not ' +
+			'tell whether its are.',
 		article: 'The article, 2009',
 		here: 'This machine, now',
 		triangles: 'Triangles',
 		columns: ['layers', 'PTM', 'ratio'],
-		count: (triangles: number) => triangles.toLocaleString('en-GB').replaceAll(',', '\u202f'),
+		count: whole,
 		measure: 'Measure here',
 		stop: 'Stop',
 		stopped: 'Stopped.',
@@ -151,7 +169,7 @@ export const en = {
 	wind: {
 		picture: 'A square of fur in the wind. Drag to stroke it; arrow keys move the light.',
 		wind: 'Wind',
-		strength: (strength: number) => strength.toFixed(2),
+		strength: (strength: number) => `${percent(strength)} of a storm`,
 		direction: 'Blows to',
 		degrees: (degrees: number) => `${degrees}°`,
 		stroke: 'Stroke it',
@@ -167,8 +185,9 @@ export const en = {
 		share: (state: string, share: number) => `${(100 * share).toFixed(0)} % ${state}`,
 		wetness: 'Wetness',
 		dirt: 'Dirt',
+		amount: percent,
 		hair: (length: number, shade: number) =>
-			`Hairs stand ${(100 * length).toFixed(0)} % as high as dry ones, and are ${shade.toFixed(2)} as bright.`,
+			`Hairs stand ${(100 * length).toFixed(0)} % as high as dry ones, and are ${(100 * shade).toFixed(0)} % as bright.`,
 	},
 	/** Figures on sampling, fit, bytes and numbers per texel. */
 	measured: {
@@ -194,8 +213,11 @@ export const en = {
 		exact: 'a, fitted',
 		byte: 'byte a′',
 		decoded: 'λ(a′ − Ω)',
-		fromBytes: (value: string) => `from the bytes ${value}`,
-		measuredBy: (value: string, away: string) => `measured ${value}, by a lamp ${away}° off`,
+		/** Beside the value of the formula, in brackets. */
+		beside: (bytes: string, measured: string, away: string) => [
+			`(from the bytes ${bytes};`,
+			`measured ${measured}, by a lamp ${away}° off)`,
+		],
 		texelError: (fit: string, unseen: string) =>
 			`Root of the mean squared error: ${fit} over the lamps of the fit, ${unseen} over those held out.`,
 		singular: 'singular values of the light matrix, 64 × 6',
@@ -215,8 +237,8 @@ export const en = {
 		omega: 'Ω',
 		numbersOf: 'Numbers per texel',
 		measured: 'measured, by a lamp that no fit saw',
-		ptmPanel: (db: string) => `PTM: ${db} dB`,
-		eigenPanel: (db: string) => `eigen: ${db} dB`,
+		ptmPanel: (db: string) => `PTM: ${db} dB under this lamp`,
+		eigenPanel: (db: string) => `eigen: ${db} dB under this lamp`,
 		ptmOff: 'PTM − measured, × 2',
 		eigenOff: 'eigen − measured, × 2',
 		differs: 'Orange: brighter than measured. Blue: darker. Grey: right.',
@@ -228,8 +250,9 @@ export const en = {
 		measuredMark: 'measured',
 		byNumbers: 'Decibels by numbers per texel, on held-out lamps.',
 		numbersAxis: 'numbers per texel',
-		atNumbers: (count: number, ptm: string, eigen: string, best: string) =>
-			`All layers, ${count} numbers, ${count} bytes a texel: PTM ${ptm} dB, eigen ${eigen} dB, at best ${best} dB.`,
+		atNumbers: ({ count, terms, ptm, eigen, best }: NumbersSaid) =>
+			`All layers, ${count} numbers a texel, not rounded: PTM ${ptm} dB, eigen ${eigen} dB, at best ${best} dB. ` +
+			`Terms of the PTM: ${terms.join(', ')}.`,
 		decibels: 'dB',
 		light: 'L',
 	},

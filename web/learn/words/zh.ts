@@ -1,5 +1,9 @@
 import type { Words } from './en.ts';
 import { teaching } from './teaching/zh.ts';
+import { whole } from './whole.ts';
+
+/** Share in per cent, to a tenth where it has one. */
+const percent = (share: number) => `${Number((100 * share).toFixed(1))}%`;
 
 export const zh: Words = {
 	...teaching,
@@ -38,8 +42,8 @@ export const zh: Words = {
 			hull: '外壳',
 		},
 		numbers: ({ skin, patches, faces, overlap, fins }) =>
-			`皮肤 ${skin} 个三角形 · ${patches} 个贴片共 ${faces} 个三角形，平均每个皮肤三角形 ${overlap.toFixed(2)} 个 · ` +
-			`鳍片 ${fins} 个三角形`,
+			`皮肤 ${whole(skin)} 个三角形 · ${patches} 个贴片共 ${whole(faces)} 个三角形，平均每个皮肤三角形 ${overlap.toFixed(2)} 个 · ` +
+			`鳍片 ${whole(fins)} 个三角形`,
 	},
 	nap: {
 		pictures: [
@@ -50,6 +54,7 @@ export const zh: Words = {
 		around: '视线方位',
 		height: '视线仰角',
 		degrees: (degrees) => `${degrees}°`.replace('-', '−'),
+		fromLean: (degrees) => `与倾向成 ${degrees}°`.replace('-', '−'),
 		aroundPlot: '视线以当前仰角绕毛一周时的因子曲线，标有灯、视线和毛的倾斜方向。',
 		aroundName: '绕一周，俯视；箭头为毛的倾斜方向',
 		overPlot: '在视线所在的竖直平面内，从地平线到另一侧地平线的因子曲线，标有灯和视线。',
@@ -64,9 +69,12 @@ export const zh: Words = {
 		methods: {
 			unlit: { name: '无光照', costs: '只有颜色：任何光照方法的开销下限。' },
 			lengyel: { name: 'Lengyel 局部光照', costs: '每根毛单独受光，每个片元取一次方向；阴影只按深浅估计。' },
-			'shadow-layers': { name: '层状阴影图', costs: '有真实阴影；光源一动，就要从光源处把全部毛发重画一遍。' },
-			ptm: { name: 'PTM', costs: '有真实阴影；无论光在何处，只需两次取样和一次点积。' },
-			article: { name: '论文原式 PTM', costs: '只用多项式，没有平均曲线；毛色另需第三次取样。' },
+			'shadow-layers': { name: '层状阴影图', costs: '毛与毛之间有阴影；光源一动，就要从光源处把全部毛发重画一遍。' },
+			ptm: { name: 'PTM', costs: '毛与毛之间有阴影；无论光在何处，只需两次取样和一次点积。' },
+			article: {
+				name: '论文原式 PTM',
+				costs: '只用多项式，没有平均曲线。第三次取样给出每根毛自己的颜色，许多比另几幅图中统一的毛色浅。',
+			},
 		},
 		lamp: '灯',
 		lamps: { above: '从上方', side: '从侧面低处', behind: '从圆环后方低处', eye: '在眼睛旁边' },
@@ -76,12 +84,12 @@ export const zh: Words = {
 			costs: '真值：逐根毛计算，每像素 256 条光路，一幅图要几分钟。',
 			elsewhere: '真值只有下面四种灯位，请任选一种。',
 		},
-		table: '表 1：不同三角形数下的帧率（帧/秒），16 层壳层，光源移动',
+		table: '表 1：帧率（帧/秒），16 层壳层，光源移动。本机的三角形数指物体本身；论文未说明其三角形是否也如此。',
 		article: '论文（2009）',
 		here: '本机实测',
 		triangles: '三角形数',
 		columns: ['阴影图', 'PTM', '比值'],
-		count: (triangles) => triangles.toLocaleString('en-GB').replaceAll(',', '\u202f'),
+		count: whole,
 		measure: '在本机测量',
 		stop: '停止',
 		stopped: '已停止。',
@@ -119,7 +127,7 @@ export const zh: Words = {
 	wind: {
 		picture: '风中的一块毛发。拖动即抚摸，方向键移动光源。',
 		wind: '风力',
-		strength: (strength) => strength.toFixed(2),
+		strength: (strength) => `暴风的 ${percent(strength)}`,
 		direction: '风向',
 		degrees: (degrees) => `${degrees}°`,
 		stroke: '抚摸一下',
@@ -132,7 +140,8 @@ export const zh: Words = {
 		share: (state, share) => `${state} ${(100 * share).toFixed(0)}%`,
 		wetness: '湿度',
 		dirt: '泥污',
-		hair: (length, shade) => `毛高为干毛的 ${(100 * length).toFixed(0)}%，亮度为干毛的 ${shade.toFixed(2)}。`,
+		amount: percent,
+		hair: (length, shade) => `毛高为干毛的 ${(100 * length).toFixed(0)}%，亮度为干毛的 ${(100 * shade).toFixed(0)}%。`,
 	},
 	/** Figures on sampling, fit, bytes and numbers per texel. */
 	measured: {
@@ -157,8 +166,7 @@ export const zh: Words = {
 		exact: 'a（拟合）',
 		byte: '字节 a′',
 		decoded: 'λ(a′ − Ω)',
-		fromBytes: (value) => `由字节算得 ${value}`,
-		measuredBy: (value, away) => `实测 ${value}（灯偏离 ${away}°）`,
+		beside: (bytes, measured, away) => [`（由字节算得 ${bytes}；`, `实测 ${measured}，灯偏离 ${away}°）`],
 		texelError: (fit, unseen) => `均方根误差：参与拟合的灯 ${fit}，检验灯 ${unseen}。`,
 		singular: '光照矩阵（64 × 6）的奇异值',
 		condition: (value) => `最大 / 最小 = ${value}：六个系数都能稳定求出。`,
@@ -177,8 +185,8 @@ export const zh: Words = {
 		omega: 'Ω',
 		numbersOf: '每纹素系数个数',
 		measured: '实测，检验灯（不参与拟合）',
-		ptmPanel: (db) => `PTM：${db} dB`,
-		eigenPanel: (db) => `特征基：${db} dB`,
+		ptmPanel: (db) => `PTM：此灯下 ${db} dB`,
+		eigenPanel: (db) => `特征基：此灯下 ${db} dB`,
 		ptmOff: 'PTM − 实测，× 2',
 		eigenOff: '特征基 − 实测，× 2',
 		differs: '橙色：比实测亮；蓝色：比实测暗；灰色：相符。',
@@ -190,8 +198,9 @@ export const zh: Words = {
 		measuredMark: '实测',
 		byNumbers: '每纹素系数个数对应的分贝数，检验灯。',
 		numbersAxis: '每纹素系数个数',
-		atNumbers: (count, ptm, eigen, best) =>
-			`全部层，${count} 个系数，每纹素 ${count} 字节：PTM ${ptm} dB，特征基 ${eigen} dB，上限 ${best} dB。`,
+		atNumbers: ({ count, terms, ptm, eigen, best }) =>
+			`全部层，每纹素 ${count} 个系数，未量化：PTM ${ptm} dB，特征基 ${eigen} dB，上限 ${best} dB。` +
+			`PTM 保留的项：${terms.join('、')}。`,
 		decibels: 'dB',
 		light: 'L',
 	},

@@ -18,9 +18,12 @@ export const teaching = {
 			) + `${best ? `; the best is off by ${best}.` : '.'}`,
 	},
 	mean: {
-		measured: 'measured, by a lamp that no fit saw',
+		measured: (high: string) => `measured, by a lamp ${high}° high that no fit saw`,
 		relit: 'by six numbers',
 		off: (times: number) => `six numbers − measured, × ${times}`,
+		offNow: (times: number, all: string, own: string) =>
+			`six numbers − measured, × ${times}. This lamp: ${all} % off, ${own} % without what the layer shares`,
+		worst: 'Lamp of the largest shared error',
 		side: 'Averaged over',
 		square: (side: number) => `${side} × ${side}`,
 		shared: 'Error that the layer shares',

@@ -16,9 +16,11 @@ export const teaching: typeof english = {
 			`${best ? `；最佳为 ${best}。` : '。'}`,
 	},
 	mean: {
-		measured: '实测，检验灯（不参与拟合）',
+		measured: (high) => `实测，检验灯（不参与拟合），仰角 ${high}°`,
 		relit: '由六个系数算得',
 		off: (times) => `六个系数 − 实测，× ${times}`,
+		offNow: (times, all, own) => `六个系数 − 实测，× ${times}。此灯：误差 ${all}%，去掉全层共有的部分后 ${own}%`,
+		worst: '共有误差最大的灯',
 		side: '平均范围',
 		square: (side) => `${side} × ${side}`,
 		shared: '全层共有的误差',
