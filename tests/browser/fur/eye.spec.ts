@@ -187,3 +187,26 @@ test('shorter hairs grow in light, and are seen on the way that meets as much of
 		expect(await over(surging), `surge, ${share}`).toBeCloseTo(1 + (0.2 + 0.5 * q) / (1 + apart / 0.01), 2);
 	}
 });
+
+test('the sky lights hairs of any length, seen from aside, as lamps all around do', async ({ page }) => {
+	const open = await openEyes(page);
+	const { eye, surge, short } = JSON.parse(await readFile(`${repository}public/models/bunny/model.gltf`, 'utf8'))
+		.extensions.FUR_ptm_shells;
+	const [url = ''] = await open([{ eye, surge, short }]);
+	const harmonics = [1.2, 0.3, -0.3, 0.35, 0.15, -0.1, 0.12, 0.18, -0.14];
+	// On a ball of β = 4.
+	const curvature = [0.25 / SHORT, 0.25 / SHORT, 0];
+	for (const share of [1, 0.5, 0.2, 0.08]) {
+		const own = { ...attributes, curvature, _fur: [1, share, 1, 0] };
+		const drawn = await page.evaluate(([u, h, a]) => stage.dome(u, 2, [[0, 0]], h, undefined, a), [
+			url,
+			harmonics,
+			own,
+		] as const);
+		const [sky, lamps] = (['sky', 'lamps'] as const).map((by) =>
+			(drawn[0]?.[by] ?? []).reduce((sum, light) => sum + (Number.isNaN(light) ? 0 : light), 0),
+		) as [number, number];
+		expect(lamps).toBeGreaterThan(1);
+		expect(Math.abs(sky / lamps - 1), `${share}`).toBeLessThan(0.03);
+	}
+});

@@ -31,6 +31,7 @@ export interface UnderDome {
  * @param combs displacements of the tips along T and B, share of the length
  * @param harmonics of the radiance to order 2, world axes
  * @param radius of the body, lengths of fur of half a unit, where its curvature counts
+ * @param attributes further ones, the same at all vertices
  */
 export async function underDome(
 	url: string,
@@ -38,6 +39,7 @@ export async function underDome(
 	combs: number[][],
 	harmonics: number[],
 	radius?: number,
+	attributes: Record<string, number[]> = {},
 ): Promise<UnderDome[]> {
 	const probe = new LightProbe();
 	for (const [j, coefficient] of probe.sh.coefficients.entries()) coefficient.setScalar(harmonics[j] ?? 0);
@@ -53,6 +55,7 @@ export async function underDome(
 	});
 	const flat = new Flat(await loadFur(url));
 	if (radius) flat.attribute('curvature', [2 / radius, 2 / radius, 0]);
+	for (const [name, value] of Object.entries(attributes)) flat.attribute(name, value);
 	flat.add(probe, ...lamps);
 	const lit = (on: (light: Light, i: number) => boolean) => {
 		for (const [i, light] of [...lamps, probe].entries()) light.visible = on(light, i);

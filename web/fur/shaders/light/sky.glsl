@@ -98,9 +98,10 @@ vec2 seenSky(FurPoint point, Eye from, Quadratic seen, Radiance around) {
 	vec3 viewer = viewerVS(point.pointVS) * point.frameVS;
 	viewer.UP = max(viewer.UP, 0.0);
 	viewer /= max(length(viewer), 1e-4);
-	float square = point.share * point.share;
 	float beside = max(c + dot(g, viewer), 0.0) / max(c + 0.5 * rise, 1e-6);
-	return vec2(mean, mean + surgeFrom(from.up) * furSurge.w / (square + (1.0 - square) * furSurge.w) * beside * heldNap(seen, viewer));
+	// Share of the half sphere, which grows as hairs are shorter.
+	float wide = furSurge.w / mix(furSurge.w, 1.0, point.share);
+	return vec2(mean, mean + surgeFrom(from.up) * wide * beside * heldNap(seen, viewer));
 }
 #endif
 
