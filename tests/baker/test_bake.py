@@ -85,7 +85,7 @@ def test_without_curves_assets_are_of_version_1(tmp_path: Path) -> None:
     assert [validate(folder) for folder in folders] == [[], []]
     assert (plain.fur["version"], curved.fur["version"]) == ("1.0", "2.0")
     assert set(plain.fur) - set(curved.fur) == {"environment"}
-    assert set(curved.fur) - set(plain.fur) == {"curves", "eye", "finEye", "surge", "spread"}
+    assert set(curved.fur) - set(plain.fur) == {"curves", "eye", "finEye", "surge", "short", "spread"}
     assert set(curved.fur["pelts"][0]) - set(plain.fur["pelts"][0]) == {"weights", "multiple"}
     texts = [(folder / "model.gltf").stat().st_size for folder in folders]
     assert texts[1] - texts[0] < 4000

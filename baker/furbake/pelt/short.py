@@ -78,5 +78,6 @@ def fit_short(strands: Strands, coat: Coat, height: float, layers: int, size: in
         right += np.einsum("nki,nk->i", rows, (light - whole) * seen)
     if not matrix[0, 0] > 0:
         return np.zeros(3)
-    solved = np.linalg.solve(matrix + np.diag(1e-6 * np.diag(matrix)), right)
+    # A single slab knows no change over the height.
+    solved = np.linalg.solve(matrix + 1e-6 * matrix[0, 0] * np.eye(3), right)
     return np.asarray(np.round(MONOMIALS.T @ solved, 3))

@@ -99,9 +99,9 @@ vec2 seenSky(FurPoint point, Eye from, Quadratic seen, Radiance around) {
 	viewer.UP = max(viewer.UP, 0.0);
 	viewer /= max(length(viewer), 1e-4);
 	float beside = max(c + dot(g, viewer), 0.0) / max(c + 0.5 * rise, 1e-6);
-	// Share of the half sphere, which grows as hairs are shorter.
+	// Share of the half sphere: as hairs are shorter, the surge spreads to all of it.
 	float wide = furSurge.w / mix(furSurge.w, 1.0, point.share);
-	return vec2(mean, mean + surgeFrom(from.up) * wide * beside * heldNap(seen, viewer));
+	return vec2(mean, mean + surgeFrom(from.up) * wide * mix(beside * heldNap(seen, viewer), mean, 1.0 - point.share));
 }
 #endif
 
