@@ -38,6 +38,7 @@ SHORTEST = 1 / 16
 """Share below which the law no longer changes."""
 
 LIGHTS = 8
+"""Directions above the horizon for each of them."""
 
 
 def growth(share: float, s: Array, numbers: Array) -> Array:
