@@ -18,16 +18,7 @@ from furbake.asset.stored import read_pelt
 from furbake.pelt.eye import factor, surge
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.seen import ShownTexels
-from furbake.study.verify.pathtrace import (
-    FIELD,
-    Tracer,
-    VerifyError,
-    control_points,
-    load,
-    tiled,
-    tiles_around,
-    write_curves,
-)
+from furbake.study.verify.pathtrace import FIELD, Tracer, VerifyError, load, tiles_around, write_tiles
 from furbake.study.verify.tile import Progress, directions, flat_options, grown_again, unit_of
 
 Array = NDArray[np.float64]
@@ -73,7 +64,7 @@ def verify_field(
     with TemporaryDirectory(prefix="furbake-") as scratch:
         curves = Path(scratch) / "strands.txt"
         around = FIELD + tiles_around(strands, float(min(eyes[:, 2].min(), lamps[:, 2].min())))
-        write_curves(curves, tiled(control_points(strands), around))
+        write_tiles(curves, strands, around)
         tracer = Tracer(curves, around, PIXELS, spp, options.coat.albedo)
         for number in range(traced.size):
             progress("trace", number / traced.size)

@@ -6,7 +6,7 @@ Mitsuba 3 does the tracing (an optional extra); it knows nothing of slabs, optic
 from __future__ import annotations
 
 import importlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -93,12 +93,6 @@ def tiles_around(strands: Strands, lowest: float) -> int:
     return max(TILES, int(np.ceil(height * np.sqrt(1 - lowest**2) / lowest + aside)))
 
 
-def tiled(control: Array, around: int) -> Iterator[Array]:
-    """Control points of (2·around + 1)² tiles, tile by tile."""
-    steps = range(-around, around + 1)
-    yield from (control + np.array([u, v, 0, 0]) for u in steps for v in steps)
-
-
 def write_curves(path: Path, parts: Iterable[Array]) -> None:
     """Hairs as Mitsuba's text of curves: a line per control point, a gap per hair; parts : (S, P, 4) each.
 
@@ -113,6 +107,12 @@ def write_curves(path: Path, parts: Iterable[Array]) -> None:
             at = control[0, 0, :3]
         np.savetxt(file, [[*(at + k * SPECK), SPECK] for k in range(4)], fmt="%.9g")
         file.write("\n")
+
+
+def write_tiles(path: Path, strands: Strands, around: int) -> None:
+    """The strands of (2·around + 1)² tiles as `write_curves` does, tile by tile."""
+    control, steps = control_points(strands), range(-around, around + 1)
+    write_curves(path, (control + np.array([u, v, 0, 0]) for u in steps for v in steps))
 
 
 @dataclass(frozen=True)

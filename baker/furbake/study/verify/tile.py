@@ -25,16 +25,7 @@ from furbake.pelt.hairs.volume import Volume, fine_shape, pool, voxelise
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.texels.fit import Judge
 from furbake.pelt.texels.quantise import srgb_bytes
-from furbake.study.verify.pathtrace import (
-    DEPTH,
-    Tracer,
-    VerifyError,
-    control_points,
-    load,
-    tiled,
-    tiles_around,
-    write_curves,
-)
+from furbake.study.verify.pathtrace import DEPTH, Tracer, VerifyError, load, tiles_around, write_tiles
 from furbake.tile.lighting import under
 
 Array = NDArray[np.float64]
@@ -155,7 +146,7 @@ def look(pelt: Pelt, options: BakeOptions, spp: int, depth: int, progress: Progr
     with TemporaryDirectory(prefix="furbake-") as scratch:
         curves = Path(scratch) / "strands.txt"
         around = tiles_around(strands, float(towards[:, 2].min()))
-        write_curves(curves, tiled(control_points(strands), around))
+        write_tiles(curves, strands, around)
         tracer = Tracer(curves, around, pixels, spp, options.coat.albedo)
         unit = unit_of(options)
         covered = tracer.covered()

@@ -11,13 +11,7 @@ from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt
 from furbake.pipeline import bake
 from furbake.study.verify import field
-from furbake.study.verify.pathtrace import (
-    Tracer,
-    VerifyError,
-    control_points,
-    tiled,
-    write_curves,
-)
+from furbake.study.verify.pathtrace import Tracer, VerifyError, write_tiles
 from helpers.hairs import hair
 
 
@@ -76,7 +70,7 @@ class TestWithMitsuba:
 
     def test_an_eye_aside_sees_the_lit_side_of_hairs(self, tmp_path: Path) -> None:
         """Upright hairs in a field: as bright as a cylinder from where the light comes, dark across from it."""
-        write_curves(tmp_path / "c.txt", tiled(control_points(hair((0.5, 0.5, 0), (0.5, 0.5, 0.2))), 5))
+        write_tiles(tmp_path / "c.txt", hair((0.5, 0.5, 0), (0.5, 0.5, 0.2)), 5)
         tracer = Tracer(tmp_path / "c.txt", 5, 64, 16, 0.85)
         light = np.array([np.cos(0.5), 0.0, np.sin(0.5)])
         towards, across = (

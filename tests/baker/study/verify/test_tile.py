@@ -11,7 +11,7 @@ from furbake import BakeOptions
 from furbake.asset.planes import read_png
 from furbake.pelt.hairs.strands import Coat, Hairs, grow
 from furbake.pipeline import bake
-from furbake.study.verify.pathtrace import Tracer, VerifyError, control_points, tiled, tiles_around, write_curves
+from furbake.study.verify.pathtrace import Tracer, VerifyError, control_points, tiles_around, write_tiles
 from furbake.study.verify.tile import Views, figures, flat_options, lights, lines, side_by_side, verify
 from helpers.hairs import hair
 
@@ -39,9 +39,9 @@ def test_splines_stay_near_the_strands_between_their_points() -> None:
 
 
 def test_tiles_repeat_the_strand_around_the_first(tmp_path: Path) -> None:
-    control = control_points(hair((0.5, 0.5, 0), (0.6, 0.4, 0.3)))
-    path = tmp_path / "curves.txt"
-    write_curves(path, tiled(control, 1))
+    strand = hair((0.5, 0.5, 0), (0.6, 0.4, 0.3))
+    control, path = control_points(strand), tmp_path / "curves.txt"
+    write_tiles(path, strand, 1)
     *strands, last = [
         np.array([[float(x) for x in line.split()] for line in block.splitlines()])
         for block in path.read_text().strip().split("\n\n")
@@ -140,7 +140,7 @@ class TestWithMitsuba:
 
     def test_row_is_v_and_column_is_u(self, tmp_path: Path) -> None:
         strands = hair((0.2, 0.7, 0.1), (0.2, 0.7, 0.11), (0.45, 0.7, 0.12))
-        write_curves(tmp_path / "c.txt", tiled(control_points(strands), 1))
+        write_tiles(tmp_path / "c.txt", strands, 1)
         covered = Tracer(tmp_path / "c.txt", 1, 32, 32, 0.85).covered()
         rows, columns = np.nonzero(covered > 0.5)
         assert (rows.mean() + 0.5) / 32 == pytest.approx(0.7, abs=0.02)
@@ -148,7 +148,7 @@ class TestWithMitsuba:
 
     def test_hair_lit_from_the_side_is_as_bright_as_the_cylinder_says(self, tmp_path: Path) -> None:
         strands = hair((0.1, 0.5, 0.3), (0.5, 0.5, 0.300001), (0.9, 0.5, 0.300002), radius=0.05)
-        write_curves(tmp_path / "c.txt", tiled(control_points(strands), 0))
+        write_tiles(tmp_path / "c.txt", strands, 0)
         light = np.array([0.0, 0.6, 0.8])
         tracer = Tracer(tmp_path / "c.txt", 0, 64, 64, 0.85)
         seen = tracer.lit(light, depth=2)[:, 24:40]
