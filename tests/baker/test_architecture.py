@@ -35,6 +35,7 @@ FLOORS: dict[str, set[str]] = {
         *(f"surface/{name}" for name in ("soup", "rig", "material", "colours", "repair", "limits", "files")),
     },
     "surface/mesh": {f"surface/{name}" for name in ("soup", "charts", "repair", "rig", "material", "colours", "read")},
+    "surface/divide": {f"surface/{name}" for name in ("mesh", "soup", "material", "repair")},
     "surface/shapes": {"surface/mesh", "surface/charts", "surface/repair"},
     "surface/lay": {"surface/mesh", "surface/charts", "surface/soup", "surface/repair"},
     "surface/place": {f"surface/{name}" for name in ("mesh", "charts", "colours", "repair", "lay", "files")},

@@ -141,20 +141,25 @@ def test_directions_are_a_plane_more_and_nothing_else(
     assert stored[..., 2].min() > -0.01  # from root to tip
 
 
-def test_fins_can_be_left_out_and_creases_have_none(tmp_path: Path, write_obj: Any, cube: Any) -> None:
+def test_fins_can_be_left_out(tmp_path: Path) -> None:
     options = replace(SMALL, size=8)
     with_fins = bake("plane", tmp_path / "plane", options)
     assert with_fins.record["fit"]["fin"]["psnr"] > 12
     assert with_fins.record["asset"]["fins"]["faces"] > 0
     plain = bake("plane", tmp_path / "plain", replace(options, fins=False))
+    assert "fin" not in plain.record["fit"]
+    assert "fins" not in plain.record["asset"]
+    assert not list(plain.folder.glob("fin*"))
+    assert validate(plain.folder) == []
+
+
+def test_a_body_of_creases_has_fins_beside_them(tmp_path: Path, write_obj: Any, cube: Any) -> None:
     corners, _ = cube
     tetrahedron = write_obj(corners[[0, 3, 5, 6]], np.array([(0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 3, 2)]))
-    creased = bake(str(tetrahedron), tmp_path / "creased", options)
-    for result in (plain, creased):
-        assert "fin" not in result.record["fit"]
-        assert "fins" not in result.record["asset"]
-        assert not list(result.folder.glob("fin*"))
-        assert validate(result.folder) == []
+    creased = bake(str(tetrahedron), tmp_path / "creased", replace(SMALL, size=8))
+    assert any(": 4 faces divided into " in notice for notice in creased.notices)
+    assert creased.record["asset"]["fins"]["faces"] > 0
+    assert validate(creased.folder) == []
 
 
 @pytest.fixture(scope="module")

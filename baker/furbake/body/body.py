@@ -18,6 +18,7 @@ from furbake.options import BakeOptions
 from furbake.options.bake_options import clip_at
 from furbake.pelt.hairs.strands import Strands
 from furbake.surface.charts import Charts, laid
+from furbake.surface.divide import divide
 from furbake.surface.lay.field import comb_field
 from furbake.surface.lay.lapped import lap
 from furbake.surface.lay.lapped_figures import lapped_figures
@@ -41,6 +42,9 @@ SHELL_FACES, MANY_FACES = 15_000, 20_000
 
 Every shell draws them all; models that are hardly larger would gain little.
 """
+
+TURN = 0.7
+"""Distance within which the normals of the ground turn at a sharp edge, lengths of the fur: less is a crest."""
 
 
 @dataclass(frozen=True)
@@ -102,7 +106,7 @@ def prepare(model: str, options: BakeOptions) -> Body:
     ground = grounded(skin)
     if options.groom is not None:
         return wearing(model, options, skin, ground)
-    size = sized(ground, skin.extent, options)
+    skin, ground, size = _divided(model, skin, ground, options)
     maps = painted_maps(ground, options)
     lengths, longest = _lengths(ground, size, options, maps), size.length
     furs = dressing(ground, skin, options, size)
@@ -164,6 +168,18 @@ def _skin(model: str, options: BakeOptions) -> Surface:
     if options.rig is None:
         return load_surface(model, options.max_faces, pose)
     return with_skeleton(model, load_surface(model, options.max_faces), Path(options.rig), pose)
+
+
+def _divided(model: str, skin: Surface, ground: Surface, options: BakeOptions) -> tuple[Surface, Surface, Size]:
+    """Skin and ground with normals that turn within a hair's length along sharp edges, and the size of their fur."""
+    size = sized(ground, skin.extent, options)
+    divided = divide(ground, TURN * size.length, MANY_FACES)
+    if divided is ground:
+        return skin, ground, size
+    size = sized(divided, skin.extent, options)
+    told = f"{model}: {len(ground.faces)} faces divided into {len(divided.faces)} along sharp edges"
+    size = replace(size, notices=(told, *size.notices))
+    return divided if skin is ground else skin, divided, size
 
 
 def wearing(model: str, options: BakeOptions, skin: Surface, ground: Surface) -> Body:

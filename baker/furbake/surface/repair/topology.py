@@ -129,20 +129,31 @@ def _parity(links: csr_array, piece: NDArray[np.int32], a: Ints, b: Ints, clash:
     return flip[:count]
 
 
-def angle_normals(vertices: Floats, faces: Ints) -> Floats:
-    """(V, 3) unit vertex normals, each face weighted by its angle there (Thürmer and Wüthrich 1998)."""
+def angle_normals(vertices: Floats, faces: Ints, sides: Floats | None = None) -> Floats:
+    """(V, 3) unit vertex normals, each face weighted by its angle there (Thürmer and Wüthrich 1998).
+
+    sides : (F, 3, 3) unit normal of each face at its corners; by default it is flat
+    """
     flat = unit(face_vectors(vertices, faces))
-    total = np.zeros_like(vertices)
+    sides = np.repeat(flat[:, None], 3, axis=1) if sides is None else sides
+    angles, total = corner_angles(vertices, faces), np.zeros_like(vertices)
     for i in range(3):
-        here, after, before = (vertices[faces[:, (i + j) % 3]] for j in range(3))
-        one, two = unit(after - here), unit(before - here)
-        angle = np.arctan2(np.linalg.norm(np.cross(one, two), axis=1), np.einsum("ij,ij->i", one, two))
-        np.add.at(total, faces[:, i], angle[:, None] * flat)
+        np.add.at(total, faces[:, i], angles[:, i, None] * sides[:, i])
     # Where faces cancel (a folded leaf), any one of them will do.
     lost = np.linalg.norm(total, axis=1) < 1e-9
     any_face = np.zeros_like(total)
     any_face[faces.reshape(-1)] = np.repeat(flat, 3, axis=0)
     return unit(np.where(lost[:, None], any_face, total))
+
+
+def corner_angles(vertices: Floats, faces: Ints) -> Floats:
+    """(F, 3) angles of the faces at their corners, radians."""
+    found = np.empty(faces.shape)
+    for i in range(3):
+        here, after, before = (vertices[faces[:, (i + j) % 3]] for j in range(3))
+        one, two = unit(after - here), unit(before - here)
+        found[:, i] = np.arctan2(np.linalg.norm(np.cross(one, two), axis=1), np.einsum("ij,ij->i", one, two))
+    return found
 
 
 def smoother(vertices: int, faces: Ints) -> csr_array:
