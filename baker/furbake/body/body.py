@@ -173,7 +173,7 @@ def _skin(model: str, options: BakeOptions) -> Surface:
 def _divided(model: str, skin: Surface, ground: Surface, options: BakeOptions) -> tuple[Surface, Surface, Size]:
     """Skin and ground with normals that turn within a hair's length along sharp edges, and the size of their fur."""
     size = sized(ground, skin.extent, options)
-    divided = divide(ground, TURN * size.length, MANY_FACES)
+    divided = divide(ground, TURN * size.length * size.shares, MANY_FACES)
     if divided is ground:
         return skin, ground, size
     size = sized(divided, skin.extent, options)

@@ -33,32 +33,33 @@ FEW = 0.01
 """Share of the area up to which faces along sharp edges are left: creases by chance of a round body."""
 
 
-def divide(surface: Surface, length: float, most: int) -> Surface:
-    """The surface with the faces along its sharp edges divided until they are as small as `length`, model units.
+def divide(surface: Surface, lengths: Floats, most: int) -> Surface:
+    """The surface with the faces along its sharp edges divided until they are as small as the `lengths` there.
 
-    most : faces; where there would be more, those along sharp edges stay larger. The surface itself is returned where
-    there are hardly any, and of built-in shapes.
+    lengths : (V,) model units; most : faces; where there would be more, those along sharp edges stay larger. The
+    surface itself is returned where there are hardly any, and of built-in shapes.
     """
     if len(surface.faces) >= most or surface.natural is not None:
         return surface
     sides = _sides(surface.vertices, surface.faces)
-    width = max(length, FINEST * surface.extent)
-    while len((pieces := _divided(surface, sides, width, most)).faces) > most:
-        width *= COARSER
+    sizes = np.maximum(lengths, FINEST * surface.extent)
+    while len((pieces := _divided(surface, sides, sizes, most)).faces) > most:
+        sizes *= COARSER
     areas = np.linalg.norm(face_vectors(surface.vertices, surface.faces), axis=1)
     parted = np.bincount(pieces.parent) > 1
     return _carried(surface, pieces, sides) if areas[parted].sum() > FEW * areas.sum() else surface
 
 
-def _divided(surface: Surface, sides: Floats, width: float, most: int) -> Pieces:
-    """Triangles that touch a sharp edge are no larger than `width`; it stops above `most` of them."""
+def _divided(surface: Surface, sides: Floats, sizes: Floats, most: int) -> Pieces:
+    """Triangles that touch a sharp edge are no larger than `sizes`, (V,); it stops above `most` of them."""
     pieces = whole(surface.vertices, surface.faces)
     while len(pieces.faces) <= most:
         own = _turned(pieces, sides)
         normals = angle_normals(pieces.vertices, pieces.faces, own)
         sharp = (np.einsum("fij,fij->fi", own, normals[pieces.faces]) < SHARP).any(axis=1)
         corners = pieces.vertices[pieces.faces]
-        large = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2).max(axis=1) > width
+        wanted = pieces.carried(sizes[surface.faces][..., None]).max(axis=(1, 2))
+        large = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2).max(axis=1) > wanted
         if not (sharp & large).any():
             break
         pieces = bisect(pieces, sharp & large)

@@ -28,13 +28,18 @@ def as_mesh(surface: Surface) -> trimesh.Trimesh:
     return trimesh.Trimesh(surface.vertices, surface.faces, process=False)
 
 
+def parted(surface: Surface, length: float, most: int = MANY) -> Surface:
+    """The surface divided for fur of one length."""
+    return divide(surface, np.full(len(surface.vertices), length), most)
+
+
 def angles_to(normals: np.ndarray, way: np.ndarray) -> np.ndarray:
     return np.degrees(np.arccos(np.clip(np.einsum("...i,...i->...", normals, way), -1, 1)))
 
 
 @pytest.mark.parametrize("length", [0.3, 0.1, 0.02])
 def test_box_is_flat_but_along_its_edges(length: float) -> None:
-    box = divide(surface_of(trimesh.creation.box((1, 2, 3))), length, MANY)
+    box = parted(surface_of(trimesh.creation.box((1, 2, 3))), length)
     far = np.sort(np.array([0.5, 1.0, 1.5]) - np.abs(box.vertices), axis=1)
     on_one_face = far[:, 1] > 1e-9
     side = np.argmin(np.array([0.5, 1.0, 1.5]) - np.abs(box.vertices), axis=1)
@@ -60,7 +65,7 @@ def test_box_is_flat_but_along_its_edges(length: float) -> None:
 )
 def test_shape_stays_without_gaps(mesh: trimesh.Trimesh) -> None:
     before = surface_of(mesh)
-    after = divide(before, 0.05, MANY)
+    after = parted(before, 0.05)
     assert len(before.faces) < len(after.faces) <= MANY
     whole, parts = as_mesh(before), as_mesh(after)
     assert parts.is_watertight
@@ -73,8 +78,19 @@ def test_shape_stays_without_gaps(mesh: trimesh.Trimesh) -> None:
     np.testing.assert_allclose(np.linalg.norm(after.normals, axis=1), 1.0)
 
 
+def test_short_fur_wants_smaller_faces() -> None:
+    """Where the fur is short, along one side of the box, normals turn within less."""
+    box = surface_of(trimesh.creation.box())
+    after = divide(box, np.where(box.vertices[:, 0] > 0, 0.03, 0.3), MANY)
+    sizes = as_mesh(after).edges_unique_length
+    middles = after.vertices[as_mesh(after).edges_unique].mean(axis=1)
+    short, long = np.abs(middles[:, 0] - 0.5) < 1e-9, np.abs(middles[:, 0] + 0.5) < 1e-9
+    assert sizes[short].min() < 0.03
+    assert sizes[long].min() > 0.1
+
+
 def test_cone_is_round_up_to_its_tip() -> None:
-    cone = divide(surface_of(trimesh.creation.cone(1.0, 1.0, sections=48)), 0.05, MANY)
+    cone = parted(surface_of(trimesh.creation.cone(1.0, 1.0, sections=48)), 0.05)
     x, y, z = cone.vertices.T
     radius = np.hypot(x, y)
     mantle = (z > 1e-9) & (radius > 0.1)
@@ -96,7 +112,7 @@ def test_cone_is_round_up_to_its_tip() -> None:
 )
 def test_round_bodies_of_few_faces_stay(mesh: trimesh.Trimesh) -> None:
     surface = surface_of(mesh)
-    assert divide(surface, 0.01, MANY) is surface
+    assert parted(surface, 0.01) is surface
 
 
 def test_hardly_any_sharp_edge_is_left() -> None:
@@ -105,20 +121,20 @@ def test_hardly_any_sharp_edge_is_left() -> None:
     dented = ball.vertices.copy()
     dented[100] *= 0.8
     dented = replace(ball, vertices=dented)
-    assert divide(dented, 0.01, MANY) is dented
+    assert parted(dented, 0.01) is dented
     coarse = builtin("torus:4x4")
-    assert divide(coarse, 0.01, MANY) is coarse
+    assert parted(coarse, 0.01) is coarse
 
 
 def test_few_faces_are_asked_for() -> None:
     """Edges stay larger where the faces would be too many, all of them alike."""
     box = surface_of(trimesh.creation.box())
-    few = divide(box, 0.01, 2000)
+    few = parted(box, 0.01, 2000)
     assert 500 < len(few.faces) <= 2000
     per_side = np.unique(np.abs(few.normals).round(3), axis=0, return_counts=True)
     flat = per_side[1][(per_side[0] == 1).any(axis=1)]
     assert flat.max() < 1.5 * flat.min()
-    assert divide(box, 0.01, 12) is box
+    assert parted(box, 0.01, 12) is box
 
 
 def test_everything_painted_comes_along() -> None:
@@ -137,7 +153,7 @@ def test_everything_painted_comes_along() -> None:
             Skin(blue, np.arange(8), box.faces[6:], colour=np.column_stack([0.5 + box.vertices, np.ones(8)])),
         ),
     )
-    after = divide(box, 0.1, MANY)
+    after = parted(box, 0.1)
     assert after.colours is not None
     assert after.uv is not None
     np.testing.assert_allclose(after.colours, 0.5 + after.vertices, atol=1e-12)
