@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from furbake.cli.parsing import Argument, Command, action, option, switch, unset_switch
-from furbake.cli.values import GUIDE, NAMES, NUMBER, PLACE, SETTING, WHOLE
+from furbake.cli.values import GUIDE, NAMES, NUMBER, PLACE, SETTING, WHOLE, NewFile, Place
 from furbake.options.knobs import BITS, FOLLOW, KNOBS, MAX_FACES
 
 QUIET = "no progress, no summary"
@@ -23,9 +23,9 @@ def folder(text: str = "", **settings: object) -> Argument:
     return Argument("folder", "DIR", text, type=PLACE, **settings)
 
 
-def out(metavar: str, text: str) -> click.Option:
+def out(metavar: str, text: str, kind: Place = PLACE) -> click.Option:
     """The file or folder that is written."""
-    return option("-o", "--out", metavar=metavar, type=PLACE, required=True, help=text)
+    return option("-o", "--out", metavar=metavar, type=kind, required=True, help=text)
 
 
 def preset_options(default: str | None) -> list[click.Option]:
@@ -145,7 +145,7 @@ LESSON = [
 
 GROOM = [
     folder(),
-    out("FILE.npz|FILE.usdc", "file to write"),
+    out("FILE.npz|FILE.usdc", "file to write", NewFile(".npz", ".usdc", ".usda", ".usd")),
     switch("--json", "what was written as one JSON object"),
     switch("--quiet", QUIET),
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from furbake.cli.parsing import Argument, Command, Many, action, option, switch
-from furbake.cli.values import NAMES, NUMBER, PLACE, SHARE, WHOLE, Whole
+from furbake.cli.values import NAMES, NUMBER, PLACE, SHARE, WHOLE, NewFile, Whole
 from furbake.options.knobs import KNOBS, MAX_FACES
 from furbake.study.bend import AZIMUTHS, TIPS
 from furbake.study.trim import LENGTHS
@@ -33,7 +33,10 @@ QUIET = switch("--quiet", "no progress")
 VERIFY = [
     Argument("folder", "DIR", type=PLACE),
     switch("--body", "the strands on their body, beside the page's own shader (needs Node)"),
-    option("-o", "--out", "--picture", "out", metavar="FILE.png", type=PLACE, help="picture with both side by side"),
+    option(
+        "-o", "--out", "--picture", "out", metavar="FILE.png", type=NewFile(".png"),
+        help="picture with both side by side",
+    ),
     option("--spp", metavar="N", type=WHOLE, help=f"paths per pixel (default: {SAMPLES}, with --body {SPP})"),
     option("--size", metavar="N", type=WHOLE, default=SIZE, help=f"with --body: pixels across (default: {SIZE})"),
     option(
@@ -56,7 +59,9 @@ VERIFY = [
         "--groom", metavar="FILE", type=PLACE,
         help="fields of a baked groom beside strands they have not seen; with --body: the strands that are the truth",
     ),
-    option("--truth", metavar="FILE.npz", type=PLACE, help="with --body: keeps what was traced for the next run"),
+    option(
+        "--truth", metavar="FILE.npz", type=NewFile(".npz"), help="with --body: keeps what was traced for the next run"
+    ),
     option(
         "--cycles", metavar="PYTHON", type=PLACE,
         help="with --body: truth by Blender's path tracer, of this Python (pip install bpy==4.5.*), not by Mitsuba",

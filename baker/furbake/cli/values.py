@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from typing import Any
 
 import click
@@ -133,6 +134,22 @@ class Place(click.ParamType[str]):
         except UnicodeEncodeError:  # as bytes of it that are not UTF-8 come in: image libraries take no other
             self.fail(f"got {value!r}, expected a path in UTF-8", param, ctx)
         return str(value)
+
+
+class NewFile(Place):
+    """A file to write: minutes of work want to know beforehand whether it can be."""
+
+    def __init__(self, *endings: str) -> None:
+        self.endings = endings
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """The path. Fails for other endings, and where there is no folder for it."""
+        path = Path(super().convert(value, param, ctx))
+        if path.suffix.lower() not in self.endings:
+            self.fail(f"got {path}, expected a name that ends in {' or '.join(self.endings)}", param, ctx)
+        if not path.parent.is_dir():
+            self.fail(f"got {path}, expected a file in a folder that exists", param, ctx)
+        return str(path)
 
 
 WHOLE, NUMBER, SIZE, SHARE, DIRECTION, SETTING = Whole(), Number(), Size(), Share(), Direction(), Setting()

@@ -154,6 +154,10 @@ BAD_COMMANDS = {
     ("swatch", "--preset", "cat", "-o", "x.png"): "preset: got 'cat', expected one of",
     ("swatch", "nope", "-o", "x.png", "--light", "1,2"): "light: got '1,2', expected three numbers X,Y,Z",
     ("report", "nope"): "nope: no such folder, expected a folder that furbake wrote",
+    ("groom", "nope", "-o", "x.foo"): "out: got x.foo, expected a name that ends in .npz or .usdc or .usda or .usd",
+    ("verify", "nope", "-o", "x.gif"): "out: got x.gif, expected a name that ends in .png",
+    ("verify", "nope", "-o", "no/x.png"): "out: got no/x.png, expected a file in a folder that exists",
+    ("verify", "nope", "--body", "--truth", "no/x.npz"): "truth: got no/x.npz, expected a file in a folder that exists",
     ("verify", "nope"): "nope: no such folder, expected a folder that furbake wrote",
     (
         "verify",
