@@ -10,7 +10,7 @@ const web = fileURLToPath(new URL('../../web/', import.meta.url));
 
 /** Rooms and files of the library from the ground up; those of one floor do not import each other. */
 const floors = [
-	['format'],
+	['format', 'needFur'],
 	['light', 'body', 'fins'],
 	['planes'],
 	['weather', 'motion'],

@@ -1,6 +1,7 @@
 import { shareGeometry } from './body/shareGeometry.ts';
 import { Fur } from './Fur.ts';
 import { type FurAsset, tileOf } from './format.ts';
+import { needFur } from './needFur.ts';
 import { copyLight } from './shells/look.ts';
 
 /** Options of `dressFur`. */
@@ -23,6 +24,8 @@ export interface FurDressOptions {
  * close; lapped ones don't.
  */
 export function dressFur(body: Fur, pelt: Fur, { tips = 1 }: FurDressOptions = {}): Fur {
+	needFur('dressFur', body);
+	needFur('dressFur', pelt);
 	const { ground } = body;
 	const length = (pelt.asset.length * ground.skin.extent) / pelt.ground.skin.extent;
 	const tile = (length * tileOf(pelt.asset)) / pelt.asset.length;

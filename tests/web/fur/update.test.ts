@@ -3,10 +3,13 @@
 import { readFileSync } from 'node:fs';
 import { Color, Group, Mesh, Object3D, SphereGeometry, Texture } from 'three';
 import { describe, expect, it, vi } from 'vitest';
+import { furMethod } from '../../../web/fur/baselines/furMethod.ts';
 import type { Skin } from '../../../web/fur/body/skin/Skin.ts';
+import { dressFur } from '../../../web/fur/dressFur.ts';
 import { Fur, type Ground } from '../../../web/fur/Fur.ts';
 import { parseFur } from '../../../web/fur/format/extension.ts';
 import type { FurAsset } from '../../../web/fur/format.ts';
+import { FurInstances } from '../../../web/fur/herd/FurInstances.ts';
 import { FurMotion } from '../../../web/fur/motion/FurMotion.ts';
 import type { PeltStates } from '../../../web/fur/planes/PeltStates.ts';
 import { updateFurs } from '../../../web/fur/updateFurs.ts';
@@ -107,4 +110,22 @@ it('has its length in the units of the model', () => {
 	expect([own.length / asset.length, own.shells.furLength / asset.length, own.material.trim]).toEqual([1.5, 1.5, 1]);
 	expect(() => Object.assign(own, { length: Number.NaN })).toThrow('fur.length: got NaN, expected 0 or more');
 	expect(own.length).toBeCloseTo(1.5 * asset.length, 12);
+});
+
+it.each([
+	['dressFur', () => dressFur(pair()[0], undefined as unknown as Fur)],
+	['dressFur', () => dressFur(undefined as unknown as Fur, pair()[0])],
+	['FurMotion', () => new FurMotion(undefined as unknown as Fur)],
+	['FurWeather', () => new FurWeather(undefined as unknown as Fur)],
+	['FurInstances', () => new FurInstances(undefined as unknown as Fur, 3)],
+	['furMethod', () => furMethod(undefined as unknown as Fur, 'unlit')],
+])('%s says so where a model has no fur', (name, use) => {
+	expect(use).toThrow(`${name}: got undefined, expected a fur, gltf.userData.fur of a model that has one`);
+});
+
+it('has a number of shells', () => {
+	const [own] = pair();
+	const before = own.shells.shellCount;
+	expect(() => Object.assign(own.shells, { shellCount: Number.NaN })).toThrow('got NaN, expected 1 to 256');
+	expect(own.shells.shellCount).toBe(before);
 });

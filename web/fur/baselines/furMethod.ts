@@ -1,5 +1,6 @@
 import type { Mesh } from 'three';
 import type { FurTextures } from '../light/texels.ts';
+import { needFur } from '../needFur.ts';
 import type { FurMaterial } from '../shells/FurMaterial.ts';
 import { BaselineMaterial } from './BaselineMaterial.ts';
 import { DeepOpacityMaps, type MapOptions, type MappedFur } from './DeepOpacityMaps.ts';
@@ -54,6 +55,7 @@ export interface FurMethod {
  * @throws Error for another name, and for `shadow-layers` without the option `renderer`
  */
 export function furMethod(fur: FurMethodTarget, name: FurMethodName, given: FurMethodOptions = {}): FurMethod {
+	needFur('furMethod', fur);
 	const options = { direction: fur.textures.direction, ...given };
 	const mesh: Mesh = fur.shells;
 	const current = mesh.material;

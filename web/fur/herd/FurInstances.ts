@@ -1,6 +1,7 @@
 import { type Camera, Frustum, Matrix4, Object3D, type OrthographicCamera, Sphere } from 'three';
 import type { Fur } from '../Fur.ts';
 import { tileOf } from '../format.ts';
+import { needFur } from '../needFur.ts';
 import { coarserShare, crispnessFor, cutFor, pixelsPerUnit, shellsFor } from '../shells/lod.ts';
 import { BodyHull, BodyLevel, BodyMaterial } from './BodyLevel.ts';
 import { boundAll, cullBodies, cutLevels, type Eye, findEye, levelOf, measurePowers, sortFarFirst } from './bodies.ts';
@@ -92,6 +93,7 @@ export class FurInstances extends Object3D {
 	 */
 	constructor(fur: Fur, capacity: number, levels: readonly number[] = LEVELS) {
 		super();
+		needFur('FurInstances', fur);
 		this.name = 'fur instances';
 		this.#fur = fur;
 		this.capacity = this.#count = capacity;

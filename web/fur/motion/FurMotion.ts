@@ -3,6 +3,7 @@ import { FurAttachment } from '../body/FurAttachment.ts';
 import type { FurFollicles } from '../body/FurFollicles.ts';
 import { Morphs } from '../body/Morphs.ts';
 import type { FurAsset } from '../format.ts';
+import { needFur } from '../needFur.ts';
 import { BodyMotion } from './BodyMotion.ts';
 import { CpuSprings } from './CpuSprings.ts';
 import { calm, type Drive } from './drive.ts';
@@ -82,6 +83,7 @@ export class FurMotion extends FurAttachment {
 	/** @param body fur to attach to, in place of its motion before; not one made by `dressFur` */
 	constructor(body: FurMotionBody, options: FurMotionOptions = {}) {
 		super();
+		needFur('FurMotion', body);
 		const { frequency, damping, coupling, relaxation, gravity, seed, clock } = completed(options);
 		const { shells, asset, follicles } = body;
 		this.#renderer = options.renderer;

@@ -3,6 +3,7 @@
 import { DataTexture, Matrix4, type Object3D, RGFormat, UnsignedByteType, Vector3 } from 'three';
 import { FurAttachment } from '../body/FurAttachment.ts';
 import type { FurFollicles } from '../body/FurFollicles.ts';
+import { needFur } from '../needFur.ts';
 
 /** Byte that stores 1; divisible by 2, 3, 4, 5, 6 and 8, so that the usual states are exact. */
 export const STAIN_STEPS = 240;
@@ -76,6 +77,7 @@ export class FurWeather extends FurAttachment {
 	/** @param body fur to attach to, in place of its weather before */
 	constructor(body: FurWeatherBody, { drying = 40 }: FurWeatherOptions = {}) {
 		super();
+		needFur('FurWeather', body);
 		this.#body = body;
 		this.#follicles = body.follicles;
 		this.#rate = 1 / drying;
