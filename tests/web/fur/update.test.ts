@@ -122,10 +122,3 @@ it.each([
 ])('%s says so where a model has no fur', (name, use) => {
 	expect(use).toThrow(`${name}: got undefined, expected a fur, gltf.userData.fur of a model that has one`);
 });
-
-it('has a number of shells', () => {
-	const [own] = pair();
-	const before = own.shells.shellCount;
-	expect(() => Object.assign(own.shells, { shellCount: Number.NaN })).toThrow('got NaN, expected 1 to 256');
-	expect(own.shells.shellCount).toBe(before);
-});

@@ -130,7 +130,6 @@ export class FurShells extends PosedMesh<InstancedBufferGeometry, FurMaterial> {
 	}
 
 	set shellCount(value: number) {
-		if (Number.isNaN(value)) throw new RangeError('shells.shellCount: got NaN, expected 1 to 256');
 		this.automatic = false;
 		this.#draw(value);
 	}
