@@ -158,7 +158,8 @@ def _furry(
 
 def _roots(body: Body, options: BakeOptions, dry: Pelt) -> Roots | None:
     """The picture of the roots; None where hairs have the colours of the vertices."""
-    coloured = body.fur.colour is not None and textured(body.skin) and dry.curves is not None
+    own = body.fur.own is not None  # an artist gave hairs their colours
+    coloured = body.fur.colour is not None and not own and textured(body.skin) and dry.curves is not None
     if options.colour == "vertex" or options.swatch is not None or not coloured:
         return None
     return picture_of_roots(body.skin, body.ground, body.charts, dry.drift[-1], options.size)

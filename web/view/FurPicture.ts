@@ -136,7 +136,7 @@ export class FurPicture {
 	fit(aspect: number): void {
 		if (aspect === this.#aspect) return;
 		this.#aspect = aspect;
-		this.camera.frame(this.centre, this.radius, aspect);
+		this.#aim();
 	}
 
 	/** Moves light and clip on. @returns whether the picture changes */
@@ -175,7 +175,12 @@ export class FurPicture {
 		this.#shine();
 		const length = fur?.shells.furLength ?? 0.05 * this.radius;
 		fitFurShadow(this.#key, new Sphere(this.centre, this.radius + length), length);
-		this.camera.frame(this.centre, this.radius, this.#aspect);
+		this.#aim();
+	}
+
+	/** Fits the camera to body and fur. */
+	#aim(): void {
+		this.camera.frame(this.centre, this.radius, this.#shown?.fur?.asset.length ?? 0, this.#aspect);
 	}
 
 	/** Fits ground and shadow to the body's pose; one clip needs other room than another. */

@@ -1,16 +1,16 @@
 /** Camera that orbits a body. */
 
 import { MathUtils, PerspectiveCamera, Vector3 } from 'three';
+import { framedRadius } from '../scene/framed.ts';
 import { clampCamera, type Triple } from './attributes.ts';
 
 /** Degrees, of the picture's height. */
 const FIELD_OF_VIEW = 26;
-/** Radius that fits into the picture, in radii of the body: leaves room for fur and lamp. */
-const MARGIN = 1.2;
 
 export class OrbitCamera extends PerspectiveCamera {
 	readonly #centre = new Vector3();
 	#radius = 1;
+	#length = 0;
 	#orbit: Triple = [0, 0, 1];
 
 	constructor() {
@@ -27,10 +27,11 @@ export class OrbitCamera extends PerspectiveCamera {
 		this.#place();
 	}
 
-	/** Fits a body into a picture. @param aspect of the picture, width over height */
-	frame(centre: Vector3, radius: number, aspect: number): void {
+	/** Fits a body into a picture. @param length of its longest hairs; @param aspect of the picture, width over height */
+	frame(centre: Vector3, radius: number, length: number, aspect: number): void {
 		this.#centre.copy(centre);
 		this.#radius = radius;
+		this.#length = length;
 		this.aspect = aspect;
 		this.#place();
 	}
@@ -38,7 +39,7 @@ export class OrbitCamera extends PerspectiveCamera {
 	#place(): void {
 		const [azimuth, elevation, distance] = this.#orbit;
 		const half = Math.tan(MathUtils.degToRad(FIELD_OF_VIEW / 2)) * Math.min(1, this.aspect);
-		const away = (distance * MARGIN * this.#radius) / Math.sin(Math.atan(half));
+		const away = (distance * framedRadius(this.#radius, this.#length)) / Math.sin(Math.atan(half));
 		this.position
 			.setFromSphericalCoords(away, MathUtils.degToRad(90 - elevation), MathUtils.degToRad(azimuth))
 			.add(this.#centre);

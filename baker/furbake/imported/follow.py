@@ -17,7 +17,7 @@ POINTS = 12
 """Points of a follower."""
 
 BARE, COVERED = 0.5, 2.0
-"""Width times length of all strands over the area below which a groom is one of guides, and to which it is filled."""
+"""Width times length of all strands over the area below which hairs are added between them, and up to which."""
 
 UNLIKE = 0.25
 """Length of a neighbour over a guide's beyond which no hair lies between them."""
@@ -32,11 +32,15 @@ def cover(bound: Bound, area: float) -> float:
 
 
 def followers(bound: Bound, area: float, asked: int | None) -> int:
-    """Number of followers of each guide: as asked, or as many as cover the skin; 0 where the groom does by itself."""
+    """Number of followers of each guide: as asked, or as many as cover the skin; 0 where the groom does by itself.
+
+    Grooms that hardly cover it are sparse on purpose, far fewer strands are guides: what is added rises gradually.
+    """
     if asked is not None:
         return asked
-    covered = cover(bound, area)
-    return 0 if covered >= BARE else min(MOST, round(COVERED / max(covered, 1e-9)) - 1)
+    covered = max(cover(bound, area), 1e-9)
+    wanted = min(COVERED, BARE * BARE / covered)
+    return min(MOST, max(round(wanted / covered) - 1, 0))
 
 
 def filled(bound: Bound, count: int, seed: int) -> Curves:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 import trimesh
+from PIL import Image
 from scipy.stats import ks_2samp
 
 from furbake.asset.read import read_asset
@@ -56,9 +57,26 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def baked(files: Path) -> Path:
-    options = BakeOptions(groom=str(files / "groom.npz"), **BAKE)
+    options = BakeOptions(groom=str(files / "groom.npz"), follow=3, **BAKE)
     bake(str(files / "ball.obj"), files / "out", options)
     return files / "out"
+
+
+def test_hairs_with_colours_take_none_of_the_skins_picture(tmp_path: Path) -> None:
+    shape = trimesh.creation.icosphere(3)
+    stripes = Image.fromarray(np.tile(np.array([[[230, 90, 20]], [[20, 60, 200]]], np.uint8), (8, 16, 1)))
+    uv = 0.5 + 0.4 * shape.vertices[:, :2]
+    material = trimesh.visual.material.PBRMaterial(baseColorTexture=stripes)
+    shape.visual = trimesh.visual.TextureVisuals(uv=uv, material=material)
+    (tmp_path / "ball.glb").write_bytes(shape.export(file_type="glb"))
+    points = strands(3000)
+    grey = np.full((*points.shape[:2], 3), 0.6)
+    for name, colours in (("grey", {"colours": grey}), ("none", {})):
+        np.savez(tmp_path / f"{name}.npz", points=points, widths=np.full(points.shape[:2], 0.01), **colours)
+        bake(str(tmp_path / "ball.glb"), tmp_path / name, BakeOptions(groom=str(tmp_path / f"{name}.npz"), **BAKE))
+        assert validate(tmp_path / name) == []
+    assert "roots" not in read_asset(tmp_path / "grey").fur
+    assert "roots" in read_asset(tmp_path / "none").fur
 
 
 def test_roots_are_bound_and_floating_strands_counted(ball: Surface) -> None:
@@ -134,12 +152,29 @@ def test_the_distance_of_samples_is_that_of_another_library() -> None:
     assert distance(one, two) == pytest.approx(ks_2samp(one, two).statistic)
 
 
+def test_hairs_are_added_gradually(ball: Surface) -> None:
+    """A little thinner strands never make the fur much denser; few of them are filled to twice the skin."""
+    points = strands(1000)
+    area = 4 * np.pi
+    filled_to = []
+    for share in np.geomspace(0.05, 1.0, 40):
+        widths = np.full(points.shape[:2], share * area / (1000 * 0.2), np.float32)
+        bound = bind("a", replace(curves(points), widths=widths.ravel()), ball)
+        filled_to.append(share * (1 + followers(bound, area, None)))
+    assert filled_to[-1] == 1.0
+    assert max(filled_to) < 2.3
+    assert filled_to[0] > 0.8
+    # One hair more beside each is the least step.
+    assert np.max(np.array(filled_to[:-1]) / filled_to[1:]) < 2
+    assert followers(bound, area, 5) == 5
+
+
 def test_a_bake_wears_the_groom(baked: Path) -> None:
     assert validate(baked) == []
     asset = read_asset(baked)
     record = asset.record["groom"]
     assert record["strands"] == 3000
-    assert record["follow"] >= 1
+    assert record["follow"] == 3
     found = groom(baked)
     lengths = np.linalg.norm(np.diff(found.points, axis=1), axis=2).sum(axis=1)
     assert np.median(lengths) == pytest.approx(0.2, rel=0.1)

@@ -217,6 +217,7 @@ BAD = {
     "point.obj": (POINT.encode(), "point.obj: all faces have zero area, expected a surface"),
     "huge.obj": (HUGE.encode(), f"huge.obj: largest side is 1e+30 units, expected 1e-09 to {LARGEST:g}"),
     "what.foo": (b"1", "what.foo: file type is 'foo', expected one of "),
+    "head.blend": (b"1", "head.blend: is a scene of Blender, expected a mesh file such as .glb, or a bake in Blender"),
     "noise.glb": (bytes(range(256)), "noise.glb: cannot be read as glb ("),
     "short.ply": (ball.export(file_type="ply")[:-40], "short.ply: cannot be read as ply ("),
     "draco.glb": (

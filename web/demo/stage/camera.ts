@@ -14,12 +14,11 @@ import {
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Room } from '../../page/room.ts';
+import { framedRadius } from '../../scene/framed.ts';
 import type { Model } from '../../scene/model.ts';
 import type { Triple } from '../state/view.ts';
 
 const FIELD_OF_VIEW = 26; // degrees, of the window's height
-/** Radius that fits into the room, in radii of the model: leaves room for fur and lamp. */
-const MARGIN = 1.2;
 const MIN_DISTANCE = 0.25; // in units of the distance at which the model fits
 /** The same from a point aside of the model's middle, such as a paw. */
 const MIN_DISTANCE_ASIDE = 0.05;
@@ -31,6 +30,8 @@ export interface Framed {
 	/** Radius of the sphere that is fitted in: of the body, or of the middle of a crowd. */
 	radius: number;
 	bodyRadius: number;
+	/** Of the longest hairs as they were baked: longer ones do not move the camera. */
+	furLength: number;
 	model: Pick<Model, 'box'> | undefined;
 }
 
@@ -117,11 +118,11 @@ export class OrbitCamera extends PerspectiveCamera {
 	 * @param width of the picture in CSS pixels
 	 * @param room part of the picture
 	 */
-	frame({ centre, radius, bodyRadius, model }: Framed, width: number, height: number, room: Room): void {
+	frame({ centre, radius, bodyRadius, furLength, model }: Framed, width: number, height: number, room: Room): void {
 		const orbit = this.orbit;
 		const vertical = Math.tan(MathUtils.degToRad(FIELD_OF_VIEW / 2));
 		const narrow = Math.atan(vertical * Math.min(room.width / height, room.height / height));
-		this.#fit = (MARGIN * radius) / Math.sin(narrow);
+		this.#fit = framedRadius(radius, furLength) / Math.sin(narrow);
 		this.#radius = radius;
 		this.#bodyRadius = bodyRadius;
 		this.#framing = true;

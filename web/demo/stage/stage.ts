@@ -47,6 +47,8 @@ export class Stage {
 	radius = 1;
 	/** Radius of one body, in a crowd too. */
 	bodyRadius = 1;
+	/** Longest hairs of its fur, as they were baked. */
+	furLength = 0;
 	model: Model | undefined;
 	/** True once centre and radius have changed by themselves; who frames them sets it back. */
 	reframed = false;
@@ -141,6 +143,7 @@ export class Stage {
 	/** Fits light and camera to what is on show. */
 	#frame(model: Model): void {
 		this.bodyRadius = model.radius;
+		this.furLength = this.#fur?.asset.length ?? 0;
 		this.radius = this.#crowd?.radius ?? model.radius;
 		model.box.getCenter(this.centre);
 		const length = this.#fur?.shells.furLength ?? 0.05 * model.radius;

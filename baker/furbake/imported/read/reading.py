@@ -16,7 +16,7 @@ from furbake.surface.limits import Budget
 from furbake.surface.soup import MeshError
 from furbake.usd.stage import ENDINGS, Stage, UsdCurves, UsdError, read_stage
 
-ALEMBIC = "Alembic has no reader of ours: open it in Blender (File, Import, Alembic) and export it as USD"
+ALEMBIC = "Alembic has no reader of ours: open it in Blender (File, Import, Alembic) and bake it there"
 
 KINDS = (".npz", ".hair", ".tfx", *ENDINGS)
 

@@ -57,6 +57,8 @@ def read(path: Path) -> Reading:
             raise MeshError(f"{name}: no such file, expected a mesh file or sphere, plane, plane:RxC, torus, torus:RxC")
         if kind in STAGES:
             return _reading(name, read_usd(path))
+        if kind == "blend":
+            raise MeshError(f"{name}: is a scene of Blender, expected a mesh file such as .glb, or a bake in Blender")
         if kind not in (*MESHES, *ARCHIVES):
             raise MeshError(f"{name}: file type is '{kind}', expected one of {', '.join((*MESHES, *ARCHIVES))}")
         model = source(path)
