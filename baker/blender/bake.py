@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-import re
+import os
 import shutil
 import time
 from pathlib import Path
@@ -13,7 +13,7 @@ import bpy
 
 from .body import write_body
 from .command import arguments, found
-from .hairs import sources, write_hairs
+from .hairs import looked_for, write_hairs
 from .job import Job, JobError
 from .settings import baked_folder, preferred_command
 
@@ -31,30 +31,50 @@ class Baking:
         """Write the files and start the command. Raises JobError where anything is missing."""
         chosen, command = thing.furbake, found(preferred_command(context))
         self.thing, self.folder = thing.name, baked_folder(thing)
-        self._scratch = Path(mkdtemp(prefix="furbake-"))
+        self._scratch = Path(mkdtemp(prefix="furbake-")).resolve()
         try:
             body = self._scratch / f"{self.folder.name}.glb"
+            self._named = {str(body): thing.name}
             self.notes = write_body(
                 context, thing, body, length=chosen.length_group, mask=chosen.mask_group, clips=chosen.clips
             )
-            groom = None
-            if chosen.hairs and any(sources(thing)):
-                groom = self._scratch / "hairs.npz"
-                count = write_hairs(context, thing, groom)
-                self.notes.append(f"{count} hairs")
-            self.job = Job([command, *arguments(chosen, body, groom, self.folder)], self._scratch)
+            groom = self._groom(context, thing) if chosen.hairs else None
+            if (unit := context.scene.unit_settings.scale_length) != 1:
+                self.notes.append(f"lengths are Blender units, {unit:g} m each by the scene's Unit Scale")
+            given = arguments(chosen, body, groom, self.folder, bpy.path.abspath)
+            # Paths in the options may begin at the .blend file.
+            home = Path(bpy.data.filepath).parent if bpy.data.filepath else self._scratch
+            self.job = Job([command, *given], home)
         except BaseException:
             self.clear()
             raise
+
+    def _groom(self, context: bpy.types.Context, thing: bpy.types.Object) -> Path | None:
+        """The file of the object's hairs; None where it has none."""
+        here, notes = looked_for(context, thing)
+        self.notes += notes
+        if not here:
+            return None
+        path = self._scratch / "hairs.npz"
+        self._named[str(path)] = f"hairs of {thing.name}"
+        self.notes += write_hairs(context, thing, path)
+        return path
 
     def result(self) -> str:
         """Wait for the command, clear up, and say what it made. Raises JobError where it failed or was cancelled."""
         try:
             return summary(self.job.result())
+        except JobError as error:
+            raise JobError(self._plain(str(error))) from error
         finally:
-            # Names of its own files mean nothing to the artist.
-            self.notes += [re.sub(rf"^{re.escape(str(self._scratch))}\S*: ", "", note) for note in self.job.notes]
+            self.notes += map(self._plain, self.job.notes)
             self.clear()
+
+    def _plain(self, text: str) -> str:
+        """A message whose files are things of the artist's, not those that were written for the command."""
+        for path, name in self._named.items():
+            text = text.replace(path, name)
+        return text.replace(f"{self._scratch}{os.sep}", "")
 
     def clear(self) -> None:
         shutil.rmtree(self._scratch, ignore_errors=True)

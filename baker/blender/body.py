@@ -9,7 +9,7 @@ import numpy as np
 
 from .hairs import sources
 from .job import JobError
-from .scene import a_copy, armatures, at_rest, hidden
+from .scene import a_copy, armatures, at_rest, hidden, rendered
 
 LENGTH, MASK = "_LENGTH", "_MASK"
 """Attributes of the vertices that furbake reads: share of the longest fur, and where fur grows."""
@@ -18,7 +18,7 @@ LENGTH, MASK = "_LENGTH", "_MASK"
 def write_body(
     context: bpy.types.Context, thing: bpy.types.Object, path: Path, *, length: str = "", mask: str = "", clips: bool
 ) -> list[str]:
-    """Write a mesh object, y up, in metres; notes for the artist.
+    """Write a mesh object as it is rendered, y up, in Blender units; notes for the artist.
 
     length, mask : names of vertex groups; clips : whether actions come along
 
@@ -28,12 +28,16 @@ def write_body(
         if group not in thing.vertex_groups:
             raise JobError(f"{thing.name}: no vertex group {group}, expected one of its own")
     notes = []
-    with hidden(sources(thing)[0]), at_rest(context, thing), a_copy(context, thing, deep=True) as copy:
+    with (
+        hidden(sources(thing)[0]), at_rest(context, thing), rendered(context, thing),
+        a_copy(context, thing, deep=True) as copy,
+    ):  # fmt: skip
         for name, group in ((LENGTH, length), (MASK, mask)):
             if group:
                 paint(copy, name, group)
         kept = copy.data.shape_keys is not None
-        others = [each.name for each in copy.modifiers if each.type not in {"ARMATURE", "PARTICLE_SYSTEM"}]
+        shaping = [each for each in copy.modifiers if each.type not in {"ARMATURE", "PARTICLE_SYSTEM"}]
+        others = [each.name for each in shaping if each.show_render]
         if kept and others:
             notes.append(f"left out, as the mesh has shape keys: modifiers {', '.join(others)}")
         if not copy.data.polygons and not others:

@@ -12,10 +12,9 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from .colours import Singles, hair_colours, numbers
 from .job import JobError
-from .scene import a_copy, at_rest
-
-Singles = NDArray[np.float32]
+from .scene import a_copy, at_rest, changed, rendered
 
 RADIUS = 0.01
 """Radius of curves that have none, Blender's own."""
@@ -29,33 +28,61 @@ AMOUNT = "Viewport Amount"
 
 @dataclass(frozen=True)
 class Hairs:
-    """Hairs of S strands with N points in all, y up, metres.
+    """Hairs of S strands with N points in all, y up, Blender units.
 
-    points (N, 3); counts (S,); widths (N,); colours (N, 3) linear, or None
+    points (N, 3); counts (S,); widths (N,); colours (N, 3) linear, or None; note : where the colours come from
     """
 
     points: Singles
     counts: NDArray[np.int32]
     widths: Singles
     colours: Singles | None
+    note: str
 
 
-def sources(thing: bpy.types.Object) -> tuple[list[bpy.types.Object], list[bpy.types.ParticleSystem]]:
-    """Curves objects that grow on a body, and its systems of particle hair, where they are rendered."""
+def sources(
+    thing: bpy.types.Object, *, shown: bool = True
+) -> tuple[list[bpy.types.Object], list[bpy.types.ParticleSystem]]:
+    """Curves objects that grow on a body, and its systems of particle hair: those that are rendered, or the others."""
     grown = [
         each
         for each in bpy.data.objects
-        if each.type == "CURVES" and not each.hide_render and thing in {each.data.surface, each.parent}
+        if each.type == "CURVES" and each.hide_render != shown and thing in {each.data.surface, each.parent}
     ]
-    shown = {
-        each.particle_system.name for each in thing.modifiers if each.type == "PARTICLE_SYSTEM" and each.show_render
+    names = {
+        each.particle_system.name
+        for each in thing.modifiers
+        if each.type == "PARTICLE_SYSTEM" and each.show_render == shown
     }
-    return grown, [each for each in thing.particle_systems if each.settings.type == "HAIR" and each.name in shown]
+    return grown, [each for each in thing.particle_systems if each.settings.type == "HAIR" and each.name in names]
 
 
-def write_hairs(context: bpy.types.Context, thing: bpy.types.Object, path: Path) -> int:
-    """Write all hairs of a body at rest as `.npz`; their number. Raises JobError where there are none."""
-    with at_rest(context, thing):
+def looked_for(context: bpy.types.Context, thing: bpy.types.Object) -> tuple[bool, list[str]]:
+    """True where a body has hairs that are rendered, and notes for the artist on those that are not taken.
+
+    Raises JobError where it has hairs and none of them is rendered.
+    """
+    here = any(sources(thing))
+    left = [each.name for part in sources(thing, shown=False) for each in part]
+    if left and not here:
+        named = ", ".join(left)
+        raise JobError(
+            f"{thing.name}: hairs that are not rendered ({named}), expected some that are, or “From its hairs” off"
+        )
+    if here:
+        return True, [f"hairs left out, as they are not rendered: {len(left)} ({', '.join(left)})"] if left else []
+    loose = [
+        each.name
+        for each in context.scene.objects
+        if each.type == "CURVES" and each.data.surface is None and (each.parent is None or each.parent.type != "MESH")
+    ]
+    beside = f"; hair curves without a surface: {', '.join(loose)}" if loose else ""
+    return False, [f"no hairs on {thing.name}, the preset's are taken{beside}"]
+
+
+def write_hairs(context: bpy.types.Context, thing: bpy.types.Object, path: Path) -> list[str]:
+    """Write all hairs of a body at rest as `.npz`; notes for the artist. Raises JobError where there are none."""
+    with at_rest(context, thing), rendered(context, thing):
         curves, systems = sources(thing)
         found = [curves_hairs(context, each, each) for each in curves]
         found += [particle_hairs(context, thing, each) for each in systems]
@@ -65,10 +92,14 @@ def write_hairs(context: bpy.types.Context, thing: bpy.types.Object, path: Path)
     arrays: dict[str, Any] = {
         name: np.concatenate([getattr(each, name) for each in found]) for name in ("points", "counts", "widths")
     }
-    if all(each.colours is not None for each in found):
+    notes = [f"{len(arrays['counts'])} hairs", *dict.fromkeys(each.note for each in found if each.note)]
+    bare = [each for each in found if each.colours is None]
+    if not bare:
         arrays["colours"] = np.concatenate([each.colours for each in found])
+    elif len(bare) < len(found):
+        notes.append("some hairs have no colour, so the preset's are taken for all")
     np.savez(path, **arrays)
-    return len(arrays["counts"])
+    return notes
 
 
 def curves_hairs(context: bpy.types.Context, thing: bpy.types.Object, painted: bpy.types.Object) -> Hairs:
@@ -81,51 +112,69 @@ def curves_hairs(context: bpy.types.Context, thing: bpy.types.Object, painted: b
         copy.hide_viewport = False
         context.view_layer.update()
         data = copy.evaluated_get(context.evaluated_depsgraph_get()).data
-        count, total = len(data.curves), len(data.points)
-        first = numbers(data.curve_offset_data, "value", count + 1, np.int32) if count else np.zeros(1, np.int32)
+        first, total = offsets(data), len(data.points)
         place = np.array(copy.matrix_world, np.float64)
         points = numbers(data.position_data, "vector", 3 * total).reshape(-1, 3) if total else np.zeros((0, 3))
         points = points @ place[:3, :3].T + place[:3, 3]
         radius = data.attributes.get("radius")
         widths = np.full(total, 2 * RADIUS) if radius is None else 2 * numbers(radius.data, "value", total)
-        widths = widths * np.cbrt(abs(np.linalg.det(place[:3, :3])))
-        colours = painted_colours(data, first)
-    if colours is None and (one := material_colour(painted.active_material)) is not None:
-        colours = np.tile(np.array(one, np.float32), (total, 1))
-    return Hairs(y_up(points), np.diff(first).astype(np.int32), widths.astype(np.float32), colours)
+        widths = widths * thickened(points, first, place)
+        colours, note = hair_colours(data, first, painted)
+    return Hairs(y_up(points), np.diff(first).astype(np.int32), widths.astype(np.float32), colours, note)
 
 
 def particle_hairs(context: bpy.types.Context, thing: bpy.types.Object, system: bpy.types.ParticleSystem) -> Hairs:
     """Hairs of a particle system, its children among them, as Blender turns them into curves."""
-    settings = system.settings
+    settings, systems = system.settings, thing.particle_systems
     shown = {"display_percentage": 100, "display_step": settings.render_step}
     shown["child_percent"] = settings.rendered_child_count
-    before = {name: getattr(settings, name) for name in shown}
-    index = thing.particle_systems.active_index
+    values: list[tuple[Any, str, Any]] = [(settings, name, value) for name, value in shown.items()]
+    values.append((systems, "active_index", [each.name for each in systems].index(system.name)))
+    values += [
+        (each, "show_viewport", True)
+        for each in thing.modifiers
+        if each.type == "PARTICLE_SYSTEM" and each.particle_system.name == system.name
+    ]
     known = set(bpy.data.objects)
-    try:
-        for name, value in shown.items():
-            setattr(settings, name, value)
-        thing.particle_systems.active_index = list(thing.particle_systems).index(system)
+    with changed(values):
         context.view_layer.objects.active = thing
         context.view_layer.update()
         bpy.ops.curves.convert_from_particle_system()
         (made,) = set(bpy.data.objects) - known
         slot = settings.material - 1
         made.data.materials.append(thing.material_slots[slot].material if slot < len(thing.material_slots) else None)
-        hairs = curves_hairs(context, made, made)
         curves = made.data
+        widths = particle_widths(settings, np.diff(offsets(curves)))
+        if len(widths):
+            curves.attributes.new("radius", "FLOAT", "POINT").data.foreach_set("value", widths / 2)
+        hairs = curves_hairs(context, made, made)
         bpy.data.objects.remove(made)
         bpy.data.hair_curves.remove(curves)
-    finally:
-        for name, value in before.items():
-            setattr(settings, name, value)
-        thing.particle_systems.active_index = index
-    return Hairs(hairs.points, hairs.counts, particle_widths(settings, hairs.counts), hairs.colours)
+    return hairs
+
+
+def offsets(data: bpy.types.Curves) -> NDArray[np.int32]:
+    """(S + 1,) numbers of the points that S curves begin with, and of all points."""
+    count = len(data.curves)
+    return numbers(data.curve_offset_data, "value", count + 1, np.int32) if count else np.zeros(1, np.int32)
+
+
+def thickened(points: NDArray[Any], first: NDArray[np.int32], place: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(N,) factors of widths by an object's scale, as Cycles draws them: across each hair, the mean of both ways.
+
+    points (N, 3) : in the world; first (S + 1,) : offsets of the hairs; place (4, 4) : the object's matrix
+    """
+    linear = place[:3, :3]
+    chords = points[first[1:] - 1] - points[first[:-1]]
+    own = np.linalg.norm(chords @ np.linalg.pinv(linear).T, axis=1)
+    long, volume = np.linalg.norm(chords, axis=1), abs(np.linalg.det(linear))
+    stretch = np.divide(long, own, out=np.full(len(own), np.cbrt(volume)), where=own > 0)
+    factors = np.sqrt(np.divide(volume, stretch, out=np.zeros(len(own)), where=stretch > 0))
+    return np.repeat(factors, np.diff(first))
 
 
 def particle_widths(settings: bpy.types.ParticleSettings, counts: NDArray[np.int32]) -> Singles:
-    """(N,) widths along hairs by the particles' shape, as Cycles has them."""
+    """(N,) widths along hairs by the particles' shape, as Cycles has them, in the object's own units."""
     starts = np.repeat(np.cumsum(counts) - counts, counts)
     along = (np.arange(counts.sum()) - starts) / np.repeat(np.maximum(counts - 1, 1), counts)
     shape = settings.shape
@@ -163,38 +212,6 @@ def plain_curves() -> Iterator[bpy.types.NodeTree]:
         yield tree
     finally:
         bpy.data.node_groups.remove(tree)
-
-
-def painted_colours(data: bpy.types.Curves, first: NDArray[np.int32]) -> Singles | None:
-    """(N, 3) linear colours of an attribute of the curves or their points, the first there is."""
-    for each in data.attributes:
-        if each.data_type in {"FLOAT_COLOR", "BYTE_COLOR"} and not each.name.startswith("."):
-            size = len(each.data)
-            colours = numbers(each.data, "color", 4 * size).reshape(-1, 4)[:, :3]
-            return np.repeat(colours, np.diff(first), axis=0) if each.domain == "CURVE" else colours
-    return None
-
-
-def material_colour(material: bpy.types.Material | None) -> tuple[float, float, float] | None:
-    """The linear colour of a material, where it is one for all hairs."""
-    if material is None or not material.use_nodes:
-        return None
-    wanted = {"BSDF_HAIR_PRINCIPLED": "Color", "BSDF_PRINCIPLED": "Base Color", "BSDF_HAIR": "Color"}
-    for node in material.node_tree.nodes:
-        name = wanted.get(node.type)
-        if name is None or getattr(node, "parametrization", "COLOR") != "COLOR":
-            continue
-        if not node.inputs[name].is_linked:
-            red, green, blue, _ = node.inputs[name].default_value
-            return red, green, blue
-    return None
-
-
-def numbers(values: Any, name: str, count: int, kind: Any = np.float32) -> NDArray[Any]:
-    """(count,) numbers of a collection of Blender's."""
-    found = np.empty(count, kind)
-    values.foreach_get(name, found)
-    return found
 
 
 def y_up(points: NDArray[Any]) -> Singles:

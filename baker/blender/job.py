@@ -13,8 +13,17 @@ from threading import Thread
 LINES = 200
 """Lines of the command that are kept."""
 
+WIDEST = 120
+"""Characters of a foreign command's answer that are shown."""
+
 GRACE = 5.0
 """Seconds for the command to clear up after it was interrupted."""
+
+PATIENCE = 30.0
+"""Seconds for a command to tell its version."""
+
+HIDDEN = getattr(subprocess, "CREATE_NO_WINDOW", 0)
+"""Flag that keeps Windows from opening a console."""
 
 NAME = "furbake: "
 
@@ -23,6 +32,18 @@ PERCENT = re.compile(r"furbake: (\d+) % (.+)")
 
 class JobError(RuntimeError):
     """A command that could not be started or has failed; one sentence."""
+
+
+def answer(command: list[str]) -> list[str]:
+    """Lines that a short command prints, cut; none where it cannot be started or does not end."""
+    try:
+        done = subprocess.run(  # noqa: S603 — the command that the artist names
+            command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False,
+            text=True, encoding="utf-8", errors="replace", creationflags=HIDDEN, timeout=PATIENCE,
+        )  # fmt: skip
+    except (OSError, subprocess.TimeoutExpired):
+        return []
+    return [line.strip()[:WIDEST] for line in done.stdout.splitlines() if line.strip()]
 
 
 class Job:
@@ -37,11 +58,10 @@ class Job:
         self.notes: list[str] = []
         self.cancelled = False
         self._lines: deque[str] = deque(maxlen=LINES)
-        hidden = getattr(subprocess, "CREATE_NO_WINDOW", 0)  # of Windows
         try:
             self._process = subprocess.Popen(  # noqa: S603 — the command that the artist names
                 command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                text=True, encoding="utf-8", errors="replace", creationflags=hidden,
+                text=True, encoding="utf-8", errors="replace", creationflags=HIDDEN,
             )  # fmt: skip
         except OSError as error:
             raise JobError(f"{command[0]}: {(error.strerror or str(error)).lower()}, expected furbake") from error

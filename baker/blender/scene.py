@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from typing import Any
 
 import bpy
+
+FINE = {
+    "SUBSURF": ("levels", "render_levels"), "MULTIRES": ("levels", "render_levels"), "SCREW": ("steps", "render_steps"),
+    "OCEAN": ("viewport_resolution", "resolution"),
+}  # fmt: skip
+"""Modifiers that are finer when they are rendered: the property of the viewport, and that of the render."""
 
 
 def armatures(thing: bpy.types.Object) -> list[bpy.types.Object]:
@@ -69,13 +76,37 @@ def a_copy(context: bpy.types.Context, thing: bpy.types.Object, *, deep: bool) -
 
 
 @contextmanager
-def hidden(things: list[bpy.types.Object]) -> Iterator[None]:
-    """Objects that are not evaluated: thousands of hairs would be, for every frame of every clip."""
-    before = [(each, each.hide_viewport) for each in things]
-    for each in things:
-        each.hide_viewport = True
+def changed(values: Iterable[tuple[Any, str, Any]]) -> Iterator[None]:
+    """Other values of Blender's properties for a while; values : owner, property and value of each."""
+    before = []
     try:
+        for owner, name, value in values:
+            if (old := getattr(owner, name)) != value:
+                before.append((owner, name, old))
+                setattr(owner, name, value)
         yield
     finally:
-        for each, was in before:
-            each.hide_viewport = was
+        for owner, name, old in reversed(before):
+            setattr(owner, name, old)
+
+
+def hidden(things: list[bpy.types.Object]) -> AbstractContextManager[None]:
+    """Objects that are not evaluated: thousands of hairs would be, for every frame of every clip."""
+    return changed((each, "hide_viewport", True) for each in things)
+
+
+def rendered(context: bpy.types.Context, thing: bpy.types.Object) -> AbstractContextManager[None]:
+    """An object whose modifiers stand in the viewport as they are rendered: which of them, and how fine.
+
+    Particles stay as they are, as they do not shape the mesh.
+    """
+    shaping = [each for each in thing.modifiers if each.type != "PARTICLE_SYSTEM"]
+    values: list[tuple[Any, str, Any]] = [(each, "show_viewport", each.show_render) for each in shaping]
+    for each in shaping:
+        if each.type in FINE:
+            seen, wanted = FINE[each.type]
+            values.append((each, seen, getattr(each, wanted)))
+    settings = context.scene.render
+    simplified = ("simplify_subdivision", "simplify_child_particles")
+    values += [(settings, name, getattr(settings, f"{name}_render")) for name in simplified]
+    return changed(values)

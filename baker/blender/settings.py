@@ -12,6 +12,9 @@ from .job import JobError
 
 AS_PRESET = (OWN, "As the preset", "")
 
+BESIDE = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (4, 5, 0) else set()
+"""Option of paths that may begin with `//`; Blender 4.4 and older knows none and takes all of them."""
+
 
 def _choices(*names: str) -> list[tuple[str, str, str]]:
     return [AS_PRESET, *((name, name, "") for name in names)]
@@ -25,7 +28,10 @@ class FurSettings(bpy.types.PropertyGroup):
     """How the fur of an object is baked."""
 
     folder: StringProperty(
-        name="Folder", subtype="DIR_PATH", description="Where the bake goes. Empty: fur-NAME beside the .blend file"
+        name="Folder",
+        subtype="DIR_PATH",
+        options=BESIDE,
+        description="Where the bake goes, beside the .blend file. Empty: fur-NAME",
     )
     preset: StringProperty(
         name="Preset",
@@ -94,8 +100,11 @@ def preferred_command(context: bpy.types.Context) -> str:
 
 def baked_folder(thing: bpy.types.Object) -> Path:
     """Where the bake of an object goes. Raises JobError where neither a folder nor a .blend file says so."""
-    named = thing.furbake.folder
-    if not bpy.data.filepath and (not named or named.startswith("//")):
-        raise JobError("Folder: got none and an unsaved file, expected a folder, or a .blend file to put one beside")
+    named = thing.furbake.folder.strip()
+    beside = named.startswith("//") or not (Path(named).is_absolute() or named.startswith("/"))
+    if beside and not bpy.data.filepath:
+        got = f"{named or 'none'} and an unsaved file"
+        raise JobError(f"Folder: got {got}, expected a whole path, or a .blend file to put it beside")
     name = "".join(each if each.isalnum() or each in "-_" else "-" for each in thing.name)
-    return Path(bpy.path.abspath(named or f"//fur-{name}"))
+    place = named.removeprefix("//") or f"fur-{name}"
+    return Path(bpy.path.abspath(f"//{place}")) if beside else Path(named)

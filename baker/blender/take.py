@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from .command import found
 from .job import Job, JobError
-from .settings import preferred_command
+from .settings import BESIDE, preferred_command
 
 COLOUR = "Color"
 """Attribute of the points that holds the hairs' colours."""
@@ -26,14 +26,14 @@ class FURBAKE_OT_take(bpy.types.Operator):  # noqa: N801
     bl_label = "Baked fur (folder)"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 — Blender's way
 
-    directory: StringProperty(subtype="DIR_PATH", options={"HIDDEN"})
+    directory: StringProperty(subtype="DIR_PATH", options={"HIDDEN"} | BESIDE)
     filter_folder: bpy.props.BoolProperty(default=True, options={"HIDDEN"})
     share: FloatProperty(
         name="Share of hairs",
         default=1.0,
         min=0.0,
         max=1.0,
-        description="How many of the hairs come along; 0: the body alone",
+        description="How many of the hairs come along, as much wider as they are fewer; 0: the body alone",
     )
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
@@ -64,16 +64,36 @@ def take(context: bpy.types.Context, folder: Path, share: float = 1.0) -> bpy.ty
             return None
         with np.load(strands) as arrays:
             parts = {name: arrays[name] for name in ("points", "radius", "colour")}
-    chosen = np.sort(np.random.default_rng(0).permutation(len(parts["points"]))[: round(share * len(parts["points"]))])
-    hairs = curves_of(context, folder.name, **{name: values[chosen] for name, values in parts.items()})
+    hairs = curves_of(context, folder.name, **thinned(parts, share))
     skin = next((each for each in made if each.type == "MESH" and each.name.partition(".")[0] == "skin"), None)
     if skin is not None:
-        hairs.data.surface = skin
-        place = hairs.matrix_world.copy()
-        hairs.parent = skin
-        context.view_layer.update()
-        hairs.matrix_world = place
+        attach(context, hairs, skin)
     return hairs
+
+
+def thinned(parts: dict[str, NDArray[Any]], share: float) -> dict[str, NDArray[Any]]:
+    """A share of S hairs by chance, as much wider as they are fewer: the area that is seen of them stays.
+
+    parts : points (S, P, 3), radius (S, P) and colour (S, P, 3)
+    """
+    count = len(parts["points"])
+    chosen = np.sort(np.random.default_rng(0).permutation(count)[: round(share * count)])
+    found = {name: values[chosen] for name, values in parts.items()}
+    return found | {"radius": found["radius"] * (count / max(len(chosen), 1))}
+
+
+def attach(context: bpy.types.Context, hairs: bpy.types.Object, skin: bpy.types.Object) -> None:
+    """Let hairs grow on a skin as Blender's own do: with the place of each root in the skin's UV map, if it has one."""
+    hairs.data.surface = skin
+    place = hairs.matrix_world.copy()
+    hairs.parent = skin
+    context.view_layer.update()
+    hairs.matrix_world = place
+    if skin.data.uv_layers and len(hairs.data.curves):
+        hairs.data.surface_uv_map = skin.data.uv_layers.active.name
+        context.view_layer.update()
+        with context.temp_override(active_object=hairs, object=hairs, selected_objects=[hairs]):
+            bpy.ops.curves.snap_curves_to_surface(attach_mode="NEAREST")
 
 
 def curves_of(

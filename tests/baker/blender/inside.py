@@ -5,14 +5,17 @@ PYTHON inside.py ZIP FURBAKE FOLDER
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import json
 import sys
+import warnings
 from pathlib import Path
 from typing import Any
 
 import bpy
 import numpy as np
+from bodies import PAINTS, divided, handed_on, paint, particles, spline
 from mathutils.bvhtree import BVHTree
 
 sys.path.append(str(Path(__file__).parents[3] / "web" / "tools" / "site"))
@@ -70,7 +73,7 @@ def refused(**choices: Any) -> str:
 def exported(thing: bpy.types.Object, out: Path) -> dict[str, Any]:
     """Hairs of a body as they are written: how many, how long, and how far their roots are from its rest pose."""
     hairs = importlib.import_module(f"{EXTENSION}.hairs")
-    hairs.write_hairs(bpy.context, thing, out)
+    notes = hairs.write_hairs(bpy.context, thing, out)
     with np.load(out) as arrays:
         points, counts, widths = arrays["points"], arrays["counts"], arrays["widths"]
         colours = arrays.get("colours")
@@ -88,42 +91,77 @@ def exported(thing: bpy.types.Object, out: Path) -> dict[str, Any]:
         "lengths": [float(np.quantile(lengths, share)) for share in (0.0, 0.5, 1.0)],
         "widths": [float(widths[starts].mean()), float(widths[starts + counts - 1].mean())],
         "colour": None if colours is None else [float(part) for part in colours.mean(axis=0)],
+        "notes": notes,
     }
 
 
-def particles() -> bpy.types.Object:
-    """A moved sphere with old particle hair, five children beside each of fifty."""
-    bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=8, location=(1, 2, 3))
-    thing = bpy.context.object
-    material = bpy.data.materials.new("red")
-    material.use_nodes = True
-    material.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = (0.5, 0.25, 0.125, 1)
-    thing.data.materials.append(material)
-    thing.modifiers.new("fur", "PARTICLE_SYSTEM")
-    settings = thing.particle_systems[0].settings
-    settings.type, settings.count, settings.hair_length = "HAIR", 50, 0.2
-    settings.child_type, settings.child_percent, settings.rendered_child_count = "INTERPOLATED", 1, 5
-    return thing
+def stretched() -> list[float]:
+    """Factors of the widths of a hair along x whose object is eight times larger: along it, across it, as a whole."""
+    hairs = importlib.import_module(f"{EXTENSION}.hairs")
+    points, first = np.array([[0.0, 0, 0], [1, 0, 0]]), np.array([0, 2])
+    scales = ((8, 1, 1), (1, 1, 8), (8, 8, 8))
+    return [hairs.thickened(points, first, np.diag([*scale, 1.0]))[0] for scale in scales]
 
 
-def spline() -> bpy.types.Object:
-    """A plane with one Bézier hair: a quarter of a circle whose radius is 1, painted green."""
-    bpy.ops.mesh.primitive_plane_add()
-    thing = bpy.context.object
-    data = bpy.data.hair_curves.new("bow")
-    data.add_curves([2])
-    curve = bpy.data.objects.new("bow", data)
-    bpy.context.collection.objects.link(curve)
-    data.surface = thing
-    k = 4 / 3 * np.tan(np.pi / 8)
-    values = {"position": [(0, 0, 0), (1, 0, 1)], "handle_left": [(0, 0, -k), (1 - k, 0, 1)]}
-    values["handle_right"] = [(0, 0, k), (1 + k, 0, 1)]
-    data.set_types(type="BEZIER")
-    for name, places in values.items():
-        held = data.attributes.get(name) or data.attributes.new(name, "FLOAT_VECTOR", "POINT")
-        held.data.foreach_set("vector", np.array(places, np.float32).reshape(-1))
-    data.attributes.new("paint", "FLOAT_COLOR", "CURVE").data.foreach_set("color", [0.0, 1.0, 0.0, 1.0])
-    return thing
+def written(thing: bpy.types.Object, out: Path) -> list[Any]:
+    """Triangles of a body as it is written, and whether its modifiers stay as they were, even where something fails."""
+    body, scene = (importlib.import_module(f"{EXTENSION}.{name}") for name in ("body", "scene"))
+    before = [(each.show_viewport, getattr(each, "levels", 0)) for each in thing.modifiers]
+    body.write_body(bpy.context, thing, out, clips=False)
+    with contextlib.suppress(ValueError), scene.rendered(bpy.context, thing):
+        raise ValueError
+    after = [(each.show_viewport, getattr(each, "levels", 0)) for each in thing.modifiers]
+    data = out.read_bytes()
+    parts = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
+    faces = parts["accessors"][parts["meshes"][0]["primitives"][0]["indices"]]["count"] // 3
+    return [faces, before == after]
+
+
+def hidden_hairs(thing: bpy.types.Object) -> dict[str, Any]:
+    """Messages where hairs are far off, some are not rendered, none is, or none grows on the body."""
+    looked_for = importlib.import_module(f"{EXTENSION}.hairs").looked_for
+    bow = bpy.data.objects["bow"]
+    bow.location.z = 50
+    afar = refused(more=TINY)
+    second = bow.copy()
+    bpy.context.collection.objects.link(second)
+    second.hide_render = True
+    some = looked_for(bpy.context, thing)
+    bow.hide_render = True
+    none = refused()
+    bpy.data.objects.remove(second)
+    bow.data.surface = None
+    return {"afar": afar, "some": some, "none": none, "loose": looked_for(bpy.context, thing)}
+
+
+def places(thing: bpy.types.Object, out: Path) -> dict[str, Any]:
+    """The folder of a bake by what is typed, once the scene is a file, and what Blender warns of."""
+    settings = importlib.import_module(f"{EXTENSION}.settings")
+    bpy.ops.wm.save_as_mainfile(filepath=str(out / "scene.blend"), copy=False)
+    found: dict[str, Any] = {}
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        for typed in ("", "out rel", "//out rel", str(out / "whole")):
+            thing.furbake.folder = typed
+            found[typed.replace(str(out), "OUT")] = settings.baked_folder(thing).relative_to(out).as_posix()
+    found["warnings"] = [str(each.message) for each in told]
+    (out / "my.toml").write_text("layers = 99", "utf-8")
+    return found | {f"preset {name}": refused(preset=name, hairs=False) for name in ("my.toml", "//my.toml")}
+
+
+def regrown() -> dict[str, Any]:
+    """Hairs as an import makes them: a quarter of eight, and one that is attached to a plane with a UV map."""
+    take = importlib.import_module(f"{EXTENSION}.take")
+    parts = {"points": np.zeros((8, 2, 3)), "radius": np.full((8, 2), 0.5), "colour": np.zeros((8, 2, 3))}
+    few = take.thinned(parts, 0.25)
+    bpy.ops.mesh.primitive_plane_add(size=2, location=(3, 0, 0))
+    skin = bpy.context.object
+    points = np.array([[[3.5, 0, 0.5], [3.5, 1, 0.5]]])
+    hairs = take.curves_of(bpy.context, "one", points, np.ones((1, 2)), np.ones((1, 2, 3)))
+    take.attach(bpy.context, hairs, skin)
+    place = hairs.data.attributes.get("surface_uv_coordinate")
+    root = hairs.matrix_world @ hairs.data.points[0].position
+    return {"few": few["radius"].tolist(), "place": list(place.data[0].vector) if place else None, "root": list(root)}
 
 
 def taken(folder: Path, before: set[bpy.types.Object]) -> dict[str, Any]:
@@ -173,12 +211,15 @@ def main(package: str, furbake: str, folder: str) -> dict[str, Any]:
         "quotes": refused(more="'"),
         "unsaved": refused(folder=""),
     }
-    chosen.hairs, chosen.length, chosen.folder, chosen.more = False, 0.2, str(out / "plain"), f"{TINY} {PLAIN}"
+    chosen.hairs, chosen.length, chosen.folder, chosen.more = False, 0.2, str(out / "plain fur"), f"{TINY} {PLAIN}"
     found["plain"] = sorted(bpy.ops.furbake.bake())
+    found["told"] += importlib.import_module(f"{EXTENSION}.bake").State.told[thing.name]
     known = set(bpy.data.objects)
     found["take"] = sorted(bpy.ops.furbake.take(directory=str(out / "haired"), share=0.25))
     found["taken"] = taken(out / "haired", known)
-    job = importlib.import_module(f"{EXTENSION}.bake").Baking(bpy.context, thing).job
+    bpy.context.scene.unit_settings.scale_length = 0.01
+    baking = importlib.import_module(f"{EXTENSION}.bake").Baking(bpy.context, thing)
+    found["unit"], job = baking.notes, baking.job
     job.cancel()
     try:
         found["cancelled"] = job.result()
@@ -186,8 +227,23 @@ def main(package: str, furbake: str, folder: str) -> dict[str, Any]:
         found["cancelled"] = str(error)
     preferences.command = "/nowhere/furbake"
     found["refused"]["command"] = refused()
+    preferences.command = furbake
     found["particles"] = exported(particles(), out / "particles.npz")
-    found["spline"] = exported(spline(), out / "spline.npz")
+    found["large"] = exported(particles((8, 8, 8)), out / "particles.npz")
+    found["stretched"] = stretched()
+    found["divided"] = written(divided(), out / "divided.glb")
+    thing = spline()
+    bow = bpy.data.objects["bow"]
+    handed_on(bow)
+    found["spline"] = exported(thing, out / "spline.npz")
+    found["colours"] = {}
+    for how in PAINTS:
+        paint(bow, how)
+        found["colours"][how.__name__] = exported(thing, out / "spline.npz")
+    thing.furbake.folder = str(out / "hidden")
+    found["hidden"] = hidden_hairs(thing)
+    found["places"] = places(thing, out)
+    found["regrown"] = regrown()
     bpy.ops.preferences.addon_disable(module=EXTENSION)
     found["gone"] = not hasattr(bpy.types.Object, "furbake")
     return found

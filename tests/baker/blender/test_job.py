@@ -95,6 +95,26 @@ def test_choices_are_options_of_a_bake(part: Any) -> None:
     assert {name for name in given if name.startswith("-")} <= known
 
 
+def test_paths_of_options_are_made_whole(part: Any) -> None:
+    more = "--features //eyes.json --features=//ears.json --seed 3"
+    given = part("command").arguments(
+        chosen(preset="//my.toml", more=more),
+        Path("a.glb"),
+        None,
+        Path("out"),
+        lambda path: path.replace("//", "/home/"),
+    )
+    assert given[given.index("--preset") + 1] == "/home/my.toml"
+    assert given[-5:] == ["--features", "/home/eyes.json", "--features=/home/ears.json", "--seed", "3"]
+
+
+def test_another_program_is_not_taken_for_furbake(part: Any) -> None:
+    said = rf"got Python {sys.version_info.major}\..*, expected the command furbake"
+    with pytest.raises(part("job").JobError, match=said):
+        part("command").found(sys.executable)
+    assert part("command").found(str(Path(sys.executable).with_name("furbake")))
+
+
 def test_the_panel_offers_the_presets_that_there_are(part: Any) -> None:
     assert sorted(part("command").PRESETS) == sorted(preset_names())
 
