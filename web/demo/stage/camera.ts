@@ -30,7 +30,7 @@ export interface Framed {
 	/** Radius of the sphere that is fitted in: of the body, or of the middle of a crowd. */
 	radius: number;
 	bodyRadius: number;
-	/** Of the longest hairs as they were baked: longer ones do not move the camera. */
+	/** Longest hairs as they were baked: those that a visitor makes longer do not move the camera. */
 	furLength: number;
 	model: Pick<Model, 'box'> | undefined;
 }

@@ -45,9 +45,8 @@ export class Stage {
 	/** Centre and radius of what is on show. */
 	readonly centre = new Vector3();
 	radius = 1;
-	/** Radius of one body, in a crowd too. */
+	/** Radius of one body, in a crowd too, and its longest hairs, as they were baked. */
 	bodyRadius = 1;
-	/** Longest hairs of its fur, as they were baked. */
 	furLength = 0;
 	model: Model | undefined;
 	/** True once centre and radius have changed by themselves; who frames them sets it back. */
