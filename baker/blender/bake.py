@@ -13,7 +13,7 @@ import bpy
 
 from .body import write_body
 from .command import arguments, found
-from .hairs import looked_for, write_hairs
+from .hairs import check_hairs, write_hairs
 from .job import Job, JobError
 from .settings import baked_folder, preferred_command
 
@@ -51,7 +51,7 @@ class Baking:
 
     def _groom(self, context: bpy.types.Context, thing: bpy.types.Object) -> Path | None:
         """The file of the object's hairs; None where it has none."""
-        here, notes = looked_for(context, thing)
+        here, notes = check_hairs(context, thing)
         self.notes += notes
         if not here:
             return None

@@ -57,7 +57,7 @@ def sources(
     return grown, [each for each in thing.particle_systems if each.settings.type == "HAIR" and each.name in names]
 
 
-def looked_for(context: bpy.types.Context, thing: bpy.types.Object) -> tuple[bool, list[str]]:
+def check_hairs(context: bpy.types.Context, thing: bpy.types.Object) -> tuple[bool, list[str]]:
     """True where a body has hairs that are rendered, and notes for the artist on those that are not taken.
 
     Raises JobError where it has hairs and none of them is rendered.

@@ -157,9 +157,9 @@ def _furry(
 
 
 def _roots(body: Body, options: BakeOptions, dry: Pelt) -> Roots | None:
-    """The picture of the roots; None where hairs have the colours of the vertices."""
-    own = body.fur.own is not None  # an artist gave hairs their colours
-    coloured = body.fur.colour is not None and not own and textured(body.skin) and dry.curves is not None
+    """The picture of the roots; None where hairs have the colours of the vertices, or those of an artist's groom."""
+    by_skin = body.fur.colour is not None and body.fur.own is None
+    coloured = by_skin and textured(body.skin) and dry.curves is not None
     if options.colour == "vertex" or options.swatch is not None or not coloured:
         return None
     return picture_of_roots(body.skin, body.ground, body.charts, dry.drift[-1], options.size)

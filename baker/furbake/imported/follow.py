@@ -34,7 +34,7 @@ def cover(bound: Bound, area: float) -> float:
 def followers(bound: Bound, area: float, asked: int | None) -> int:
     """Number of followers of each guide: as asked, or as many as cover the skin; 0 where the groom does by itself.
 
-    Grooms that hardly cover it are sparse on purpose, far fewer strands are guides: what is added rises gradually.
+    The less they cover, the more are added: strands just below `BARE` are sparse hairs, few strands are guides.
     """
     if asked is not None:
         return asked

@@ -41,20 +41,20 @@ def divide(surface: Surface, lengths: Floats, most: int) -> Surface:
     """
     if len(surface.faces) >= most or surface.natural is not None:
         return surface
-    sides = _sides(surface.vertices, surface.faces)
+    smooth = _corner_normals(surface.vertices, surface.faces)
     sizes = np.maximum(lengths, FINEST * surface.extent)
-    while len((pieces := _divided(surface, sides, sizes, most)).faces) > most:
+    while len((pieces := _divided(surface, smooth, sizes, most)).faces) > most:
         sizes *= COARSER
     areas = np.linalg.norm(face_vectors(surface.vertices, surface.faces), axis=1)
     parted = np.bincount(pieces.parent) > 1
-    return _carried(surface, pieces, sides) if areas[parted].sum() > FEW * areas.sum() else surface
+    return _carried(surface, pieces, smooth) if areas[parted].sum() > FEW * areas.sum() else surface
 
 
-def _divided(surface: Surface, sides: Floats, sizes: Floats, most: int) -> Pieces:
+def _divided(surface: Surface, smooth: Floats, sizes: Floats, most: int) -> Pieces:
     """Triangles that touch a sharp edge are no larger than `sizes`, (V,); it stops above `most` of them."""
     pieces = whole(surface.vertices, surface.faces)
     while len(pieces.faces) <= most:
-        own = _turned(pieces, sides)
+        own = _interpolated(pieces, smooth)
         normals = angle_normals(pieces.vertices, pieces.faces, own)
         sharp = (np.einsum("fij,fij->fi", own, normals[pieces.faces]) < SHARP).any(axis=1)
         corners = pieces.vertices[pieces.faces]
@@ -66,7 +66,7 @@ def _divided(surface: Surface, sides: Floats, sizes: Floats, most: int) -> Piece
     return pieces
 
 
-def _sides(vertices: Floats, faces: Ints) -> Floats:
+def _corner_normals(vertices: Floats, faces: Ints) -> Floats:
     """(F, 3, 3) unit normal of the smooth surface that a face belongs to, at each of its corners.
 
     It is the vertex normal; where a vertex is sharp, the mean of the faces there that look the same way.
@@ -90,12 +90,12 @@ def _sides(vertices: Floats, faces: Ints) -> Floats:
     return found
 
 
-def _turned(pieces: Pieces, sides: Floats) -> Floats:
-    """(F, 3, 3) `_sides` of the pieces: interpolated, unit (Phong 1975)."""
-    return unit(pieces.carried(sides).reshape(-1, 3)).reshape(-1, 3, 3)
+def _interpolated(pieces: Pieces, smooth: Floats) -> Floats:
+    """(F, 3, 3) `_corner_normals` of the pieces: interpolated, unit (Phong 1975)."""
+    return unit(pieces.carried(smooth).reshape(-1, 3)).reshape(-1, 3, 3)
 
 
-def _carried(surface: Surface, pieces: Pieces, sides: Floats) -> Surface:
+def _carried(surface: Surface, pieces: Pieces, smooth: Floats) -> Surface:
     """The surface in pieces, with all that its faces and vertices have."""
     _, first = np.unique(pieces.faces, return_index=True)
 
@@ -106,7 +106,7 @@ def _carried(surface: Surface, pieces: Pieces, sides: Floats) -> Surface:
         surface,
         vertices=pieces.vertices,
         faces=pieces.faces,
-        normals=angle_normals(pieces.vertices, pieces.faces, _turned(pieces, sides)),
+        normals=angle_normals(pieces.vertices, pieces.faces, _interpolated(pieces, smooth)),
         colours=None if surface.colours is None else at_vertices(surface.colours),
         uv=None if surface.uv is None else pieces.carried(surface.uv),
         attributes={name: at_vertices(values) for name, values in surface.attributes.items()},

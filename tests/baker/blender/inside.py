@@ -119,19 +119,19 @@ def written(thing: bpy.types.Object, out: Path) -> list[Any]:
 
 def hidden_hairs(thing: bpy.types.Object) -> dict[str, Any]:
     """Messages where hairs are far off, some are not rendered, none is, or none grows on the body."""
-    looked_for = importlib.import_module(f"{EXTENSION}.hairs").looked_for
+    check_hairs = importlib.import_module(f"{EXTENSION}.hairs").check_hairs
     bow = bpy.data.objects["bow"]
     bow.location.z = 50
     afar = refused(more=TINY)
     second = bow.copy()
     bpy.context.collection.objects.link(second)
     second.hide_render = True
-    some = looked_for(bpy.context, thing)
+    some = check_hairs(bpy.context, thing)
     bow.hide_render = True
     none = refused()
     bpy.data.objects.remove(second)
     bow.data.surface = None
-    return {"afar": afar, "some": some, "none": none, "loose": looked_for(bpy.context, thing)}
+    return {"afar": afar, "some": some, "none": none, "loose": check_hairs(bpy.context, thing)}
 
 
 def places(thing: bpy.types.Object, out: Path) -> dict[str, Any]:

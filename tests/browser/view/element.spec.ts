@@ -5,13 +5,12 @@ import type { Locator, Page } from '@playwright/test';
 import { CLIPS, rigged } from '../../web/scene/clips/rigged.ts';
 import { difference, expect, picture, test } from '../harness.ts';
 import { drawNothing } from '../inPage/gpu.ts';
-import { type Site, serveView, until, withView } from './host.ts';
+import { type Site, serveView, TORUS, until, withView } from './host.ts';
 
 let site: Site;
 
 test.use({ viewport: { width: 400, height: 300 } });
 
-const TORUS = 'src="models/torus-512/model.gltf" camera="20,38,0.9"';
 const GUIDE = readFileSync(new URL('../../../web/docs/fur-view.md', import.meta.url), 'utf8');
 
 /** Style sheets of the tests: a policy may forbid style attributes. */

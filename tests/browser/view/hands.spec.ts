@@ -5,7 +5,7 @@ import type { FurView } from '../../../web/view/view.d.ts';
 import { CLIPS, rigged } from '../../web/scene/clips/rigged.ts';
 import { expect, halves, picture, test } from '../harness.ts';
 import { drawNothing } from '../inPage/gpu.ts';
-import { counts, type Site, serveView, until, watchDraws, withView } from './host.ts';
+import { counts, type Site, serveView, TORUS, until, watchDraws, withView } from './host.ts';
 
 let site: Site;
 
@@ -17,8 +17,6 @@ test.beforeAll(async () => {
 });
 
 test.afterAll(() => site?.close());
-
-const TORUS = 'src="models/torus-512/model.gltf" camera="20,38,0.9"';
 
 test('drags and keys move the light, with Shift the camera; attributes and properties say so', async ({
 	page,

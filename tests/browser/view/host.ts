@@ -11,6 +11,9 @@ import { type Host, serveFolder } from '../host.ts';
 
 const at = (path: string) => fileURLToPath(new URL(`../../../${path}`, import.meta.url));
 
+/** Attributes of a view of a ring of fur. */
+export const TORUS = 'src="models/torus-512/model.gltf" camera="20,38,0.9"';
+
 export interface Site extends Host {
 	/** Writes a file of the site. */
 	write(path: string, text: string | Uint8Array): void;

@@ -3,7 +3,7 @@
 import { readFileSync } from 'node:fs';
 import { difference, expect, picture, test } from '../harness.ts';
 import { drawNothing, watchGpu } from '../inPage/gpu.ts';
-import { type Counts, counts, pixels, type Site, serveView, until, watchDraws, withView } from './host.ts';
+import { type Counts, counts, pixels, type Site, serveView, TORUS, until, watchDraws, withView } from './host.ts';
 
 let site: Site;
 
@@ -18,8 +18,6 @@ test.beforeAll(async () => {
 });
 
 test.afterAll(() => site?.close());
-
-const TORUS = 'src="models/torus-512/model.gltf" camera="20,38,0.9"';
 
 test('ten on one page show fur, after scrolling too, by one context and under a strict policy', async ({
 	page,

@@ -72,9 +72,6 @@ def _check_export(args: SimpleNamespace) -> None:
     """Raise OptionError for values that there are not, names of other kinds of file and options without use."""
     _among("format", args.kind, (LRGB, RGB))
     _among("planes", args.planes, ("jpg", "png"))
-    for name in ("ptm", "glb"):
-        if getattr(args, name):
-            _ends(name, getattr(args, name), f".{name}")
     places = [Path(name).resolve() for name in (args.ptm, args.relight, args.glb) if name]
     if len({*places}) < len(places):
         raise OptionError(f"export: got {args.relight} twice, expected a place of its own for each")
@@ -100,8 +97,9 @@ def run_swatch(args: SimpleNamespace) -> int:
     files = [Path(name) for name in args.files]
     _among("format", args.kind, (LRGB, RGB))
     measured = bool(files) and suffix_of(files[0]) == LP
-    _ends("out", args.out, ".png", *((".ptm",) if measured else ()))
     if not measured:
+        if Path(args.out).suffix.lower() == ".ptm":
+            raise OptionError(f"out: got {args.out}, expected a name that ends in .png")
         _refuse(args, ("kind",), "swatch", files[0] if files else "no .lp", "it beside an .lp")
     if not files or not is_rti(files[0]):
         if len(files) > 1:
@@ -170,11 +168,6 @@ def _of_size(relit: Relit, size: tuple[int, int], path: Path) -> Relit:
 def _among(name: str, value: str | None, known: tuple[str, ...]) -> None:
     if value is not None and value not in known:
         raise OptionError(f"{name}: got {value!r}, expected {' or '.join(known)}")
-
-
-def _ends(name: str, value: str, *known: str) -> None:
-    if Path(value).suffix.lower() not in known:
-        raise OptionError(f"{name}: got {value}, expected a name that ends in {' or '.join(known)}")
 
 
 def _refuse(args: SimpleNamespace, names: tuple[str, ...], command: str, beside: object, expected: str) -> None:

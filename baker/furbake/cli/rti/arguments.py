@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from furbake.cli.arguments import QUIET, folder, out, preset_options
 from furbake.cli.parsing import Argument, Command, action, option, switch
-from furbake.cli.values import DIRECTION, PLACE, WHOLE
+from furbake.cli.values import DIRECTION, PLACE, WHOLE, NewFile
 
 EXPORT = [
     folder(),
-    option("--ptm", metavar="FILE.ptm", type=PLACE, help="PTM 1.2, for RTIViewer and others"),
+    option("--ptm", metavar="FILE.ptm", type=NewFile(".ptm"), help="PTM 1.2, for RTIViewer and others"),
     option(
         "--relight", metavar="FOLDER", type=PLACE,
         help="info.json and planes, for OpenLIME and relight; a new folder",
     ),
-    option("--glb", metavar="FILE.glb", type=PLACE, help="the body without its fur, for any program that reads glTF"),
+    option(
+        "--glb", metavar="FILE.glb", type=NewFile(".glb"),
+        help="the body without its fur, for any program that reads glTF",
+    ),
     option(
         "--format", "kind", metavar="lrgb|rgb",
         help="a polynomial beside a colour (default), or one for each channel",
@@ -38,7 +41,7 @@ SWATCH = [
         type=PLACE, nargs=-1,
     ),
     *preset_options(None),
-    out("FILE.png|FILE.ptm", "picture to write; of an .lp also its fit as a PTM"),
+    out("FILE.png|FILE.ptm", "picture to write; of an .lp also its fit as a PTM", NewFile(".png", ".ptm")),
     option("--light", type=DIRECTION, help="towards the lamp: right, up, at you"),
     option("--state", metavar="NAME", help="dry (default), damp, moist, wet, soaked or dirty"),
     option("--format", "kind", metavar="lrgb|rgb", help="how an .lp is fitted: lrgb (default) or rgb"),

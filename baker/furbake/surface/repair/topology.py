@@ -129,16 +129,16 @@ def _parity(links: csr_array, piece: NDArray[np.int32], a: Ints, b: Ints, clash:
     return flip[:count]
 
 
-def angle_normals(vertices: Floats, faces: Ints, sides: Floats | None = None) -> Floats:
+def angle_normals(vertices: Floats, faces: Ints, at_corners: Floats | None = None) -> Floats:
     """(V, 3) unit vertex normals, each face weighted by its angle there (Thürmer and Wüthrich 1998).
 
-    sides : (F, 3, 3) unit normal of each face at its corners; by default it is flat
+    at_corners : (F, 3, 3) unit normal of each face at its corners; by default it is flat
     """
     flat = unit(face_vectors(vertices, faces))
-    sides = np.repeat(flat[:, None], 3, axis=1) if sides is None else sides
+    at_corners = np.repeat(flat[:, None], 3, axis=1) if at_corners is None else at_corners
     angles, total = corner_angles(vertices, faces), np.zeros_like(vertices)
     for i in range(3):
-        np.add.at(total, faces[:, i], angles[:, i, None] * sides[:, i])
+        np.add.at(total, faces[:, i], angles[:, i, None] * at_corners[:, i])
     # Where faces cancel (a folded leaf), any one of them will do.
     lost = np.linalg.norm(total, axis=1) < 1e-9
     any_face = np.zeros_like(total)
