@@ -28,7 +28,7 @@ const MAX_LAMPS = 2;
 const FAR = 1e4;
 
 /** Lamps per frame, as many as shaders have room for. */
-const AT_ONCE = 256;
+const AT_ONCE = 128;
 
 /**
  * Lamps that stand for the picture: points spread evenly over the sphere (Fibonacci), each with the light of the texels

@@ -18,8 +18,8 @@ import { furEnvironment } from '../../../web/fur/index.ts';
 import { loadFur, renderFloats } from '../../../web/measure/studio.ts';
 import { channel, Flat, renderer, uncovered } from './flat.ts';
 
-/** Lamps that a shader has room for, and pictures that are added up. */
-const [AT_ONCE, PICTURES] = [256, 2];
+/** Lamps that a shader has room for on graphics cards, too (1 024 vectors of uniforms), and pictures that are added up. */
+const [AT_ONCE, PICTURES] = [128, 4];
 
 /** Texels of a layer as they are seen, [row, column]; NaN where there is no fur. */
 export interface UnderDome {
@@ -63,8 +63,12 @@ export async function underDome(
 	};
 	const drawn = combs.map((comb) => {
 		flat.attribute('_comb', comb);
-		const [first = [], second = []] = [0, 1].map((part) => lit((light, i) => light !== probe && i % PICTURES === part));
-		return { sky: lit((light) => light === probe), lamps: first.map((value, i) => value + (second[i] ?? 0)) };
+		const pictures = Array.from({ length: PICTURES }, (_, part) =>
+			lit((light, i) => light !== probe && i % PICTURES === part),
+		);
+		const sum = (texel: number) => pictures.reduce((light, picture) => light + (picture[texel] ?? Number.NaN), 0);
+		const sky = lit((light) => light === probe);
+		return { sky, lamps: sky.map((_, texel) => sum(texel)) };
 	});
 	flat.fur.dispose();
 	return drawn;

@@ -40,7 +40,7 @@ import { followComb, followParts, switchPart } from './switches.ts';
 const VERTICES_PER_ROW = 1024;
 
 /** Heights, root to tip, at which the sky's light is stored, each in the middle of a slab; linear between them. */
-const SKY_HEIGHTS = 11;
+const SKY_HEIGHTS = 5;
 
 /** Parts of the shells' shaders that place and bend hairs and light them by the sky. */
 const PARTS = ['SWING', 'STRAIGHT', 'TRIMMED', 'WET', 'SKY', 'MORPHS'];

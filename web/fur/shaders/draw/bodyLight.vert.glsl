@@ -35,7 +35,8 @@ void main() {
 #endif
 	} else {
 #ifdef SKY
-		packSky(skyAt(point, bending), evenSky(point, skyPlace(point)), vEntry0, vEntry1, vEntry2);
+		packSky(skyAt(point, bending), evenSky(point, skyPlace(point)), vEntry0, vEntry1);
+		vEntry2 = uvec4(0u);
 #endif
 	}
 	gl_PointSize = 1.0;

@@ -1,10 +1,11 @@
 // Light from the vertices: see light.vert.glsl.
 
 #ifdef SKY
-centroid in mat3 vSkyLow;
+centroid in vec3 vSkyLow;
 #ifdef TWO_PLANES
-centroid in mat3 vSkyHigh;
+centroid in vec3 vSkyHigh;
 #endif
+centroid in vec3 vSkyHue;
 #endif
 #ifdef LAMPS_PER_FRAGMENT
 in mat3 vFrame;
@@ -93,13 +94,14 @@ Lamps receivedLamps() {
 #endif
 }
 
-Moments receivedSky() {
-	Moments sky = Moments(mat3(0.0), mat3(0.0));
+SkyLight receivedSky() {
+	SkyLight sky = SkyLight(Strengths(vec3(0.0), vec3(0.0)), vec3(0.0));
 #ifdef SKY
-	sky.low = vSkyLow;
+	sky.moments.low = vSkyLow;
 #ifdef TWO_PLANES
-	sky.high = vSkyHigh;
+	sky.moments.high = vSkyHigh;
 #endif
+	sky.hue = vSkyHue;
 #endif
 	return sky;
 }

@@ -1,14 +1,15 @@
 // Light from vertex to fragment: moments, summed here; or, where lamps are summed per fragment, the point.
-// WebGL2 guarantees 15 vectors. A shell uses four matrices and three vec3, with fifteen scalars in their gaps; where lamps
-// are summed per fragment, three matrices, three vec3 and seventeen scalars. All are taken at the centroid of the samples that a
+// WebGL2 guarantees 15 vectors. A shell uses at most two matrices and six vec3, with fifteen scalars in their gaps; where lamps
+// are summed per fragment, one matrix, six vec3 and seventeen scalars. All are taken at the centroid of the samples that a
 // triangle covers: beyond its edge a multisampled pixel would be far too bright. Places in textures are not, whose derivatives
 // choose a level, and vKept in the gap beside them.
 
 #ifdef SKY
-centroid out mat3 vSkyLow;
+centroid out vec3 vSkyLow;
 #ifdef TWO_PLANES
-centroid out mat3 vSkyHigh;
+centroid out vec3 vSkyHigh;
 #endif
+centroid out vec3 vSkyHue;
 #endif
 #ifdef LAMPS_PER_FRAGMENT
 out mat3 vFrame;
@@ -63,7 +64,7 @@ centroid out float vPower; // irradiance
 // seen: whether the vertex is visible; else it stays dark. openness: to the sky, 0..1.
 void passLight(bool seen, FurPoint point, float openness) {
 #ifdef SKY
-	Moments sky = Moments(mat3(0.0), mat3(0.0));
+	SkyLight sky = SkyLight(Strengths(vec3(0.0), vec3(0.0)), vec3(0.0));
 #endif
 #ifndef LAMPS_PER_FRAGMENT
 	Lamps lamps = DARKNESS;
@@ -74,17 +75,18 @@ void passLight(bool seen, FurPoint point, float openness) {
 	if (seen) {
 		Bending bending = bendingOf(point.comb, point.s);
 #ifdef SKY
-		sky = environmentMoments(point, bending);
+		sky = skyLight(point, bending);
 #endif
 #ifndef LAMPS_PER_FRAGMENT
 		lamps = lampsAt(point, bending);
 #endif
 	}
 #ifdef SKY
-	vSkyLow = sky.low * openness;
+	vSkyLow = sky.moments.low * openness;
 #ifdef TWO_PLANES
-	vSkyHigh = sky.high * openness;
+	vSkyHigh = sky.moments.high * openness;
 #endif
+	vSkyHue = sky.hue;
 #endif
 #ifdef LAMPS_PER_FRAGMENT
 	vFrame = point.frameVS;

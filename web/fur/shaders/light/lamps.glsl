@@ -94,7 +94,7 @@ void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bendi
 #else
 	basis(lightTS, low, high);
 #endif
-	float luminance = dot(irradiance, vec3(0.2126, 0.7152, 0.0722));
+	float luminance = dot(irradiance, LUMINANCE);
 #ifdef SHADOW_SHARE
 	lamps.share += max(gain, 0.0) * luminance;
 #endif
@@ -132,11 +132,11 @@ void addGlow(inout Lamps lamps, FurPoint point, float through, vec3 irradiance) 
 	basis(up, low, high);
 	vec3 light = max(through * meanLight(point, curvesAt(1.0, 1.0, radiusTowards(point, up), up)), 0.0) * irradiance * SKIN;
 #ifdef ONE_HUE
-	float strength = dot(light, vec3(0.2126, 0.7152, 0.0722));
+	float strength = dot(light, LUMINANCE);
 	lamps.moments.low += strength * low;
 	lamps.moments.high += strength * high;
 #ifdef TINGED
-	lamps.tinge += vec4(strength * SKIN / dot(SKIN, vec3(0.2126, 0.7152, 0.0722)), strength);
+	lamps.tinge += vec4(strength * SKIN / dot(SKIN, LUMINANCE), strength);
 #endif
 #else
 	lamps.moments.low += outerProduct(light, low);

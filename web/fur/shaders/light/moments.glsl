@@ -19,13 +19,24 @@ struct Moments {
 	mat3 high;
 };
 
-// Moments of lamps. Lamps of one hue have moments of their strengths alone; the hue is a factor at the end.
-#ifdef ONE_HUE
-#define Strength float
-struct LampMoments {
+const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
+
+// Moments of light of one hue, which is a factor at the end.
+struct Strengths {
 	vec3 low;
 	vec3 high;
 };
+
+// Light of the sky: its luminance differs from hair to hair, its hue from vertex to vertex.
+struct SkyLight {
+	Strengths moments;
+	vec3 hue;
+};
+
+// Moments of lamps.
+#ifdef ONE_HUE
+#define Strength float
+#define LampMoments Strengths
 uniform vec3 lampHue; // hue of luminance 1
 #else
 #define Strength vec3

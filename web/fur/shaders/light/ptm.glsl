@@ -60,6 +60,19 @@ FurTexel furTexel(vec3 at) {
 }
 
 // Σ over lights of E·L, L in the unit 4π·radiance / (albedo·irradiance); never negative.
+float relight(FurTexel texel, Strengths moments) {
+	float light = dot(moments.low, texel.low);
+#ifdef TWO_PLANES
+	light += dot(moments.high, texel.high);
+#endif
+	return max(light, 0.0);
+}
+
+#ifdef ONE_HUE
+vec3 hued(float strength) {
+	return strength * lampHue;
+}
+#else
 vec3 relight(FurTexel texel, Moments moments) {
 	vec3 light = moments.low * texel.low;
 #ifdef TWO_PLANES
@@ -68,19 +81,6 @@ vec3 relight(FurTexel texel, Moments moments) {
 	return max(light, 0.0);
 }
 
-#ifdef ONE_HUE
-vec3 relight(FurTexel texel, LampMoments moments) {
-	float light = dot(moments.low, texel.low);
-#ifdef TWO_PLANES
-	light += dot(moments.high, texel.high);
-#endif
-	return max(light, 0.0) * lampHue;
-}
-
-vec3 hued(float strength) {
-	return strength * lampHue;
-}
-#else
 vec3 hued(vec3 light) {
 	return light;
 }
@@ -90,14 +90,14 @@ vec3 hued(vec3 light) {
 // Strength of the white highlight on hairs of this colour, 0..1. The texel's light is that among the hairs of the bake; dark
 // and deep hairs scatter less of it, and a highlight as strong as on pale ones would cover their colour.
 float whiteShine(vec3 colour) {
-	return min(0.15 + dot(colour, vec3(0.2126, 0.7152, 0.0722)) + min(min(colour.r, colour.g), colour.b), 1.0);
+	return min(0.15 + dot(colour, LUMINANCE) + min(min(colour.r, colour.g), colour.b), 1.0);
 }
 #endif
 
 // 4π·radiance of a texel whose hairs have this colour. Lamps and environment are clamped apart: a polynomial
 // that dips below zero under a strong lamp must not reduce the light of the sky, which turns shadows blue.
-vec3 furRadiance(FurTexel texel, vec3 colour, Lamps lamps, Moments sky) {
-	vec3 lamp = relight(texel, lamps.moments);
+vec3 furRadiance(FurTexel texel, vec3 colour, Lamps lamps, SkyLight sky) {
+	vec3 lamp = hued(relight(texel, lamps.moments));
 #ifdef TINGED
 	lamp *= lamps.tinge.rgb;
 #endif
@@ -120,7 +120,7 @@ vec3 furRadiance(FurTexel texel, vec3 colour, Lamps lamps, Moments sky) {
 #endif
 	vec3 light = lamp;
 #ifdef SKY
-	light += relight(texel, sky);
+	light += relight(texel, sky.moments) * sky.hue;
 #endif
 #ifdef BACKLIGHT
 	light += hued(lamps.back) * (backlight * texel.alpha);
@@ -132,7 +132,7 @@ vec3 furRadiance(FurTexel texel, vec3 colour, Lamps lamps, Moments sky) {
 	// Water shines on hairs of any colour.
 	shine.x *= mix(whiteShine(colour), 1.0, furWetness);
 	// A film of water shines on the clumps' crests, where the lamps' light is strongest.
-	float lit = min(dot(lamp, vec3(0.2126, 0.7152, 0.0722)) / max(CREST * lamps.power, 1e-6), 1.0);
+	float lit = min(dot(lamp, LUMINANCE) / max(CREST * lamps.power, 1e-6), 1.0);
 	shine *= mix(1.0, lit * lit * lit, furWetness);
 #else
 	shine.x *= whiteShine(colour);

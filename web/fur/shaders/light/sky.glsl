@@ -82,7 +82,6 @@ void addChange(inout Moments moments, FurPoint point, Radiance radiance, Bending
 // Factor of the sky's light for the eye: X = mean over the half sphere above, weighted by n·ω and by the constant and the
 // gradient of the radiance's luminance; Y = with the surge beside the eye.
 vec2 seenSky(FurPoint point, Eye from, Quadratic seen, Radiance around) {
-	const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 	float c = dot(LUMINANCE, around.constant);
 	vec3 g = LUMINANCE * around.gradient, upright = vec3(0.0);
 	upright.UP = 1.0;
@@ -107,7 +106,7 @@ vec2 seenSky(FurPoint point, Eye from, Quadratic seen, Radiance around) {
 
 // Light of the sky at a point, before the colour of light that has met several hairs.
 struct Sky {
-	Moments moments;
+	SkyLight light;
 	float nap; // share for the eye
 	float place; // see skyPlace
 };
@@ -179,7 +178,11 @@ Sky skyAt(FurPoint point, Bending bending) {
 #else
 	if (bending.there) addChange(moments, point, around, bending, seen, 1.0);
 #endif
-	return Sky(moments, nap, place);
+	vec3 low = LUMINANCE * moments.low, high = LUMINANCE * moments.high;
+	// The hue of the moments that count most: those of coefficients far from 0.
+	vec3 low3 = low * low * low, high3 = high * high * high;
+	vec3 hue = (moments.low * low3 + moments.high * high3) / max(dot(low, low3) + dot(high, high3), 1e-24);
+	return Sky(SkyLight(Strengths(low, high), hue), nap, place);
 }
 
 #ifdef MEAN_CURVES
@@ -188,17 +191,15 @@ float evenSky(FurPoint point, float place) {
 	return max(ofSky(point, HARMONICS0_LOW, place).x, 1e-6);
 }
 
-// Bits of an entry of BodyLight: moments over `even` and nap as halves of a factor, then that factor, nap and place.
-void packSky(Sky sky, float even, out uvec4 first, out uvec4 second, out uvec4 third) {
-	mat3 low = sky.moments.low, high = sky.moments.high;
-	vec3 largest = max(max(abs(low[0]), abs(low[1])), abs(low[2]));
-	largest = max(max(largest, abs(high[0])), max(abs(high[1]), abs(high[2])));
+// Bits of an entry of BodyLight: moments over `even` and nap as halves of a factor, that factor; hue in halves, nap and place.
+void packSky(Sky sky, float even, out uvec4 first, out uvec4 second) {
+	vec3 low = sky.light.moments.low, high = sky.light.moments.high, hue = sky.light.hue;
+	vec3 largest = max(abs(low), abs(high));
 	float factor = max(max(largest.x, largest.y), max(largest.z, 1e-30));
 	low /= factor;
 	high /= factor;
-	first = uvec4(packHalf2x16(low[0].xy), packHalf2x16(low[1].xy), packHalf2x16(low[2].xy), packHalf2x16(vec2(low[0].z, low[1].z)));
-	second = uvec4(packHalf2x16(high[0].xy), packHalf2x16(high[1].xy), packHalf2x16(high[2].xy), packHalf2x16(vec2(high[0].z, high[1].z)));
-	third = uvec4(packHalf2x16(vec2(low[2].z, high[2].z)), floatBitsToUint(vec3(factor / (even * sky.nap), sky.nap, sky.place)));
+	first = uvec4(packHalf2x16(low.xy), packHalf2x16(vec2(low.z, high.x)), packHalf2x16(high.yz), floatBitsToUint(factor / (even * sky.nap)));
+	second = uvec4(packHalf2x16(hue.xy), packHalf2x16(vec2(hue.z, 0.0)), floatBitsToUint(vec2(sky.nap, sky.place)));
 }
 #endif
 
@@ -206,13 +207,11 @@ void packSky(Sky sky, float even, out uvec4 first, out uvec4 second, out uvec4 t
 // Sky stored at one height, over its `even` and nap.
 Sky storedSky(int height) {
 	ivec2 texel = bodyTexel(gl_VertexID, NUM_DIR_LIGHTS + height);
-	uvec4 first = texelFetch(bodyLight0, texel, 0), second = texelFetch(bodyLight1, texel, 0), third = texelFetch(bodyLight2, texel, 0);
-	vec3 numbers = uintBitsToFloat(third.yzw);
-	vec2 low01 = unpackHalf2x16(first.w), high01 = unpackHalf2x16(second.w), last = unpackHalf2x16(third.x);
-	Moments moments;
-	moments.low = numbers.x * mat3(vec3(unpackHalf2x16(first.x), low01.x), vec3(unpackHalf2x16(first.y), low01.y), vec3(unpackHalf2x16(first.z), last.x));
-	moments.high = numbers.x * mat3(vec3(unpackHalf2x16(second.x), high01.x), vec3(unpackHalf2x16(second.y), high01.y), vec3(unpackHalf2x16(second.z), last.y));
-	return Sky(moments, numbers.y, numbers.z);
+	uvec4 first = texelFetch(bodyLight0, texel, 0), second = texelFetch(bodyLight1, texel, 0);
+	vec2 between = unpackHalf2x16(first.y), seen = uintBitsToFloat(second.zw);
+	float factor = uintBitsToFloat(first.w);
+	Strengths moments = Strengths(factor * vec3(unpackHalf2x16(first.x), between.x), factor * vec3(between.y, unpackHalf2x16(first.z)));
+	return Sky(SkyLight(moments, vec3(unpackHalf2x16(second.x), unpackHalf2x16(second.y).x)), seen.x, seen.y);
 }
 
 // Sky of the point's slab, between two stored ones; its nap at the point itself, off the slab where shells are few.
@@ -223,31 +222,28 @@ Sky storedSky(FurPoint point) {
 	vec2 share = (vec2(point.slab, point.s * float(LAYERS) - 0.5) - float(lower)) / float(max(upper - lower, 1));
 	sky.nap = mix(sky.nap, above.nap, share.y);
 	float factor = evenSky(point, sky.place) * sky.nap;
-	sky.moments.low = factor * (sky.moments.low + share.x * (above.moments.low - sky.moments.low));
-	sky.moments.high = factor * (sky.moments.high + share.x * (above.moments.high - sky.moments.high));
+	sky.light.moments.low = factor * (sky.light.moments.low + share.x * (above.light.moments.low - sky.light.moments.low));
+	sky.light.moments.high = factor * (sky.light.moments.high + share.x * (above.light.moments.high - sky.light.moments.high));
+	sky.light.hue += share.x * (above.light.hue - sky.light.hue);
 	return sky;
 }
 #endif
 
-// Moments of the sky's light.
-Moments environmentMoments(FurPoint point, Bending bending) {
+SkyLight skyLight(FurPoint point, Bending bending) {
 #ifdef BODY_LIGHT
 	Sky sky = storedSky(point);
 #else
 	Sky sky = skyAt(point, bending);
 #endif
-	Moments moments = sky.moments;
+	SkyLight light = sky.light;
 	float gain = shortGain(point);
-	moments.low *= gain;
-	moments.high *= gain;
+	light.moments.low *= gain;
+	light.moments.high *= gain;
 #ifdef MULTIPLE
-	vec3 tinge = skyTinge(point, multipleGain(point), sky.place, sky.nap);
-	mat3 rows = mat3(tinge, tinge, tinge);
-	moments.low = matrixCompMult(moments.low, rows);
-	moments.high = matrixCompMult(moments.high, rows);
+	light.hue *= skyTinge(point, multipleGain(point), sky.place, sky.nap);
 #endif
 #ifdef TRIMMED
-	moments = trimmed(moments, point.s);
+	light.moments = trimmed(light.moments, point.s);
 #endif
-	return moments;
+	return light;
 }
