@@ -10,9 +10,10 @@ import {
 	WebGLRenderTarget,
 } from 'three';
 import { OutputPass } from 'three/addons/postprocessing/OutputPass.js';
-import { type FurLimits, furLimits } from '../fur/index.ts';
+import { type Fur, type FurLimits, furLimits } from '../fur/index.ts';
 import { disposeAll } from '../page/dispose.ts';
 import { setToneMapping } from '../page/toneMapping.ts';
+import { compileScene } from './compile.ts';
 
 const MAX_PIXEL_RATIO = 2;
 /** Samples per pixel on screens of low density. */
@@ -156,6 +157,11 @@ export class Painter {
 		this.#seen.observe(canvas);
 		this.#sized.observe(canvas);
 		return entry;
+	}
+
+	/** Compiles what a scene needs before it is first drawn. @param furs on show */
+	async compile(scene: Scene, camera: Camera, furs: readonly Fur[]): Promise<void> {
+		if (this.#output) await compileScene(this.#output.renderer, scene, camera, this.#output.target, furs);
 	}
 
 	/** Draws a scene into a 2D canvas, at its full size. */

@@ -25,6 +25,8 @@ export class Session implements Drawn {
 	#manager: LoadingManager | undefined;
 	/** Number of the latest load: what an earlier one brings is too late. */
 	#turn = 0;
+	/** Number of models that are being compiled. */
+	#compiling = 0;
 
 	/**
 	 * @param calm whether nothing glides
@@ -77,12 +79,24 @@ export class Session implements Drawn {
 			}
 			this.picture.show(shown);
 			before();
-			this.redraw();
+			await this.#compile(shown);
 			await this.#shared.painter.drawn(this.#canvas);
 			return late() ? undefined : reason;
 		} catch (error) {
 			if (late()) return undefined;
 			throw error;
+		}
+	}
+
+	/** Compiles what is shown; it is not drawn before. */
+	async #compile({ fur }: Shown): Promise<void> {
+		const { scene, camera } = this.picture;
+		this.#compiling++;
+		try {
+			await this.#shared.painter.compile(scene, camera, fur ? [fur] : []);
+		} finally {
+			this.#compiling--;
+			this.redraw();
 		}
 	}
 
@@ -114,7 +128,7 @@ export class Session implements Drawn {
 
 	/** Requests a frame, with a new picture in it. */
 	redraw(): void {
-		if (!this.picture.shown) return;
+		if (!this.picture.shown || this.#compiling > 0) return;
 		this.#shownOn ??= this.#shared.painter.picture(this.#canvas, () => this.#draw());
 		this.#shownOn.redraw();
 	}
@@ -132,7 +146,7 @@ export class Session implements Drawn {
 
 	#draw(): void {
 		const { scene, camera, shown } = this.picture;
-		if (!shown) return;
+		if (!shown || this.#compiling > 0) return;
 		const { width, height } = this.#canvas;
 		this.picture.fit(width / height);
 		this.picture.lamp.glide(camera, Number.POSITIVE_INFINITY);

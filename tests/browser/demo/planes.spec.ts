@@ -2,7 +2,7 @@
 
 import type { Page } from '@playwright/test';
 import { expect, open, site, state, test, type Watch } from '../harness.ts';
-import { drawNothing, shrinkPicture } from '../inPage/gpu.ts';
+import { compileAside, drawNothing, shrinkPicture, unready } from '../inPage/gpu.ts';
 import { openInPage, served } from '../library.ts';
 
 declare const loaded: typeof import('../inPage/fade.ts');
@@ -45,6 +45,16 @@ test.describe('the page', () => {
 		await shrinkPicture(page, 90, 70);
 	});
 
+	test('draws skin and fur once their programs are compiled, where that is done aside', async ({ page }) => {
+		await compileAside(page);
+		await open(page, '?shells=4');
+		expect(await state(page)).toBe('ready');
+		await expect.poll(() => mark(page, 'fine')).toBeGreaterThan(0);
+		const used = await page.evaluate(() => window.unready);
+		expect(used, 'programs of the output are not waited for').toContain('BackgroundMaterial');
+		expect(await unready(page, /^(FurMaterial|FurFinMaterial|BodyLight|skin|nose|whisker)$/)).toEqual([]);
+	});
+
 	test('has finer planes come after the first fur, unasked', async ({ page, watch }) => {
 		await open(page, '?shells=4&light=-1,1,1');
 		expect(await state(page)).toBe('ready');
@@ -74,7 +84,9 @@ test.describe('the page', () => {
 
 	test('who saves data stays with what there is', async ({ page, watch }) => {
 		await page.addInitScript(() => {
-			Object.defineProperty(navigator, 'connection', { value: { saveData: true } });
+			Object.defineProperty(navigator, 'connection', {
+				value: { saveData: true },
+			});
 		});
 		await open(page, '?still=1&shells=4');
 		await page.waitForLoadState('networkidle');

@@ -19,6 +19,8 @@ export interface Gpu {
 declare global {
 	interface Window {
 		gpu: Gpu;
+		/** Names of materials whose programs were used before they were ready, see `compileAside`. */
+		unready: string[];
 	}
 }
 
@@ -115,3 +117,42 @@ export async function shrinkPicture(
 		document.adoptedStyleSheets = [sheet];
 	}, `#picture { ${fixed} width: ${width}px !important; height: ${height}px !important } ${covers}`);
 }
+
+/** Has programs compiled aside, as graphics cards do: each is ready when it is asked for the fifth time. */
+export async function compileAside(page: Page): Promise<void> {
+	await page.addInitScript(() => {
+		const proto = WebGL2RenderingContext.prototype;
+		const { shaderSource, attachShader, getProgramParameter, getExtension, useProgram } = proto;
+		const READY = 0x91b1;
+		const names = new WeakMap<object, string>();
+		const asked = new WeakMap<WebGLProgram, number>();
+		window.unready = [];
+		Object.assign(proto, {
+			getExtension(this: WebGL2RenderingContext, name: string) {
+				if (name === 'KHR_parallel_shader_compile') return { COMPLETION_STATUS_KHR: READY };
+				return Reflect.apply(getExtension, this, [name]);
+			},
+			shaderSource(this: WebGL2RenderingContext, shader: WebGLShader, text: string) {
+				names.set(shader, /#define SHADER_NAME (\w+)/.exec(text)?.[1] ?? '');
+				shaderSource.call(this, shader, text);
+			},
+			attachShader(this: WebGL2RenderingContext, program: WebGLProgram, shader: WebGLShader) {
+				names.set(program, names.get(shader) ?? '');
+				attachShader.call(this, program, shader);
+			},
+			getProgramParameter(this: WebGL2RenderingContext, program: WebGLProgram, name: number) {
+				if (name !== READY) return getProgramParameter.call(this, program, name);
+				asked.set(program, (asked.get(program) ?? 0) + 1);
+				return (asked.get(program) ?? 0) >= 5;
+			},
+			useProgram(this: WebGL2RenderingContext, program: WebGLProgram | null) {
+				if (program && (asked.get(program) ?? 0) < 5) window.unready.push(names.get(program) ?? '');
+				useProgram.call(this, program);
+			},
+		});
+	});
+}
+
+/** Those of these names whose programs were used before they were ready. */
+export const unready = (page: Page, names: RegExp): Promise<string[]> =>
+	page.evaluate((those) => window.unready.filter((name) => new RegExp(those).test(name)), names.source);

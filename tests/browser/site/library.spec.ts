@@ -23,7 +23,7 @@ const npm = (...args: string[]) =>
 const BYTES = { app: 4.5e3, still: 43.8e3, fins: 49e3, character: 52.1e3, checked: 64.2e3 };
 
 /** Bytes of `<fur-view>` with three.js inside, through gzip. */
-const VIEW = 267e3;
+const VIEW = 268e3;
 
 /** A folder of someone else's, in which the package is installed as it would be from a registry. */
 let app = '';

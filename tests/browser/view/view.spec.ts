@@ -2,7 +2,7 @@
 
 import { readFileSync } from 'node:fs';
 import { difference, expect, picture, test } from '../harness.ts';
-import { drawNothing, watchGpu } from '../inPage/gpu.ts';
+import { compileAside, drawNothing, unready, watchGpu } from '../inPage/gpu.ts';
 import { type Counts, counts, pixels, type Site, serveView, TORUS, until, watchDraws, withView } from './host.ts';
 
 let site: Site;
@@ -63,6 +63,14 @@ test('ten on one page show fur, after scrolling too, by one context and under a 
 	expect(watch.complaints.splice(0)).toEqual([
 		'fur-view: fur: got a model without any, expected a baked one (src="bald/model.gltf")',
 	]);
+});
+
+test('it is drawn once its programs are compiled, where that is done aside', async ({ page }) => {
+	await compileAside(page);
+	await site.open(page, `<fur-view ${TORUS}></fur-view>`);
+	await until(page, 'ready');
+	expect((await pixels(page, 'fur-view')).covered).toBeGreaterThan(0.2);
+	expect(await unready(page, /^(FurMaterial|FurFinMaterial|BodyLight)$/)).toEqual([]);
 });
 
 test('what is removed frees all it had, the last one the context, and it can come back', async ({ page }) => {

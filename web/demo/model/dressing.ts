@@ -1,5 +1,6 @@
 /** The fur of the model on show: pelts and methods, their states and finer planes, as the view asks for them. */
 
+import { compileScene, compilesAside } from '../../scene/compile.ts';
 import { notice } from '../say/notice.ts';
 import type { Crowd } from '../stage/crowd.ts';
 import type { Picture } from '../stage/picture.ts';
@@ -108,11 +109,22 @@ export class Dressing {
 		this.style();
 		picture.updateLight();
 		picture.fit();
+		await picture.frames.hold(this.#compile());
 		if (!first) return;
 		await this.#looks.showFirst(this.#store, () => picture.drawn());
 		performance.mark('furbake:fur');
 		// Ready for the first wind or hand.
 		void this.#dynamics.loadMotion();
+	}
+
+	/** Compiles the fur as it will be drawn, swinging where the body moves. */
+	async #compile(): Promise<void> {
+		const { stage, camera } = this.#picture;
+		const { renderer, scene, sample } = stage;
+		if (!compilesAside(renderer)) return;
+		await this.#dynamics.prepare();
+		this.#picture.animate(1 / 60);
+		await compileScene(renderer, scene, camera, sample, this.#looks.furs);
 	}
 
 	/** Fades over to finer planes; the fur stays as it is where they cannot be had. */

@@ -150,6 +150,13 @@ export class Dynamics {
 		return this.#weather;
 	}
 
+	/** Makes the hairs swing from the first frame on where the clip moves the body. */
+	async prepare(): Promise<void> {
+		if (this.#calm || !this.#stage.model?.clips?.moves) return;
+		await this.loadMotion();
+		this.#needMotion();
+	}
+
 	/** Draws the next frame with a swing of zero: shaders of moving hairs are compiled before the first stroke. */
 	warmUp(): void {
 		const { body } = this.#looks;

@@ -3,6 +3,7 @@
 import { FUR_VERSION } from '../../fur/index.ts';
 import { facing } from '../../measure/facing.ts';
 import type { Relit } from '../../rti/relit.ts';
+import { compileScene } from '../../scene/compile.ts';
 import { loadModel, sourceAt } from '../../scene/load.ts';
 import type { Model } from '../../scene/model.ts';
 import type { OwnModel } from '../open/drop.ts';
@@ -184,7 +185,9 @@ export class Exhibit {
 	/** Loads and shows a model; says why and keeps the one before where that fails. */
 	async #show(name: string, own?: OwnModel): Promise<void> {
 		const turn = ++this.#latest;
-		const { stage } = this.#picture;
+		const picture = this.#picture;
+		const { stage } = picture;
+		const { renderer, scene, sample } = stage;
 		const first = stage.model === undefined;
 		// No name of the menu has a slash in front.
 		const shown = own ? `/${name}` : name;
@@ -196,7 +199,8 @@ export class Exhibit {
 			if (turn !== this.#latest) return;
 			early = model;
 			this.#present(model, shown);
-			void this.#picture.drawn().then(() => performance.mark('furbake:skin'));
+			void picture.frames.hold(compileScene(renderer, scene, picture.camera, sample));
+			void picture.drawn().then(() => performance.mark('furbake:skin'));
 		};
 		const manager = this.#progress.begin();
 		try {

@@ -70,13 +70,18 @@ export class Looks {
 
 	/** States that any fur on show has beside dry and clean. */
 	get states(): { wet: boolean; dirt: boolean } {
-		const furs = this.#looks.map(({ fur }) => fur.states);
-		return { wet: furs.some(({ wet }) => wet), dirt: furs.some(({ dirt }) => dirt) };
+		const states = this.furs.map((fur) => fur.states);
+		return { wet: states.some(({ wet }) => wet), dirt: states.some(({ dirt }) => dirt) };
+	}
+
+	/** Furs on show. */
+	get furs(): Fur[] {
+		return this.#looks.map(({ fur }) => fur);
 	}
 
 	/** Fur on the left, or on all of the picture. */
 	get fur(): Fur | undefined {
-		return this.#looks[0]?.fur;
+		return this.furs[0];
 	}
 
 	/**
@@ -116,8 +121,10 @@ export class Looks {
 			rival?.apply();
 		}
 		this.style(view);
-		const furs = (looks: readonly Look[]) => looks.map(({ fur }) => fur);
-		this.#fade = fade(furs(this.#leavingLooks), furs(this.#looks));
+		this.#fade = fade(
+			this.#leavingLooks.map(({ fur }) => fur),
+			this.furs,
+		);
 		scene.add(this.#fade);
 		return new Promise((resolve) => {
 			this.#onFaded = resolve;
@@ -194,11 +201,8 @@ export class Looks {
 		const furs = this.#furs.get(pelt) ?? [];
 		this.#furs.set(pelt, furs);
 		const index = pelt === body ? nth - 1 : nth;
-		let fur = furs[index];
-		if (!fur) {
-			fur = dressFur(body, pelt, { tips });
-			furs[index] = fur;
-		}
+		const fur = furs[index] ?? dressFur(body, pelt, { tips });
+		furs[index] = fur;
 		return fur;
 	}
 
@@ -251,7 +255,7 @@ export class Looks {
 
 	/** Fetches the states of the furs on show. */
 	async loadStates(): Promise<void> {
-		await Promise.all(this.#looks.map(({ fur }) => fur.loadStates()));
+		await Promise.all(this.furs.map((fur) => fur.loadStates()));
 	}
 
 	/** @param share of the picture's width where the second look begins; without a second one nothing is cut */

@@ -19,8 +19,11 @@ export class Frames {
 	#before = Number.NaN;
 	#requested = false;
 	#timer: ReturnType<typeof setTimeout> | undefined;
+	/** Number of things that frames wait for. */
+	#holds = 0;
 	readonly #frame = (now: number) => {
 		this.#requested = false;
+		if (this.#holds > 0) return;
 		clearTimeout(this.#timer);
 		const interval = now - this.#before;
 		this.#before = now;
@@ -37,6 +40,18 @@ export class Frames {
 		this.#handlers = handlers;
 		// The picture of a hidden tab may be gone.
 		document.addEventListener('visibilitychange', () => this.request());
+	}
+
+	/** Draws no frame until this is done. */
+	async hold(until: Promise<unknown>): Promise<void> {
+		this.#holds++;
+		this.#before = Number.NaN;
+		try {
+			await until;
+		} finally {
+			this.#holds--;
+			this.request();
+		}
 	}
 
 	/** Requests a frame; more follow while anything moves. */

@@ -63,7 +63,7 @@ export class Picture {
 	#room: Room | undefined;
 	#nextRoom: Room | undefined;
 	readonly #waiting: (() => void)[] = [];
-	readonly #frames = new Frames({
+	readonly frames = new Frames({
 		draw: (interval, now) => this.#draw(interval, now),
 		rest: () => this.#rest(),
 	});
@@ -124,7 +124,7 @@ export class Picture {
 	}
 
 	request(): void {
-		this.#frames.request();
+		this.frames.request();
 	}
 
 	/** Draws a frame. @returns once it has been drawn, or skipped for want of a canvas */

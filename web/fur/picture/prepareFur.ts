@@ -1,6 +1,7 @@
-import type { Camera, Scene, WebGLRenderer, WebGLRenderTarget } from 'three';
+import type { Camera, Scene, Texture, WebGLRenderer, WebGLRenderTarget } from 'three';
 import type { Fur } from '../Fur.ts';
 import { turn } from '../planes/steps.ts';
+import { BodyLight } from '../shells/BodyLight.ts';
 
 /**
  * Compiles a fur's programs and uploads its planes in small steps before it is first seen, so that no frame waits for them.
@@ -20,6 +21,7 @@ export async function prepareFur(
 	// Without this extension three would warn, and could not tell when programs are ready.
 	const aside = renderer.extensions.has('KHR_parallel_shader_compile');
 	const before = renderer.getRenderTarget();
+	for (const part of fur.shells.children) if (part instanceof BodyLight) part.follow();
 	renderer.setRenderTarget(target);
 	const compiled = [...(fur.fins ? [fur.fins] : []), fur.shells].map((part) => {
 		// Materials of fur depend on the lamps' hue.
@@ -28,10 +30,15 @@ export async function prepareFur(
 	});
 	renderer.setRenderTarget(before);
 	await Promise.all(compiled);
-	for (const textures of [fur.textures, fur.finTextures]) {
-		for (const texture of Object.values(textures ?? {})) {
-			await turn();
-			if (texture) renderer.initTexture(texture);
-		}
+	const textures = new Set<Texture>(
+		[fur.textures, fur.finTextures].flatMap((those) => Object.values(those ?? {}).filter(Boolean)),
+	);
+	// Textures that are freed meanwhile stay so.
+	const forget = ({ target }: { target: Texture }) => textures.delete(target);
+	for (const texture of textures) texture.addEventListener('dispose', forget);
+	for (const texture of textures) {
+		await turn();
+		texture.removeEventListener('dispose', forget);
+		if (textures.has(texture)) renderer.initTexture(texture);
 	}
 }

@@ -177,9 +177,7 @@ export class BodyLight extends Points<InstancedBufferGeometry, ShaderMaterial> i
 		const own = material === this.material && this.#shells.material === this.#source;
 		const entries = own ? this.#fit(renderer, scene) : 0;
 		if (entries === 0) return;
-		this.#share(this.#shells.geometry.attributes);
-		followComb(this.#shells);
-		followParts(this.material, this.#source, PARTS);
+		this.follow();
 		this.#frame = renderer.info.render.frame;
 		this.#camera = camera;
 		this.geometry.instanceCount = entries;
@@ -196,13 +194,19 @@ export class BodyLight extends Points<InstancedBufferGeometry, ShaderMaterial> i
 		renderer.state.viewport(viewport);
 	}
 
+	/** Use the shells' present vertices, and compile in what they have. */
+	follow(): void {
+		this.#share(this.#shells.geometry.attributes);
+		followComb(this.#shells);
+		followParts(this.material, this.#source, PARTS);
+	}
+
 	/** Let the shells look it up if it has been drawn for this picture and camera. */
 	offer(renderer: WebGLRenderer, camera: Camera): void {
 		const drawn = this.#frame === renderer.info.render.frame && this.#camera === camera;
 		if (this.#shells.material === this.#source) switchPart(this.#source, 'BODY_LIGHT', drawn ? '' : undefined);
 	}
 
-	/** Use the shells' present vertices. */
 	#share(attributes: NormalBufferAttributes): void {
 		const own = this.geometry.attributes;
 		for (const name in attributes) if (own[name] !== attributes[name]) own[name] = attributes[name] as BufferAttribute;

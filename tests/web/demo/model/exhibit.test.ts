@@ -21,10 +21,10 @@ function exhibit(view: View) {
 	const fur = { states: { wet: true, dirt: false }, asset: {}, shells: {} };
 	const stage = {
 		...{ model: { fur }, scene: new Group(), limits: {}, gl: { isContextLost: () => false } },
-		...{ setCrowd() {}, moveBody() {} },
+		...{ setCrowd() {}, moveBody() {}, renderer: { extensions: { has: () => false } } },
 	};
 	const picture = {
-		...{ stage, guides: new Group(), canvas: { dataset: {} }, calm: true },
+		...{ stage, guides: new Group(), canvas: { dataset: {} }, calm: true, frames: { hold: async () => {} } },
 		...{ updateLight() {}, fit() {}, request() {}, reportTextureMemory() {}, drawn: async () => {}, columnOf: () => 1 },
 	};
 	const store = new Store(view);

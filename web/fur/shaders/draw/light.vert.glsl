@@ -1,6 +1,5 @@
 // Light from vertex to fragment: moments, summed here; or, where lamps are summed per fragment, the point.
-// WebGL2 guarantees 15 vectors. A shell uses at most two matrices and six vec3, with fifteen scalars in their gaps; where lamps
-// are summed per fragment, one matrix, six vec3 and seventeen scalars. All are taken at the centroid of the samples that a
+// WebGL2 guarantees 15 vectors, and a test counts them. All are taken at the centroid of the samples that a
 // triangle covers: beyond its edge a multisampled pixel would be far too bright. Places in textures are not, whose derivatives
 // choose a level, and vKept in the gap beside them.
 

@@ -16,11 +16,7 @@ vec3 rootColour; // colour at the roots of this fragment's hairs
 centroid in vec3 vColour;
 #ifdef COLOUR_PLANE
 centroid in float vTip2;
-#ifdef TIGHT
-#define vRamp ((vAt.z - furLayer) / RAMP_SHARE)
-#else
 centroid in float vRamp;
-#endif
 #endif
 
 vec3 hairColour(vec3 at, float tint) {

@@ -3,11 +3,7 @@
 centroid out vec3 vColour; // linear; a factor where there is a colour plane, or a picture of the roots
 #ifdef COLOUR_PLANE
 centroid out float vTip2; // mix of the texel's colour and tip2
-#ifdef TIGHT
-float vRamp; // in vAt instead
-#else
 centroid out float vRamp; // place on the ramp
-#endif
 #endif
 
 #ifdef ROOTS
@@ -28,9 +24,6 @@ void passColour(ShellPoint shell) {
 #ifdef COLOUR_PLANE
 	vTip2 = tipShare * _fur.w;
 	vRamp = rampPlace(shell.s);
-#ifdef TIGHT
-	vAt.z += RAMP_SHARE * vRamp;
-#endif
 #else
 	vColour *= furRamp(tipShare * _fur.w, shell.s);
 #endif

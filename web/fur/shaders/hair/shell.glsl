@@ -29,16 +29,14 @@ uniform vec4 crispLevels[(CRISP_SLABS + 1) / 2]; // coverage of two slabs each, 
 uniform vec2 crispness; // Y = share of the latter in the picture
 #endif
 
-out vec3 vAt; // XY = tiles, Z = slab, fur after fur; where TIGHT, the place on the ramp times RAMP_SHARE is added
+out vec3 vAt; // XY = tiles, Z = slab, fur after fur
 centroid out float vWeight; // slabs that the shell stands for, times the patch's weight
 centroid out float vFacing; // n·v, through the pelt
 out float vKept;
 #ifdef PARTED
 in vec4 regionSlope; // growth of the two bounds along u and v, per unit of texture coordinates: XY of the lower, ZW of the upper
-#ifndef TIGHT
 uniform float furCells; // cells along a tile of the coat in which all hairs are of one fur
 out vec2 vRoot; // root of the hairs, cells
-#endif
 // Bounds of the numbers of this fur's hairs there.
 #if REGIONS == 2
 centroid out float vBound; // upper bound of the coat's; of the other's, which are counted from 1 down, too
@@ -190,9 +188,7 @@ ShellPoint shellPoint() {
 	vWeight = _fur.x * FUR_SHARE * slabs * hairCover(point, slope, eye, lengthShare) * divergence(furCurvature(_fur.y), point.comb, point.s);
 #ifdef PARTED
 	drifted *= furWidth;
-#ifndef TIGHT
 	vRoot = (uv * tiles - drifted) * furCells;
-#endif
 	vec2 bounds = _region.xy - vec2(dot(regionSlope.xy, drifted), dot(regionSlope.zw, drifted)) / tiles;
 #if REGIONS == 2
 	vBound = mix(bounds.y, 1.0 - bounds.x, furSecond);

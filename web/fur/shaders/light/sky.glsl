@@ -222,9 +222,9 @@ Sky storedSky(FurPoint point) {
 	vec2 share = (vec2(point.slab, point.s * float(LAYERS) - 0.5) - float(lower)) / float(max(upper - lower, 1));
 	sky.nap = mix(sky.nap, above.nap, share.y);
 	float factor = evenSky(point, sky.place) * sky.nap;
-	sky.light.moments.low = factor * (sky.light.moments.low + share.x * (above.light.moments.low - sky.light.moments.low));
-	sky.light.moments.high = factor * (sky.light.moments.high + share.x * (above.light.moments.high - sky.light.moments.high));
-	sky.light.hue += share.x * (above.light.hue - sky.light.hue);
+	sky.light.moments.low = factor * mix(sky.light.moments.low, above.light.moments.low, share.x);
+	sky.light.moments.high = factor * mix(sky.light.moments.high, above.light.moments.high, share.x);
+	sky.light.hue = mix(sky.light.hue, above.light.hue, share.x);
 	return sky;
 }
 #endif

@@ -8,12 +8,7 @@ centroid in float vBound; // see shell.glsl
 centroid in float vLowest;
 centroid in float vHighest;
 #endif
-#ifdef TIGHT
-uniform float furCells; // see shell.glsl
-#define vRoot (rootTiles(furAt) * (furWidth * furCells))
-#else
 in vec2 vRoot; // root of the hairs, cells
-#endif
 
 // Number of a cell, 0..1: PCG (M. E. O'Neill 2014) of its two places.
 float numberOf(ivec2 cell) {

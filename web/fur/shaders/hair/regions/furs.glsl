@@ -16,9 +16,5 @@ uniform float tileWidths[REGIONS]; // widths of a tile over the coat's
 #endif
 #ifndef ONE_FUR
 #define PARTED // furs share the surface
-#if defined(BACKLIGHT) || defined(BODIES)
-#define TIGHT // no varyings are left for places that a fragment can find by itself
-#define RAMP_SHARE 0.5
-#endif
 #endif
 #endif

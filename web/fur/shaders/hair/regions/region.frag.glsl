@@ -5,15 +5,10 @@ in vec2 vAt; // tiles along the edge, height
 centroid in float vFade; // opacity of the fin, and 2 more for each fur before its own
 #else
 in vec3 vAt; // see shell.glsl
-#ifdef TIGHT
-#define furLayer floor(vAt.z + 0.25)
-#else
-#define furLayer vAt.z
-#endif
 #if defined(REGIONS) && defined(SAME_HAIRS)
-#define furAt vec3(vAt.xy, furLayer - float(furRegion * LAYERS))
+#define furAt vec3(vAt.xy, vAt.z - float(furRegion * LAYERS))
 #else
-#define furAt vec3(vAt.xy, furLayer)
+#define furAt vAt
 #endif
 #endif
 

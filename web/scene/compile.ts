@@ -1,0 +1,32 @@
+/** Programs of a scene and its furs, compiled while the page goes on. */
+
+import type { Camera, Scene, WebGLRenderer, WebGLRenderTarget } from 'three';
+import { type Fur, prepareFur } from '../fur/index.ts';
+
+/** True where the browser compiles programs while the page goes on. */
+export const compilesAside = (renderer: WebGLRenderer): boolean =>
+	renderer.extensions.has('KHR_parallel_shader_compile');
+
+/**
+ * Compiles all programs at a time before the first picture that needs them; graphics cards take seconds for them, one after
+ * the other, and the page would stand still meanwhile. Where the browser cannot do so at the side nothing is done: the first
+ * picture spares what it does not show.
+ *
+ * @param target target of the picture
+ * @param furs on show
+ */
+export async function compileScene(
+	renderer: WebGLRenderer,
+	scene: Scene,
+	camera: Camera,
+	target: WebGLRenderTarget,
+	furs: readonly Fur[] = [],
+): Promise<void> {
+	if (!compilesAside(renderer)) return;
+	const programs: Promise<unknown>[] = furs.map((fur) => prepareFur(fur, renderer, scene, camera, target));
+	const before = renderer.getRenderTarget();
+	renderer.setRenderTarget(target);
+	programs.push(renderer.compileAsync(scene, camera));
+	renderer.setRenderTarget(before);
+	await Promise.all(programs);
+}
