@@ -1,6 +1,6 @@
 /** Programs of a scene and its furs, compiled while the page goes on. */
 
-import type { Camera, Scene, WebGLRenderer, WebGLRenderTarget } from 'three';
+import { type Camera, DataTexture, type Scene, type WebGLRenderer, type WebGLRenderTarget } from 'three';
 import { type Fur, prepareFur } from '../fur/index.ts';
 
 /** True where the browser compiles programs while the page goes on. */
@@ -29,4 +29,23 @@ export async function compileScene(
 	programs.push(renderer.compileAsync(scene, camera));
 	renderer.setRenderTarget(before);
 	await Promise.all(programs);
+}
+
+const motionless = new DataTexture();
+
+/** Compiles what furs at rest need once they swing, and those that swing once they rest, without being waited for. */
+export function compileOther(
+	renderer: WebGLRenderer,
+	scene: Scene,
+	camera: Camera,
+	target: WebGLRenderTarget,
+	furs: readonly Fur[],
+): void {
+	if (!compilesAside(renderer)) return;
+	for (const fur of furs) {
+		const { swing } = fur;
+		fur.swing = swing ? undefined : motionless;
+		void prepareFur(fur, renderer, scene, camera, target);
+		fur.swing = swing;
+	}
 }

@@ -118,14 +118,15 @@ export async function shrinkPicture(
 	}, `#picture { ${fixed} width: ${width}px !important; height: ${height}px !important } ${covers}`);
 }
 
-/** Has programs compiled aside, as graphics cards do: each is ready when it is asked for the fifth time. */
+/** Has programs compiled aside, as graphics cards do: each is ready a while after it was linked. */
 export async function compileAside(page: Page): Promise<void> {
 	await page.addInitScript(() => {
 		const proto = WebGL2RenderingContext.prototype;
-		const { shaderSource, attachShader, getProgramParameter, getExtension, useProgram } = proto;
-		const READY = 0x91b1;
+		const { shaderSource, attachShader, linkProgram, getProgramParameter, getExtension, useProgram } = proto;
+		const [READY, WHILE] = [0x91b1, 100];
 		const names = new WeakMap<object, string>();
-		const asked = new WeakMap<WebGLProgram, number>();
+		const linked = new WeakMap<WebGLProgram, number>();
+		const isReady = (program: WebGLProgram) => performance.now() - (linked.get(program) ?? 0) > WHILE;
 		window.unready = [];
 		Object.assign(proto, {
 			getExtension(this: WebGL2RenderingContext, name: string) {
@@ -140,13 +141,15 @@ export async function compileAside(page: Page): Promise<void> {
 				names.set(program, names.get(shader) ?? '');
 				attachShader.call(this, program, shader);
 			},
+			linkProgram(this: WebGL2RenderingContext, program: WebGLProgram) {
+				linked.set(program, performance.now());
+				linkProgram.call(this, program);
+			},
 			getProgramParameter(this: WebGL2RenderingContext, program: WebGLProgram, name: number) {
-				if (name !== READY) return getProgramParameter.call(this, program, name);
-				asked.set(program, (asked.get(program) ?? 0) + 1);
-				return (asked.get(program) ?? 0) >= 5;
+				return name === READY ? isReady(program) : getProgramParameter.call(this, program, name);
 			},
 			useProgram(this: WebGL2RenderingContext, program: WebGLProgram | null) {
-				if (program && (asked.get(program) ?? 0) < 5) window.unready.push(names.get(program) ?? '');
+				if (program && !isReady(program)) window.unready.push(names.get(program) ?? '');
 				useProgram.call(this, program);
 			},
 		});

@@ -48,6 +48,10 @@ describe('bareShader', () => {
 	it('keeps signs apart, and what goes on on the next line', () => {
 		expect(bareShader('a = b - -c + d;\nvec2 e = vec2(1.0,\n\t-1.0);')).toBe('a=b - -c+d;vec2 e=vec2(1.0,\n-1.0);');
 	});
+
+	it('ends the line of a last directive', () => {
+		expect(bareShader('#ifdef A\nint a;\n#endif // A\n')).toBe('#ifdef A\nint a;\n#endif\n');
+	});
 });
 
 describe('fontsPlugin', () => {

@@ -1,6 +1,6 @@
 /** The fur of the model on show: pelts and methods, their states and finer planes, as the view asks for them. */
 
-import { compileScene, compilesAside } from '../../scene/compile.ts';
+import { compileOther, compileScene, compilesAside } from '../../scene/compile.ts';
 import { notice } from '../say/notice.ts';
 import type { Crowd } from '../stage/crowd.ts';
 import type { Picture } from '../stage/picture.ts';
@@ -113,6 +113,8 @@ export class Dressing {
 		if (!first) return;
 		await this.#looks.showFirst(this.#store, () => picture.drawn());
 		performance.mark('furbake:fur');
+		const { renderer, scene, sample } = picture.stage;
+		compileOther(renderer, scene, picture.camera, sample, this.#looks.furs);
 		// Ready for the first wind or hand.
 		void this.#dynamics.loadMotion();
 	}

@@ -14,7 +14,7 @@ import { CONTRAST, codings, type FurTextures, type SlabMeanCurves, type TexelCod
 import { type Stained, stain } from '../weather/stains.ts';
 import { followHue } from './hue.ts';
 import { peltParameters } from './parts/peltParameters.ts';
-import { mirrorUniforms, switchPart } from './switches.ts';
+import { inOrder, mirrorUniforms, switchPart } from './switches.ts';
 
 /** Common base of the materials of shells and fins: texels of coefficients times light moments. */
 export class PeltMaterial extends ShaderMaterial {
@@ -42,6 +42,7 @@ export class PeltMaterial extends ShaderMaterial {
 		const { LAYERS, FIN } = parameters.defines ?? {};
 		const light = new PeltLight(furs, planes, Number(LAYERS), FIN !== undefined, leader ? leader.#light : undefined);
 		super(peltParameters(furs, textures, light.uniforms, parameters));
+		this.defines = inOrder(this.defines);
 		// Defaults of absent attributes: white, full weight, full length, open, first tip colour.
 		Object.assign(this.defaultAttributeValues, {
 			color: [1, 1, 1, 1],

@@ -5,6 +5,10 @@ import type { BufferGeometry, Mesh, ShaderMaterial } from 'three';
 /** Parts that change position and coverage of hairs, whatever lights them. */
 export const SHAPE = ['DENSITY', 'SWING', 'TRIMMED', 'WET', 'DIRTY', 'MUD', 'MORPHS'] as const;
 
+/** Defines in a fixed order: in another one they make another program. */
+export const inOrder = (defines: ShaderMaterial['defines']): ShaderMaterial['defines'] =>
+	Object.fromEntries(Object.entries(defines).sort());
+
 /**
  * Compile a part in or out. The renderer keeps a material's programs, so switching back and forth is cheap.
  *
@@ -12,14 +16,14 @@ export const SHAPE = ['DENSITY', 'SWING', 'TRIMMED', 'WET', 'DIRTY', 'MUD', 'MOR
  */
 export function switchPart(material: ShaderMaterial, part: string, value: string | number | undefined): void {
 	if (material.defines[part] === value) return;
-	if (value !== undefined) material.defines[part] = value;
-	else delete material.defines[part];
+	const { [part]: _, ...defines } = material.defines;
+	if (value !== undefined) defines[part] = value;
+	material.defines = inOrder(defines);
 	material.needsUpdate = true;
 }
 
 /** Leave out of the shells' shaders what only combed hairs need. */
 export function followComb({ geometry, material }: Mesh<BufferGeometry, ShaderMaterial>): void {
-	// Always there, since another order of defines is another program.
 	switchPart(material, 'STRAIGHT', geometry.hasAttribute('_comb') ? 0 : 1);
 }
 

@@ -50,6 +50,8 @@ export function bareShader(source) {
 		.map((line) =>
 			line.startsWith('#') ? line : line.replace(/ ?([=,;(){}?:<>*/&|]) ?/g, '$1').replace(/ ([+-]) (?![+-])/g, '$1'),
 		);
+	// Compilers warn of a directive without a line's end.
+	if (lines.at(-1)?.startsWith('#')) lines.push('');
 	return lines.reduce((text, line, i) => {
 		const before = lines[i - 1] ?? '';
 		const joined = i === 0 || (/[;{}]$/.test(before) && !before.startsWith('#') && !line.startsWith('#'));
