@@ -1,6 +1,6 @@
 /** Programs of a scene and its furs, compiled while the page goes on. */
 
-import { type Camera, DataTexture, type Scene, type WebGLRenderer, type WebGLRenderTarget } from 'three';
+import { type Camera, DataTexture, type Object3D, type Scene, type WebGLRenderer, type WebGLRenderTarget } from 'three';
 import { type Fur, prepareFur } from '../fur/index.ts';
 
 /** True where the browser compiles programs while the page goes on. */
@@ -26,7 +26,9 @@ export async function compileScene(
 	const programs: Promise<unknown>[] = furs.map((fur) => prepareFur(fur, renderer, scene, camera, target));
 	const before = renderer.getRenderTarget();
 	renderer.setRenderTarget(target);
-	programs.push(renderer.compileAsync(scene, camera));
+	// Three compiles what is hidden, too, as the body's own fur is below another one; the lamps are those of the scene.
+	const seen = { traverse: scene.traverseVisible.bind(scene), traverseVisible() {} };
+	programs.push(renderer.compileAsync(seen as unknown as Object3D, camera, scene));
 	renderer.setRenderTarget(before);
 	await Promise.all(programs);
 }
