@@ -78,7 +78,10 @@ function addOverlay(picture: Picture, store: Store): Overlay {
 /** Says what a drag does. */
 function showHint(hint: HTMLElement, act: DragAction): void {
 	const more = matchMedia('(pointer: coarse)').matches ? words.hintTouch : words.hintMouse;
-	hint.textContent = `${words.hints[act]} · ${more}`;
+	// A line ends with a dot, none begins with one.
+	const line = document.createElement('span');
+	line.textContent = `${words.hints[act]} · ${more}`.replaceAll(' ·', '\u00a0·');
+	hint.replaceChildren(line);
 	hint.hidden = false;
 }
 

@@ -84,9 +84,7 @@ test.describe('the page', () => {
 
 	test('who saves data stays with what there is', async ({ page, watch }) => {
 		await page.addInitScript(() => {
-			Object.defineProperty(navigator, 'connection', {
-				value: { saveData: true },
-			});
+			Object.defineProperty(navigator, 'connection', { value: { saveData: true } });
 		});
 		await open(page, '?still=1&shells=4');
 		await page.waitForLoadState('networkidle');
