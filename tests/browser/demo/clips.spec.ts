@@ -237,7 +237,7 @@ test('the bunny lives, but not out of sight, and with still=1 not at all', async
 test('the bunny’s head turns to the lamp while its clip is held, and rests there; it can be told not to', async ({
 	page,
 }) => {
-	await shrinkPicture(page, 160, 120, [0, 100], '#hint, #notices, #overlay .graphs');
+	await shrinkPicture(page, 160, 120, [0, 100], '#hint, #notices, #overlay');
 	await open(page, '?shells=2&fins=0&planes=64&light=-1,0.2,0.3&time=0');
 	const shot = async () => {
 		await expect(figures(page)).toContainText('at rest');

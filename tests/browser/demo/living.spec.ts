@@ -15,7 +15,7 @@ const model = '?model=sphere&preset=bunny&shells=6&light=-.5,.5,.7&camera=0,0,.9
 
 /** A small picture between header and tools, and nothing over it. */
 const makeSmall = (page: Page) =>
-	shrinkPicture(page, width, height, [left, top], '#hint, #loading, #notices, #overlay .graphs');
+	shrinkPicture(page, width, height, [left, top], '#hint, #loading, #notices, #overlay');
 
 const shot = (page: Page) => page.locator('#picture').screenshot();
 const tool = (page: Page, name: string) => page.getByRole('radio', { name });

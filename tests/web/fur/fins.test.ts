@@ -2,7 +2,7 @@ import { BufferAttribute, BufferGeometry, Object3D, Scene, Texture, Vector3 } fr
 import { describe, expect, it } from 'vitest';
 import type { Fin, FurAsset } from '../../../web/fur/format.ts';
 import { FurFinMaterial } from '../../../web/fur/shells/FurFinMaterial.ts';
-import { cutFins, FurFins, fewerStrips } from '../../../web/fur/shells/FurFins.ts';
+import { FurFins } from '../../../web/fur/shells/FurFins.ts';
 import { FurMaterial } from '../../../web/fur/shells/FurMaterial.ts';
 import { FurShells } from '../../../web/fur/shells/FurShells.ts';
 import { followHue } from '../../../web/fur/shells/hue.ts';
@@ -105,37 +105,6 @@ describe('FurFinMaterial', () => {
 			shells.material.blendSrc,
 			shells.material.blendDst,
 		]);
-	});
-});
-
-describe('fewerStrips', () => {
-	// Two fins; y is the height, z the fin.
-	const quads = new BufferGeometry();
-	const corners = [0, 1].flatMap((z) => [0, 0, z, 1, 0, z, 0, 1, z, 1, 1, z]);
-	quads.setAttribute('position', new BufferAttribute(new Float32Array(corners), 3));
-	const cut = cutFins(quads, 4);
-	const position = cut.getAttribute('position');
-
-	it.each([1, 2, 4])('%i of four cover the same fins, wound as before', (strips) => {
-		const index = fewerStrips(cut, strips) as BufferAttribute;
-		expect(index.count).toBe(2 * 6 * strips);
-		const heights = new Set(Array.from(index.array, (vertex) => position.getY(vertex)));
-		expect([...heights].sort()).toEqual(Array.from({ length: strips + 1 }, (_, i) => i / strips));
-		const area = [0, 0];
-		for (let i = 0; i < index.count; i += 3) {
-			const [a, b, c] = [0, 1, 2].map((k) => new Vector3().fromBufferAttribute(position, index.getX(i + k))) as [
-				Vector3,
-				Vector3,
-				Vector3,
-			];
-			expect([a.z, b.z, c.z]).toEqual([a.z, a.z, a.z]);
-			area[a.z] = (area[a.z] ?? 0) + 0.5 * b.sub(a).cross(c.sub(a)).z;
-		}
-		expect(area).toEqual([1, 1]);
-	});
-
-	it('leaves fins alone that were not cut', () => {
-		expect(fewerStrips(quads, 1)).toBe(quads.index);
 	});
 });
 

@@ -20,7 +20,6 @@ import {
 } from 'three';
 import type { Fur } from '../Fur.ts';
 import { beginClip, endClip, type FurColumns } from '../shells/clip.ts';
-import { fewerStrips } from '../shells/FurFins.ts';
 import { followHue } from '../shells/hue.ts';
 import type { HerdPoses } from './HerdPoses.ts';
 import { Places } from './Places.ts';
@@ -72,16 +71,9 @@ class Draw extends Mesh<InstancedBufferGeometry, ShaderMaterial> {
 	readonly #source: BufferGeometry;
 	readonly #each: number;
 
-	constructor(
-		source: BufferGeometry,
-		material: ShaderMaterial,
-		capacity: number,
-		each: number,
-		bounds: Sphere,
-		index = source.index,
-	) {
+	constructor(source: BufferGeometry, material: ShaderMaterial, capacity: number, each: number, bounds: Sphere) {
 		const geometry = new InstancedBufferGeometry();
-		geometry.setIndex(index);
+		geometry.setIndex(source.index);
 		for (const [name, attribute] of Object.entries(source.attributes)) geometry.setAttribute(name, attribute);
 		geometry.boundingSphere = bounds;
 		super(geometry, material);
@@ -114,14 +106,11 @@ class Draw extends Mesh<InstancedBufferGeometry, ShaderMaterial> {
 	override dispose(): void {
 		super.dispose();
 		this.removeFromParent();
-		if (this.geometry.index === this.#source.index) this.geometry.setIndex(null);
+		this.geometry.setIndex(null);
 		for (const name of Object.keys(this.#source.attributes)) this.geometry.deleteAttribute(name);
 		this.geometry.dispose();
 	}
 }
-
-/** Strips of the fins beside this many shells. */
-const stripsOf = (shells: number): number => (shells > 12 ? 4 : 1);
 
 /** One level of detail: all fins in one draw, all shells in another. */
 export class BodyLevel {
@@ -143,8 +132,7 @@ export class BodyLevel {
 		const { shells, fins } = fur;
 		this.#fur = fur;
 		// Equally distant objects are drawn by age: create fins before their shells.
-		const index = fins && fewerStrips(fins.geometry, stripsOf(most));
-		this.fins = fins && finMaterial && new Draw(fins.geometry, finMaterial, capacity, 1, bounds, index);
+		this.fins = fins && finMaterial && new Draw(fins.geometry, finMaterial, capacity, 1, bounds);
 		this.#material = new BodyMaterial(shells.material, { shellCount: { value: most } });
 		this.shells = new Draw(shells.geometry, this.#material, capacity, most, bounds);
 		this.#details = new InstancedBufferAttribute(new Float32Array(4 * capacity), 4, false, most);

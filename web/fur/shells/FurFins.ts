@@ -148,24 +148,6 @@ export function cutFins(quads: BufferGeometry, strips: number): BufferGeometry {
 	return cut;
 }
 
-/**
- * Indices of the same fins in fewer strips, for fins that are small in the picture.
- *
- * @param fins cut by `cutFins`; others are as they are
- * @param strips a divisor of those of the cut
- */
-export function fewerStrips({ index, userData }: BufferGeometry, strips: number): BufferAttribute | null {
-	const cut: number = userData.strips ?? 0;
-	if (!index || cut <= strips) return index;
-	const [all, step] = [2 * (cut + 1), 2 * (cut / strips)];
-	const corners = Array.from({ length: (index.count / (6 * cut)) * strips }, (_, i) => {
-		const first = Math.floor(i / strips) * all + (i % strips) * step;
-		const next = first + step;
-		return [first, first + 1, next + 1, first, next + 1, next];
-	}).flat();
-	return new BufferAttribute(new (index.array.constructor as Uint32ArrayConstructor)(corners), 1);
-}
-
 function transformed(position: BufferAttribute | InterleavedBufferAttribute, matrix: Matrix4): BufferAttribute {
 	const moved = new BufferAttribute(new Float32Array(position.count * 3), 3);
 	const vertex = new Vector3();
