@@ -36,7 +36,7 @@ export async function compileScene(
 const motionless = new DataTexture();
 
 /** Compiles what furs at rest need once they swing, and those that swing once they rest, without being waited for. */
-export function compileOther(
+export function compileMotion(
 	renderer: WebGLRenderer,
 	scene: Scene,
 	camera: Camera,

@@ -1,6 +1,6 @@
 /** The fur of the model on show: pelts and methods, their states and finer planes, as the view asks for them. */
 
-import { compileOther, compileScene, compilesAside } from '../../scene/compile.ts';
+import { compileMotion, compileScene, compilesAside } from '../../scene/compile.ts';
 import { notice } from '../say/notice.ts';
 import type { Crowd } from '../stage/crowd.ts';
 import type { Picture } from '../stage/picture.ts';
@@ -114,7 +114,7 @@ export class Dressing {
 		await this.#looks.showFirst(this.#store, () => picture.drawn());
 		performance.mark('furbake:fur');
 		const { renderer, scene, sample } = picture.stage;
-		compileOther(renderer, scene, picture.camera, sample, this.#looks.furs);
+		compileMotion(renderer, scene, picture.camera, sample, this.#looks.furs);
 		// Ready for the first wind or hand.
 		void this.#dynamics.loadMotion();
 	}
@@ -125,6 +125,7 @@ export class Dressing {
 		const { renderer, scene, sample } = stage;
 		if (!compilesAside(renderer)) return;
 		await this.#dynamics.prepare();
+		// A first step wakes hairs that lag behind the body.
 		this.#picture.animate(1 / 60);
 		await compileScene(renderer, scene, camera, sample, this.#looks.furs);
 	}

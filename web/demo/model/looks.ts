@@ -81,7 +81,7 @@ export class Looks {
 
 	/** Fur on the left, or on all of the picture. */
 	get fur(): Fur | undefined {
-		return this.furs[0];
+		return this.#looks[0]?.fur;
 	}
 
 	/**

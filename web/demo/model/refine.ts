@@ -1,7 +1,7 @@
 /** Finer planes: compiled and uploaded first, then faded in. */
 
 import { FurFade, prepareFur } from '../../fur/index.ts';
-import { compileOther } from '../../scene/compile.ts';
+import { compileMotion } from '../../scene/compile.ts';
 import type { Picture } from '../stage/picture.ts';
 import type { Store } from '../state/store.ts';
 import type { Looks, Outfit } from './looks.ts';
@@ -23,7 +23,7 @@ export async function refine(
 	const { renderer, scene, sample } = stage;
 	await looks.prepare(outfits, store.get(), async (fur) => {
 		await prepareFur(fur, renderer, scene, camera, sample);
-		compileOther(renderer, scene, camera, sample, [fur]);
+		compileMotion(renderer, scene, camera, sample, [fur]);
 	});
 	const { body } = looks;
 	if (late() || !body || stage.gl.isContextLost()) return false;
