@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from furbake import BakeOptions, bake, validate
-from furbake.asset.gltf import STATE
+from furbake.asset.extension import STATE
 from furbake.asset.inspect import summary
 from furbake.asset.planes import Planes, read_png, unpack
 from furbake.asset.read import read_asset

@@ -14,7 +14,8 @@ import {
 import { fitFurShadow } from '../fur/index.ts';
 import { backdrop } from '../page/backdrop.ts';
 import { daylightSky, KEY_COLOUR } from '../page/daylight.ts';
-import { Lamp, lampDistance } from '../page/lamp.ts';
+import { Lamp, lampDistance } from '../page/lamp/lamp.ts';
+import { LampLines } from '../page/lamp/lines.ts';
 import { listenToDrags } from '../scene/drag.ts';
 import type { Picture } from '../scene/Painter.ts';
 import { figureCanvas } from './controls.ts';
@@ -92,6 +93,7 @@ export class View {
 		this.radius = radius ?? 1;
 		this.scene.background = backdrop(true);
 		this.scene.add(this.key, this.key.target, this.sky, this.#lamp);
+		this.#lamp.addLines(new LampLines());
 		this.canvas = this.window(place, options);
 		lesson.light.listen(() => this.redraw());
 	}

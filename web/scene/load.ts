@@ -15,6 +15,8 @@ export interface Source {
 	url: string;
 	/** loads all of them: it may lead their addresses elsewhere, and counts what has come */
 	manager?: LoadingManager | undefined;
+	/** Whether furbake is known to have written it: it is shown unchecked then, and the checks tell what fails none the less. */
+	sound?: boolean;
 }
 
 export interface ModelOptions {
@@ -26,8 +28,8 @@ export interface ModelOptions {
 }
 
 /** Source of a folder on a server. @param folder as of `folderOf` */
-export function sourceAt(folder: URL, manager?: LoadingManager): Source {
-	return { url: new URL('model.gltf', folder).href, manager };
+export function sourceAt(folder: URL, sound: boolean, manager?: LoadingManager): Source {
+	return { url: new URL('model.gltf', folder).href, manager, sound };
 }
 
 /**
@@ -35,12 +37,13 @@ export function sourceAt(folder: URL, manager?: LoadingManager): Source {
  * @throws Error that names the file and says what is wrong with it
  */
 export async function loadModel(
-	{ url, manager }: Source,
+	{ url, manager, sound = false }: Source,
 	limits: FurLimits,
 	{ skin }: ModelOptions = {},
 ): Promise<Model> {
 	let model: Promise<Model> | undefined;
 	let newer: string | undefined;
+	let check = !sound;
 	const loader = new GLTFLoader(manager);
 	let clips: readonly AnimationClip[] = [];
 	loader.register((parser) => {
@@ -60,22 +63,30 @@ export async function loadModel(
 		};
 		return new FurLoaderPlugin(parser, {
 			limits,
+			check,
 			skin: early,
 			newer: (version) => {
 				newer = version;
 			},
 		});
 	});
-	// Beside the file, not after it; the plugin tells where they do not come.
-	import('../fur/checks.ts').catch(() => {});
-	const load = () => loader.loadAsync(url);
-	const gltf = await load()
-		.catch((error: unknown) => (isBrokenOff(error) ? load() : Promise.reject(error)))
+	// Beside the file, not after it.
+	if (check) void fetchChecks();
+	const load = async () => {
+		const gltf = await loader.loadAsync(url);
+		const whole = await (model ?? modelOf(gltf.scene, clips));
+		return Object.assign(whole, { fur: gltf.userData.fur });
+	};
+	const whole = await load()
+		.catch((error: unknown) => {
+			const broken = !isBrokenOff(error);
+			if (broken && check) throw error;
+			check ||= broken;
+			return load();
+		})
 		.catch((error: unknown) => {
 			throw new Error(reason(error));
 		});
-	const whole = await (model ?? modelOf(gltf.scene, clips));
-	whole.fur = gltf.userData.fur;
 	if (whole.fur) {
 		const parts = features(whole.object, whole.fur);
 		gleam(parts);
@@ -91,6 +102,9 @@ export async function loadPelt(source: Source, limits: FurLimits): Promise<Fur> 
 	if (!fur) throw new Error('model.gltf: got a model without fur, expected a pelt');
 	return fur;
 }
+
+/** Fetches the checks of models of unknown origin; loading tells where they do not come. */
+export const fetchChecks = (): Promise<unknown> => import('../fur/checks.ts').catch(() => undefined);
 
 const importPlayer = () => Promise.all([import('./clips/ClipPlayer.ts'), import('./clips/Gaze.ts')]);
 

@@ -14,7 +14,8 @@ import {
 import { type Fur, fitFurShadow } from '../fur/index.ts';
 import { daylightSky, KEY_COLOUR } from '../page/daylight.ts';
 import { ContactShadow, Ground, SLATE } from '../page/ground.ts';
-import { Lamp, lampDistance } from '../page/lamp.ts';
+import { Lamp, lampDistance } from '../page/lamp/lamp.ts';
+import { LampLines } from '../page/lamp/lines.ts';
 import { MovingLight } from '../page/light.ts';
 import { DEFAULT_LOOK, GLOW } from '../page/look.ts';
 import type { Environment } from '../scene/environment.ts';
@@ -60,6 +61,7 @@ export class FurPicture {
 		this.#backdrop = backdrop;
 		this.light = new MovingLight(glides);
 		this.lamp.visible = false;
+		this.lamp.addLines(new LampLines());
 		this.scene.background = backdrop;
 		this.scene.add(this.#key, this.#key.target, this.#sky, this.#placeLights, this.#shadow, this.#ground, this.lamp);
 		this.#setStanding(false);

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.asset.gltf import EXTENSION
+from furbake.asset.extension import EXTENSION
 from furbake.asset.planes import Bytes, read_png
 from furbake.surface.files import read_regular
 from furbake.surface.limits import Budget, limits

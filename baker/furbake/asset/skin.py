@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.asset.buffer import Buffer, numbers
+from furbake.asset.mesh.buffer import Buffer, numbers
+from furbake.asset.mesh.shared import shared_primitive
+from furbake.asset.mesh.vertices import Attributes, deep_shares, shares, signed
 from furbake.asset.rig.stand import Stand
-from furbake.asset.vertices import Attributes, deep_shares, shares, signed
 from furbake.surface.colours import translucent
 from furbake.surface.material import Material, Picture, Skin
 from furbake.surface.mesh import RGB, WHITE, Surface
@@ -93,21 +94,31 @@ def bare_colour(surface: Surface, fur: VertexFur, bare: RGB | None) -> RGB:
 
 
 def skin_primitives(
-    stand: Stand, own: RGB, colours: NDArray[np.float64] | None, buffer: Buffer, looks: Looks
+    stand: Stand,
+    own: RGB,
+    colours: NDArray[np.float64] | None,
+    buffer: Buffer,
+    looks: Looks,
+    shells: tuple[Record, NDArray[np.int64]] | None = None,
 ) -> list[Record]:
     """The skin's primitives, one per material of the model; one in the surface's colour where it brings none.
 
     own : colour of a skin that brings no materials
     colours : (V, 3) linear, a factor of the colour of a skin that brings no materials
+    shells : their primitive, of which a skin that brings no materials takes vertices and first faces, and (M,) the
+        vertices of the skin that the shells' are copies of; None: the skin has its own
     """
     surface, normals = stand.surface, signed(stand.surface.normals)
+    plain = Material("skin", factor=(*own, 1.0))
+    if shells is not None:
+        primitive = shared_primitive(*shells, len(surface.faces), colours, buffer)
+        return [primitive | {"material": looks.material(plain, textured=False)}]
     if not surface.skin:
         all_of_it = np.arange(len(normals))
         body: Attributes = {"POSITION": stand.positions, "NORMAL": normals}
         if colours is not None:
             body["COLOR_0"] = shares(colours)
         body |= stand.joints(all_of_it)
-        plain = Material("skin", factor=(*own, 1.0))
         primitive = buffer.primitive(body, surface.faces) | stand.skin_targets(buffer, all_of_it)
         return [primitive | {"material": looks.material(plain, textured=False)}]
     return [

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.asset.gltf import STATE
+from furbake.asset.extension import STATE
 from furbake.asset.planes import PlaneError, Planes, Texels, unpack, unpack_fin
 from furbake.asset.read import Asset, AssetError
 from furbake.pelt.curves import KNOTS, RADII, Curves, lean_direction

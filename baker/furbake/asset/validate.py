@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 from jsonschema import Draft202012Validator
 
-from furbake.asset.buffer import MESHOPT
-from furbake.asset.edges import shell_edges
-from furbake.asset.gltf import EXTENSION, QUANTIZATION
+from furbake.asset.extension import EXTENSION
+from furbake.asset.gltf import QUANTIZATION
+from furbake.asset.mesh.buffer import MESHOPT
+from furbake.asset.mesh.edges import shell_edges
 from furbake.asset.planes import PlaneError
 from furbake.asset.read import Asset, AssetError, inside, read_asset
 from furbake.asset.regions.check import regions

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from furbake.asset.gltf import EXTENSION
+from furbake.asset.extension import EXTENSION
 from furbake.asset.read import Asset
 from furbake.pelt.texels.basis import smooth_terms
 

@@ -69,7 +69,10 @@ def read_ground(asset: Asset, base: tuple[float, float, float]) -> Ground:
 
 
 def read_skin(asset: Asset) -> tuple[Floats, Ints]:
-    """Vertices (V, 3), model units, and faces (F, 3) of the opaque body. Raises AssetError where it is broken."""
+    """Vertices (V, 3), model units, and faces (F, 3) of the opaque body, of copies of a vertex one.
+
+    Raises AssetError where it is broken.
+    """
     try:
         node = asset.fur["skin"]
         vertices, faces, count = [], [], 0
@@ -78,7 +81,8 @@ def read_skin(asset: Asset) -> tuple[Floats, Ints]:
             faces.append(np.asarray(asset.accessor(primitive["indices"]), np.int64).reshape(-1, 3) + count)
             vertices.append(places)
             count += len(places)
-        return np.concatenate(vertices), np.concatenate(faces)
+        places, point = np.unique(np.concatenate(vertices), axis=0, return_inverse=True)
+        return places, np.asarray(point.reshape(-1)[np.concatenate(faces)], np.int64)
     except AssetError:
         raise
     except (LookupError, TypeError, AttributeError, ValueError) as error:

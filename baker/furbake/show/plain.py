@@ -11,8 +11,9 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.asset.buffer import MESHOPT
-from furbake.asset.gltf import EXTENSION, QUANTIZATION
+from furbake.asset.extension import EXTENSION
+from furbake.asset.gltf import QUANTIZATION
+from furbake.asset.mesh.buffer import MESHOPT
 from furbake.asset.read import Asset, AssetError, inside, read_asset
 
 OWN = (EXTENSION, MESHOPT, QUANTIZATION)
@@ -53,11 +54,13 @@ def _body(asset: Asset) -> tuple[dict[str, Any], bytes]:
         kept = {key: kept[key] for key in kept if key not in OWN} if isinstance(kept, dict) else set(kept) - set(OWN)
         if kept:
             document[name] = kept if isinstance(kept, dict) else sorted(kept)
+    data = _Data(document)
+    for primitive in asset.primitives(asset.fur["skin"]):
+        data.weld(asset, primitive)
     gone = {asset.fur[name] for name in ("shells", "fins") if name in asset.fur}
     _drop_nodes(document, gone)
     _keep(document, "meshes", [(node, "mesh") for node in document["nodes"] if "mesh" in node])
     _keep(document, "images", [(texture, "source") for texture in document.get("textures", [])])
-    data = _Data(document)
     seen: dict[tuple[int, bool], int] = {}
     for place, key, whole in _uses(document):
         wanted = place[key], whole
@@ -122,6 +125,23 @@ class _Data:
     def __init__(self, document: dict[str, Any]) -> None:
         self.old = document["accessors"]
         self.bytes, self.views, self.accessors = bytearray(), list[dict[str, Any]](), list[dict[str, Any]]()
+        self.chosen = dict[int, NDArray[np.int64]]()
+        self.numbered = dict[int, NDArray[Any]]()
+
+    def weld(self, asset: Asset, primitive: dict[str, Any]) -> None:
+        """Let a primitive without morph targets have one vertex for equal ones, and none that no face has.
+
+        A skin may have the vertices of its shells, with a copy of each in every patch.
+        """
+        if "targets" in primitive:
+            return
+        index = primitive["attributes"].values()
+        corners = asset.accessor(primitive["indices"])
+        rows = np.column_stack([np.ascontiguousarray(asset.accessor(i)).view(np.uint8) for i in index])[corners]
+        _, first, point = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+        order = np.argsort(first)
+        self.chosen |= dict.fromkeys(index, corners[first[order]])
+        self.numbered[primitive["indices"]] = np.argsort(order)[point.reshape(-1)].astype(corners.dtype)
 
     def view(self, data: bytes) -> int:
         self.views.append({"buffer": 0, "byteOffset": len(self.bytes), "byteLength": len(data)})
@@ -130,9 +150,10 @@ class _Data:
 
     def accessor(self, asset: Asset, index: int, whole: bool) -> int:
         """Copy an accessor, tightly packed; whole : of integers, else in single precision."""
-        values: NDArray[Any] = asset.accessor(index)
+        values: NDArray[Any] = self.numbered[index] if index in self.numbered else asset.accessor(index)
+        values = values[self.chosen[index]] if index in self.chosen else values
         drop = ("bufferView", "byteOffset", "sparse")
-        record = {key: value for key, value in self.old[index].items() if key not in drop}
+        record = {key: value for key, value in self.old[index].items() if key not in drop} | {"count": len(values)}
         if not whole and record["componentType"] != FLOAT:
             if record.pop("normalized", False):
                 values = np.maximum(values / float(np.iinfo(values.dtype).max), -1.0)

@@ -20,7 +20,16 @@ from furbake.pelt.texels.basis import PTM, Basis
 from furbake.pelt.texels.eigen import eigen, eigen_of_slabs
 from furbake.pelt.texels.fill import fill, fill_directions
 from furbake.pelt.texels.fit import Judge, fit, relight
-from furbake.pelt.texels.quantise import byte_range, gram, quantise, signed_bytes, srgb_bytes, step_of, unit_bytes
+from furbake.pelt.texels.quantise import (
+    byte_range,
+    gram,
+    quantise,
+    signed_bytes,
+    srgb_bytes,
+    step_of,
+    steps,
+    unit_bytes,
+)
 from furbake.tile.lighting import Lighting, Sampled
 
 Floats = NDArray[np.float64]
@@ -56,13 +65,14 @@ def fit_pelts(states: Sequence[Sampled], options: BakeOptions) -> list[tuple[Pel
         states, coefficients, filled, weights, means, multiples, strict=True
     ):
         volume, alpha = state.volume, state.volume.coverage
+        each = steps(alpha, step)
         dirty = state.state.dirt > 0
-        codes = quantise(stored, scale, bias, gram(basis(seen), mean), 256 - step, step)
+        codes = quantise(stored, scale, bias, gram(basis(seen), mean), 256 - step, each)
         colour = options.ramp.colour(volume.tint, volume.hue) if options.colour_plane and not dirty else None
         pelt = Pelt(
             codes=codes,
             alpha=unit_bytes(alpha),
-            tint=unit_bytes(fill(volume.tint[..., None], alpha)[..., 0], step),
+            tint=unit_bytes(fill(volume.tint[..., None], alpha)[..., 0], each),
             colour=None if colour is None else srgb_bytes(fill(colour, alpha)),
             scale=scale,
             bias=bias,

@@ -13,8 +13,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from furbake.asset.buffer import numbers
 from furbake.asset.gltf import FurModel, dump, write_gltf
+from furbake.asset.mesh.buffer import numbers
 from furbake.asset.read import AssetError, inside, read_asset
 from furbake.asset.stored import read_pelt
 from furbake.asset.validate import schema

@@ -102,7 +102,7 @@ EDITS = {
     "no accessors": (lambda d: d.pop("accessors"), "is malformed (KeyError: 'accessors')"),
     "far accessor": (lambda d: put(d["accessors"][0], "count", 10**9), "accessor 0 leaves its buffer"),
     "negative": (lambda d: put(d["accessors"][0], "byteOffset", -4), "got -4, expected a number 0, 1, 2"),
-    "wrong bounds": (lambda d: put(d["accessors"][0], "max", [1, 2, 3]), "skin: POSITION says"),
+    "wrong bounds": (lambda d: put(d["accessors"][0], "max", [1, 2, 3]), "shells: POSITION says"),
     "no fin": (lambda d: fur(d)["pelts"][0].pop("fin"), "pelts[0] has no fin, expected one where there are fins"),
     "no fins": (lambda d: fur(d).pop("fins"), "pelts[0] has a fin, expected one where there are fins"),
     "fins drawn": (lambda d: put(d["scenes"][0], "nodes", [0, 2]), "fins is node 2, expected in no scene"),

@@ -7,8 +7,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
+from furbake.asset.mesh.vertices import grid, quantise_positions, quantise_weights, shifted_by_tiles, signed
 from furbake.asset.read import Asset
-from furbake.asset.vertices import grid, quantise_positions, quantise_weights, shifted_by_tiles, signed
 from furbake.surface.lay.own import own_charts
 from furbake.surface.place.fins import build_fins
 from furbake.surface.place.vertex_fur import FARTHEST, VertexFur

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from furbake.asset.gltf import EXTENSION, FurModel, write_gltf
+from furbake.asset.extension import EXTENSION
+from furbake.asset.gltf import FurModel, write_gltf
 from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt
 from furbake.asset.validate import validate

@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from furbake.asset.gltf import EXTENSION, FurModel, write_gltf
+from furbake.asset.extension import EXTENSION
+from furbake.asset.gltf import FurModel, write_gltf
 from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt
 from furbake.asset.validate import validate

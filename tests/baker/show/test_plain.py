@@ -47,8 +47,9 @@ def test_the_body_is_where_the_skin_is_without_any_extension() -> None:
     turn, mesh = scene.graph[skin]
     vertices, faces = read_skin(read_asset(BUNNY))
     found = trimesh.transform_points(scene.geometry[mesh].vertices, turn)
-    np.testing.assert_allclose(found, vertices, atol=1e-5)
-    assert (scene.geometry[mesh].faces == faces).all()
+    # One for each point of the body, where the file has the shells' copies.
+    assert len(found) == len(vertices) < read_asset(BUNNY).document["accessors"][0]["count"]
+    np.testing.assert_allclose(found[scene.geometry[mesh].faces], vertices[faces], atol=1e-5)
     nodes = json.loads((BUNNY / "model.gltf").read_text("utf-8"))["nodes"]
     shown = [node for node in nodes if "mesh" in node and node["name"] not in {"shells", "fins"}]
     assert len(scene.graph.nodes_geometry) == len(shown) > 10  # with eyes, nose, mouth, whiskers

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { distanceFor, FIELD_OF_VIEW } from '../../../web/learn/view.ts';
-import { lampDistance } from '../../../web/page/lamp.ts';
+import { lampDistance } from '../../../web/page/lamp/lamp.ts';
 
 describe('distance of the eye', () => {
 	const half = Math.tan((FIELD_OF_VIEW * Math.PI) / 360);

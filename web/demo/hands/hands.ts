@@ -2,7 +2,7 @@
 
 import { MathUtils, Vector2 } from 'three';
 import { directionUnder, listenToDrags } from '../../page/aim.ts';
-import { lampDistance } from '../../page/lamp.ts';
+import { lampDistance } from '../../page/lamp/lamp.ts';
 import { turned } from '../../page/light.ts';
 import type { Picture } from '../stage/picture.ts';
 import type { Gestures } from './gestures.ts';

@@ -1,7 +1,7 @@
 /** Dynamics of the body on show: its clips, motion of its hairs, water and dirt on them, and its own sway. */
 
 import { DataTexture, FloatType, MathUtils, RGBAFormat, type Vector3 } from 'three';
-import { type FurMotion, FurWeather } from '../../fur/index.ts';
+import type { FurMotion, FurWeather } from '../../fur/index.ts';
 import { notice, withdraw } from '../say/notice.ts';
 import type { Stage } from '../stage/stage.ts';
 import type { View } from '../state/view.ts';
@@ -26,6 +26,7 @@ export class Dynamics {
 	/** First request of what moves hairs, by a frame; none repeats it. */
 	#asked: Promise<void> | undefined;
 	#weather: FurWeather | undefined;
+	#Weather: typeof FurWeather | undefined;
 	/** Swing of hairs at rest, which compiles their shaders: for the next frame, and of the last one. */
 	#warmUpSwing: DataTexture | undefined;
 	#lastWarmUpSwing: DataTexture | undefined;
@@ -74,7 +75,7 @@ export class Dynamics {
 	 */
 	async load(): Promise<boolean> {
 		try {
-			await this.#looks.loadStates();
+			[{ FurWeather: this.#Weather }] = await Promise.all([import('./later.ts'), this.#looks.loadStates()]);
 			withdraw('states');
 			return true;
 		} catch (error) {
@@ -146,7 +147,8 @@ export class Dynamics {
 
 	#needWeather(): FurWeather | undefined {
 		const { body, states } = this.#looks;
-		if (body && (states.wet || states.dirt)) this.#weather ??= new FurWeather(body, { drying: DRYING_TIME });
+		const { wet, dirt } = states;
+		if (this.#Weather && body && (wet || dirt)) this.#weather ??= new this.#Weather(body, { drying: DRYING_TIME });
 		return this.#weather;
 	}
 

@@ -95,6 +95,10 @@ export class Exhibit {
 		camera.orbit = view.camera ?? firstView(undefined).camera;
 		await this.change(async () => {
 			await Promise.all([this.#surround(view.env ?? 'none'), this.#show(name)]);
+			// The first picture does without them.
+			const lines = await import('../../page/lamp/lines.ts').catch(() => undefined);
+			if (lines) this.#picture.lamp.addLines(new lines.LampLines());
+			this.#picture.request();
 		});
 	}
 
@@ -206,7 +210,8 @@ export class Exhibit {
 		try {
 			const folder = folderOf(name, this.menu, document.baseURI);
 			if (!folder && !own) throw new Error(words.notAFolder);
-			const source = own?.source ?? sourceAt(folder as URL, manager);
+			const sound = this.menu.some((entry) => entry.name === name);
+			const source = own?.source ?? sourceAt(folder as URL, sound, manager);
 			const model = own?.relit
 				? await this.#pictured(own.relit)
 				: await loadModel(source, stage.limits, first ? { skin } : {});

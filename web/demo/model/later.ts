@@ -1,3 +1,3 @@
 /** Parts of the library that the first picture of most links does without: loaded after it, or with the first use. */
 
-export { FurMotion, furMethod } from '../../fur/index.ts';
+export { FurMotion, FurWeather, furMethod } from '../../fur/index.ts';

@@ -152,7 +152,7 @@ async function lightOf(method: Method): Promise<Outfit['light']> {
 }
 
 function load(name: string, limits: FurLimits): Promise<Fur> {
-	const pelt = peltsByName.get(name) ?? loadPelt(sourceAt(new URL(`models/${name}/`, document.baseURI)), limits);
+	const pelt = peltsByName.get(name) ?? loadPelt(sourceAt(new URL(`models/${name}/`, document.baseURI), true), limits);
 	peltsByName.set(name, pelt);
 	// Retry after a failure.
 	pelt.then(

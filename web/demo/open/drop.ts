@@ -1,6 +1,7 @@
 /** Models from the visitor's machine: dropped on the page or chosen in a dialog. Nothing is uploaded. */
 
 import type { Language } from '../../page/language.ts';
+import { fetchChecks } from '../../scene/load.ts';
 import { en } from '../words/drop.en.ts';
 import { zh } from '../words/drop.zh.ts';
 import type { Handed } from './entries.ts';
@@ -39,7 +40,7 @@ export function listenToDrops(target: Window, language: Language, handlers: Drop
 		const turn = ++latest;
 		try {
 			// Loaded on demand: most visits open nothing.
-			const { openModel } = await import('./openModel.ts');
+			const [{ openModel }] = await Promise.all([import('./openModel.ts'), fetchChecks()]);
 			const model = await openModel(handed, language);
 			const late = turn !== latest;
 			if ('reason' in model) return late ? undefined : handlers.failed(model.name, model.reason);

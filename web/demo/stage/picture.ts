@@ -2,7 +2,7 @@
 
 import { Group, type Vector2 } from 'three';
 import { FurGovernor } from '../../fur/index.ts';
-import { Lamp } from '../../page/lamp.ts';
+import { Lamp } from '../../page/lamp/lamp.ts';
 import { MovingLight } from '../../page/light.ts';
 import type { Room } from '../../page/room.ts';
 import type { Triple } from '../state/view.ts';

@@ -1,6 +1,6 @@
 /** Geometries that share their vertices, and their end. */
 
-import { BufferGeometry } from 'three';
+import { BufferAttribute, BufferGeometry, InterleavedBuffer, InterleavedBufferAttribute } from 'three';
 
 /** Another geometry of the same vertices. */
 export function shareGeometry(source: BufferGeometry): BufferGeometry {
@@ -23,4 +23,15 @@ export function unshareGeometry(geometry: BufferGeometry, others?: readonly Buff
 	if (!others || others.some(({ index }) => index === geometry.index)) geometry.setIndex(null);
 	for (const [name, attribute] of Object.entries(geometry.attributes))
 		if (!others || others.some((other) => other.attributes[name] === attribute)) geometry.deleteAttribute(name);
+}
+
+/** Gives a geometry attributes of its own, of the same numbers: on the GPU they end with it alone. */
+export function ownAttributes(geometry: BufferGeometry): void {
+	for (const [name, attribute] of Object.entries(geometry.attributes)) {
+		const { itemSize, normalized } = attribute;
+		if ('data' in attribute) {
+			const data = new InterleavedBuffer(attribute.data.array, attribute.data.stride);
+			geometry.setAttribute(name, new InterleavedBufferAttribute(data, itemSize, attribute.offset, normalized));
+		} else geometry.setAttribute(name, new BufferAttribute(attribute.array, itemSize, normalized));
+	}
 }

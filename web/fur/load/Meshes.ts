@@ -3,6 +3,7 @@
 import { type BufferAttribute, Material, Mesh, type Object3D, SkinnedMesh } from 'three';
 import type { GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 import type { checkGeometry } from '../body/checkGeometry.ts';
+import { ownAttributes } from '../body/shareGeometry.ts';
 import type { finQuads } from '../fins/finQuads.ts';
 import { FUR_EXTENSION, type FurAsset } from '../format.ts';
 import { parts } from '../shells/parts/parts.ts';
@@ -32,7 +33,11 @@ export class Meshes {
 		const meshes = object && (isMesh(object) || (object.children.length > 0 && object.children.every(isMesh)));
 		if (!meshes) throw new Error(`${FUR_EXTENSION}/skin: node ${node} is no mesh`);
 		const pieces = isMesh(object) ? [object] : (object.children as Mesh[]);
-		for (const piece of pieces) this.#check?.(`${FUR_EXTENSION}/skin`, piece.geometry, jointsOf(piece));
+		for (const piece of pieces) {
+			// It may have the shells' vertices, which have an end of their own.
+			ownAttributes(piece.geometry);
+			this.#check?.(`${FUR_EXTENSION}/skin`, piece.geometry, jointsOf(piece));
+		}
 		return { object, pieces };
 	}
 

@@ -3,7 +3,7 @@
 import { type Camera, MathUtils, type Vector2, Vector3 } from 'three';
 import { alphaChannel } from '../../fur/reference.ts';
 import { directionUnder } from '../../page/aim.ts';
-import { lampDistance } from '../../page/lamp.ts';
+import { lampDistance } from '../../page/lamp/lamp.ts';
 import { controlRow, pane, panes, slider } from '../controls.ts';
 import { bytesOf } from '../data/above.ts';
 import { loadFurry } from '../data/assets.ts';

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from furbake.asset.gltf import EXTENSION
+from furbake.asset.extension import EXTENSION
 from furbake.asset.read import Asset
 
 COAT = "coat"

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.asset.gltf import EXTENSION
+from furbake.asset.extension import EXTENSION
 from furbake.asset.read import Asset
 from furbake.asset.regions.alone import alone
 from furbake.asset.regions.parted import REGION

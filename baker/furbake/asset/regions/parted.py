@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.asset.vertices import Attributes
+from furbake.asset.mesh.vertices import Attributes
 from furbake.surface.charts import Charts
 from furbake.surface.place.fins import Fins
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.asset.buffer import numbers
+from furbake.asset.mesh.buffer import numbers
 from furbake.asset.planes import write_planes
 from furbake.pelt.pelt import FinPelt, Pelt
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from furbake.asset.buffer import Buffer
+from furbake.asset.mesh.buffer import Buffer
 from furbake.surface.rig.rig import BODY, Channel, Clip, Floats
 
 Record = dict[str, Any]

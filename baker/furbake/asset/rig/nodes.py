@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from furbake.asset.buffer import Buffer, numbers
+from furbake.asset.mesh.buffer import Buffer, numbers
 from furbake.asset.rig.clips import animations
 from furbake.asset.rig.motion import Motion
 from furbake.surface.mesh import Surface

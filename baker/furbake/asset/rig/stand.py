@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.asset.buffer import Buffer
+from furbake.asset.mesh.buffer import Buffer
+from furbake.asset.mesh.vertices import Attributes, quantise_positions, signed
 from furbake.asset.rig.motion import Motion
 from furbake.asset.rig.targets import charts_tangents, displaced_normals, fins_tangents, targets
-from furbake.asset.vertices import Attributes, quantise_positions, signed
 from furbake.surface.charts import Charts
 from furbake.surface.mesh import Surface
 from furbake.surface.place.fins import Fins
@@ -66,12 +66,18 @@ class Stand:
         return displaced_normals(self.surface, self._deltas)[:, self._same]
 
     def joints(self, source: Ints) -> Attributes:
-        """JOINTS_0 and WEIGHTS_0 of copies of the vertices in `source`; none where nothing has joints."""
+        """JOINTS_0 and WEIGHTS_0 of copies of the vertices in `source`; none where nothing has joints.
+
+        Joints of a vertex rise, those without weight last: neighbours are alike, whichever joint moves them most.
+        """
         if self.motion is None or self.follow is None or not self.motion.rig.joints:
             return {}
         kind = np.uint8 if len(self.motion.rig.joints) <= FEW_JOINTS else np.uint16
         which = self._same[source]
-        return {"JOINTS_0": self.follow.joints[which].astype(kind), "WEIGHTS_0": self.follow.weights[which]}
+        joints, weights = self.follow.joints[which], self.follow.weights[which]
+        order = np.argsort(np.where(weights > 0, joints, np.iinfo(joints.dtype).max), axis=1, kind="stable")
+        joints = np.take_along_axis(joints, order, axis=1).astype(kind)
+        return {"JOINTS_0": joints, "WEIGHTS_0": np.take_along_axis(weights, order, axis=1)}
 
     def skin_targets(self, buffer: Buffer, source: Ints) -> Record:
         """`targets` of a primitive of the skin whose vertices copy those in `source`; none where there are none."""

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.asset.buffer import Buffer
+from furbake.asset.mesh.buffer import Buffer
 from furbake.surface.charts import Charts
 from furbake.surface.mesh import Surface
 from furbake.surface.place.fins import Fins

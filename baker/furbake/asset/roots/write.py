@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.asset.buffer import numbers
-from furbake.asset.edges import shell_edges
+from furbake.asset.mesh.buffer import numbers
+from furbake.asset.mesh.edges import shell_edges
+from furbake.asset.mesh.vertices import Attributes, deep_shares
 from furbake.asset.skin import Looks
-from furbake.asset.vertices import Attributes, deep_shares
 from furbake.surface.charts import Charts
 from furbake.surface.material import CLAMP
 from furbake.surface.place.fins import Fins

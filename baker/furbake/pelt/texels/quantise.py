@@ -11,6 +11,7 @@ Array = NDArray[np.float64]
 Bytes = NDArray[np.uint8]
 Codes = NDArray[Any]
 """Bytes, or words where more than 8 bits are asked for."""
+Step = int | NDArray[np.int64]
 
 TAIL = 0.02
 """Percentile of the visible texels that may saturate at either end of a coefficient's range."""
@@ -22,10 +23,20 @@ RIDGE, MIN_RIDGE = 1e-9, 1e-12
 FULL = 8
 """Bits of a byte."""
 
+EMPTY_STEP = 8
+"""Distance of the codes of empty texels, where those of others are rounded. Half-way to a full texel, where filtering
+mixes in most of their error, it is half of the full texel's at 6 bits.
+"""
+
 
 def step_of(bits: int) -> int:
     """Distance of the codes of numbers of `bits` bits, 1 to 8, that are stored as bytes."""
     return 1 << (FULL - bits)
+
+
+def steps(coverage: Array, step: int) -> NDArray[np.int64]:
+    """Distance of the codes of each texel, of the shape of `coverage`: `step` where its byte is not 0."""
+    return np.where((unit_bytes(coverage) > 0) | (step == 1), step, max(step, EMPTY_STEP))
 
 
 def byte_range(coefficients: Array, alpha: Array, top: int = 255) -> tuple[Array, Array]:
@@ -49,16 +60,18 @@ def gram(phi: Array, mean: Array | None = None) -> Array:
     return np.asarray(slabs + (RIDGE * power + MIN_RIDGE)[:, None, None] * np.eye(phi.shape[1]))
 
 
-def quantise(coefficients: Array, scale: Array, bias: Array, gram: Array, top: int = 255, step: int = 1) -> Codes:
+def quantise(coefficients: Array, scale: Array, bias: Array, gram: Array, top: int = 255, step: Step = 1) -> Codes:
     """Bytes of the coefficients, (..., C) → (..., C), with rounding errors that make up for each other.
 
-    gram : (C, C) of `gram`, or (K, C, C) for coefficients (K, ..., C); top : the greatest code; step : of which
-    all codes are multiples. Coefficients are rounded one after the other, the last first; each takes up what the
-    rounding of those before it did to the light (Babai's nearest plane), which the decoder need not know.
+    gram : (C, C) of `gram`, or (K, C, C) for coefficients (K, ..., C); top : the greatest code
+    step : of which all codes are multiples, or those of each texel, (...)
+
+    Coefficients are rounded one after the other, the last first; each takes up what the rounding of those before it did
+    to the light (Babai's nearest plane), which the decoder need not know.
     """
     if gram.ndim > 2:
-        slabs = zip(coefficients, gram, strict=True)
-        return np.stack([quantise(slab, scale, bias, own, top, step) for slab, own in slabs])
+        slabs = zip(coefficients, gram, np.broadcast_to(step, coefficients.shape[:-1]), strict=True)
+        return np.stack([quantise(slab, scale, bias, own, top, its) for slab, own, its in slabs])
     count = coefficients.shape[-1]
     upper = np.linalg.cholesky(gram * np.outer(scale, scale)).T
     wanted = coefficients / scale + bias
@@ -76,7 +89,7 @@ def dequantise(codes: Codes, scale: Array, bias: Array) -> Array:
     return scale * (codes - bias)
 
 
-def unit_bytes(values: Array, step: int = 1) -> Bytes:
+def unit_bytes(values: Array, step: Step = 1) -> Bytes:
     """0..1 → 0..255, rounded to multiples of `step`; what would be above is 255."""
     return np.minimum(step * np.round(np.clip(values, 0, 1) * (255 / step)), 255).astype(np.uint8)
 

@@ -10,6 +10,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from furbake.surface.charts import Charts, Floats, Ints
 from furbake.surface.lay.blobs import WAVES, covered, masks, paste
@@ -168,7 +170,7 @@ def _charts(
     source = ground.sheet.source[vertex]
     _, group = np.unique(np.stack([vertex, chosen], axis=1), axis=0, return_inverse=True)
     tangents = _tangents(ground, patches, corners, surface.normals[source])
-    return Charts(
+    charts = Charts(
         source=source,
         faces=corners,
         tangents=np.column_stack([tangents, np.ones(len(node))]),
@@ -176,6 +178,23 @@ def _charts(
         weights=np.where(chosen < 0, weights[node], np.where(chosen == patch, 1.0, 0.0)),
         group=group.reshape(-1),
     )
+    return _together(charts, patch)
+
+
+def _together(charts: Charts, patch: Ints) -> Charts:
+    """The charts with patches that overlap one after the other: stored copies of a vertex are near each other then.
+
+    patch : (M,) of each copy
+    """
+    count = int(patch.max()) + 1
+    holds = csr_array((np.ones(len(patch)), (patch, charts.source)), shape=(count, int(charts.source.max()) + 1))
+    rank = np.empty(count, np.int64)
+    rank[reverse_cuthill_mckee(holds @ holds.T, symmetric_mode=True)] = np.arange(count)
+    order, turn = (np.argsort(rank[of], kind="stable") for of in (patch, patch[charts.faces[:, 0]]))
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order))
+    copies = {name: getattr(charts, name)[order] for name in ("source", "tangents", "uv", "weights", "group")}
+    return Charts(faces=place[charts.faces[turn]], **copies)
 
 
 def _tangents(ground: Ground, patches: Patches, corners: Ints, normals: Floats) -> Floats:

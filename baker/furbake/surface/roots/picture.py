@@ -46,7 +46,7 @@ def picture_of_roots(skin: Surface, ground: Surface, charts: Charts, drift: Floa
     """
     uv = laid_out(charts, drift)
     density = min(float(finest), (LONGEST - 1) / float(uv.max()))
-    width, height = (int(np.ceil(side * density)) + 1 for side in uv.max(axis=0))
+    width, height = (int(np.ceil(side * density - 1e-6)) + 1 for side in uv.max(axis=0))
     pixels = _drawn(skin, ground, charts, uv * density, (height, width), density)
     return Roots(smaller(pixels), uv, density / np.array([width, height]))
 

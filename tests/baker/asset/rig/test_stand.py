@@ -107,6 +107,15 @@ def test_a_vertex_takes_40_bytes(character: Callable[..., Moving]) -> None:
         assert set(found.raw(part["attributes"]["WEIGHTS_0"]).sum(axis=1, dtype=int)) == {255}
 
 
+def test_joints_of_a_vertex_rise_and_those_without_weight_follow(character: Callable[..., Moving]) -> None:
+    values = attributes(character(*arm()), SHELLS)
+    joints, weighs = values["JOINTS_0"].astype(int), values["WEIGHTS_0"] > 0
+    both = weighs[:, 1:] & weighs[:, :-1]
+    assert both.any()
+    assert (np.diff(joints, axis=1)[both] > 0).all()
+    assert not (weighs[:, 1:] & ~weighs[:, :-1]).any()
+
+
 def test_many_joints_take_16_bits(character: Callable[..., Moving], tmp_path: Path) -> None:
     surface, rig = arm(joints=300, targets=False)
     found = character(surface, rig)

@@ -15,6 +15,7 @@ from furbake.pelt.texels.quantise import (
     signed_bytes,
     srgb_bytes,
     step_of,
+    steps,
     unit_bytes,
 )
 
@@ -84,3 +85,19 @@ def test_fewer_bits_are_multiples_of_a_step_within_a_byte(bits: int, step: int) 
     tint = unit_bytes(np.linspace(0, 1, 999), step)
     assert tint.max() == 255
     assert not (tint[tint < 255] % step).any()
+
+
+def test_empty_texels_have_fewer_codes() -> None:
+    coefficients, alpha = np.random.default_rng(2).normal(size=(2, 16, 16, 6)), np.zeros((2, 16, 16))
+    alpha[:, ::2] = 0.5
+    alpha[:, 1] = 0.4 / 255
+    np.testing.assert_array_equal(steps(alpha, 1), np.ones(alpha.shape))
+    np.testing.assert_array_equal(steps(alpha, 32), np.full(alpha.shape, 32))
+    scale, bias = byte_range(coefficients, alpha, 252)
+    each = np.repeat(np.eye(6)[None], 2, axis=0)
+    codes = quantise(coefficients, scale, bias, each, 240, steps(alpha, 4))
+    assert not (codes[:, 1::2] % 8).any()
+    assert not (codes % 4).any()
+    assert (codes[:, ::2] % 8).any()
+    full = quantise(coefficients, scale, bias, each, 240, 4)
+    np.testing.assert_array_equal(codes[:, ::2], full[:, ::2])

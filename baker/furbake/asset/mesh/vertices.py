@@ -38,6 +38,9 @@ SHORT = 65535
 TEXEL_SHARES = 8
 """Steps of a rounded texture coordinate in a texel, at least: half of one is lost."""
 
+FUR_STEP = 4
+"""Distance of rounded lengths, occlusions and tips: 6 bits of a byte, as the texels' numbers have."""
+
 FULL_FUR = (255, 255, 255, 0)
 """Default of _FUR: the whole weight and length, open, of the first tip colour."""
 
@@ -124,6 +127,18 @@ def coarse_uv(codes: Shorts, tiles: float, size: int) -> Shorts:
     """
     step = 2 ** max(0, int(np.floor(np.log2(SHORT / (tiles * size * TEXEL_SHARES)))))
     return np.asarray(np.minimum((codes.astype(np.int64) + step // 2) // step * step, SHORT), dtype=np.uint16)
+
+
+def coarse(stood: Attributes, tiles: float, size: int) -> Attributes:
+    """Attributes of shells with fewer bits that differ: texture coordinates as of `coarse_uv`, all of `_FUR` but the
+    weight in steps of `FUR_STEP`.
+    """
+    rounded = {"TEXCOORD_0": coarse_uv(stood["TEXCOORD_0"], tiles, size)}
+    if "_FUR" in stood:
+        own = stood["_FUR"].astype(np.int64)
+        own[:, 1:] = np.minimum(np.rint(own[:, 1:] / FUR_STEP) * FUR_STEP, 255)
+        rounded["_FUR"] = own.astype(np.uint8)
+    return stood | rounded
 
 
 def quantise_weights(weights: Floats, group: Ints) -> Bytes:

@@ -2,11 +2,13 @@
 
 import {
 	AdditiveBlending,
+	type BufferGeometry,
 	type Camera,
 	DataTexture,
 	DoubleSide,
 	Group,
 	LinearFilter,
+	type Material,
 	MathUtils,
 	Mesh,
 	MeshBasicMaterial,
@@ -15,29 +17,13 @@ import {
 	SpriteMaterial,
 	Vector3,
 } from 'three';
-import { Line2 } from 'three/addons/lines/Line2.js';
-import { LineGeometry } from 'three/addons/lines/LineGeometry.js';
-import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
 
 /** Distance of the lamp from the model's centre, in radii of the model. */
 export const lampDistance = 1.22;
 
-const warm = [1, 0.8, 0.55] as const;
+export const warm = [1, 0.8, 0.55] as const;
 const resting = 0.35; // strength of the lines while the light rests
 const easing = 0.18; // seconds in which they brighten
-
-/** Circle arc in the x-y plane; brightness by angle, black is invisible. */
-function arc(from: number, to: number, brightness: (angle: number) => number, material: LineMaterial): Line2 {
-	const steps = 96;
-	const positions: number[] = [];
-	const colours: number[] = [];
-	for (let i = 0; i <= steps; i++) {
-		const angle = from + ((to - from) * i) / steps;
-		positions.push(Math.cos(angle), Math.sin(angle), 0);
-		colours.push(...warm.map((part) => part * brightness(angle)));
-	}
-	return new Line2(new LineGeometry().setPositions(positions).setColors(colours), material).computeLineDistances();
-}
 
 /** Grey texture for additive light; `brightness` of u and v in -1..1 is in 0..1. */
 function lightMap(width: number, height: number, brightness: (u: number, v: number) => number): DataTexture {
@@ -55,7 +41,8 @@ function lightMap(width: number, height: number, brightness: (u: number, v: numb
 	return texture;
 }
 
-const additive = { blending: AdditiveBlending, depthWrite: false, transparent: true };
+/** Properties of a material that adds light. */
+export const additive = { blending: AdditiveBlending, depthWrite: false, transparent: true };
 
 /**
  * Built once for a lamp at distance 1; all motion is rotation or scale:
@@ -67,10 +54,10 @@ export class Lamp extends Group {
 	readonly #carrier = new Group();
 	readonly #arm = new Group();
 	readonly #ray: Mesh<PlaneGeometry, MeshBasicMaterial>;
-	readonly #faint: (LineMaterial | MeshBasicMaterial)[] = [];
+	readonly #faint: Material[] = [];
 	readonly #eye = new Vector3();
 	#strength = 0;
-	readonly #dim = (material: LineMaterial | MeshBasicMaterial) => {
+	readonly #dim = (material: Material) => {
 		material.opacity = this.#strength;
 	};
 	/** Whether the light is being moved: ray and rail are brighter then. */
@@ -78,11 +65,6 @@ export class Lamp extends Group {
 
 	constructor() {
 		super();
-		const horizon = arc(0, 2 * Math.PI, () => 0.07, this.#line());
-		horizon.rotation.x = Math.PI / 2;
-		const reach = 0.9; // radians of the rail to both sides of the lamp
-		const rail = arc(-reach, reach, (angle) => 0.3 * Math.cos((angle / reach) * (Math.PI / 2)) ** 2, this.#line());
-
 		// A soft band, since lines have steps without multisampling.
 		this.#ray = new Mesh(
 			new PlaneGeometry(1, 0.012).translate(0.5, 0, 0),
@@ -108,22 +90,26 @@ export class Lamp extends Group {
 		halo.scale.setScalar(0.26);
 		for (const part of [bulb, halo]) part.position.x = 1;
 
-		this.#arm.add(this.#ray, rail, bulb, halo);
+		this.#arm.add(this.#ray, bulb, halo);
 		this.#carrier.add(this.#arm);
-		this.add(horizon, this.#carrier);
-		// After the fur, whose depth hides what is behind it.
+		this.add(this.#carrier);
+		this.#drawLast();
+	}
+
+	/** Adds the lines of `LampLines`. */
+	addLines({ horizon, rail }: Record<'horizon' | 'rail', Mesh<BufferGeometry, Material>>): void {
+		this.add(horizon);
+		this.#arm.add(rail);
+		this.#faint.push(horizon.material, rail.material);
+		this.#faint.forEach(this.#dim);
+		this.#drawLast();
+	}
+
+	/** After the fur, whose depth hides what is behind it. */
+	#drawLast(): void {
 		this.traverse((part) => {
 			part.renderOrder = 1;
 		});
-	}
-
-	#line(): LineMaterial {
-		const linewidth = 1.2 * Math.min(devicePixelRatio, 2);
-		// One dash without end: dashed segments have no caps, which would lie over each other like beads.
-		const whole = { dashed: true, dashSize: 1e6, gapSize: 0 };
-		const material = new LineMaterial({ linewidth, vertexColors: true, ...whole, ...additive });
-		this.#faint.push(material);
-		return material;
 	}
 
 	/** @param direction unit vector from the model to the lamp, world axes; @param radius of the model */

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from furbake.asset.buffer import Buffer, numbers
+from furbake.asset.mesh.buffer import Buffer, numbers
 from furbake.surface.charts import Charts
 from furbake.surface.place.fins import Fins
 
@@ -22,15 +22,20 @@ def shell_edges(faces: NDArray[Any], positions: NDArray[Any]) -> tuple[Ints, Int
     faces : (F', 3); each is gone round from its lowest vertex
     positions : (M, 3) as stored: copies of a point are equal
     """
-    corners = np.asarray(faces, dtype=np.int64).reshape(-1, 3)
-    turn = (np.argmin(corners, axis=1)[:, None] + np.arange(3)) % 3
-    corners = np.take_along_axis(corners, turn, axis=1)
+    corners = turned(faces)
     ends = np.stack([corners, np.roll(corners, -1, axis=1)], axis=-1).reshape(-1, 2)
     _, point = np.unique(positions, axis=0, return_inverse=True)
     joined = np.sort(point.reshape(-1)[ends], axis=1) @ np.array([len(positions), 1])
     _, first = np.unique(joined, return_index=True)
     order = np.sort(first)
     return ends[order], joined[order]
+
+
+def turned(faces: NDArray[Any]) -> Ints:
+    """(F, 3) the same faces, each gone round from its lowest vertex."""
+    corners = np.asarray(faces, dtype=np.int64).reshape(-1, 3)
+    turn = (np.argmin(corners, axis=1)[:, None] + np.arange(3)) % 3
+    return np.asarray(np.take_along_axis(corners, turn, axis=1))
 
 
 def fin_mask(faces: Ints, positions: NDArray[Any], source: Ints, fins: Fins) -> Bytes | None:

@@ -1,0 +1,1 @@
+"""Vertices and faces as glTF stores them."""
