@@ -151,9 +151,14 @@ function isBrokenOff(error: unknown): boolean {
 	return name === 'TypeError' || name === 'SyntaxError' || (response?.status ?? 0) >= 500;
 }
 
+/** What Chromium, Firefox and Safari say of a request that got no answer. */
+const UNREACHED = /failed to fetch|network ?error|load failed/i;
+
 function reason(error: unknown): string {
 	const text = error instanceof Error ? error.message : String(error);
 	if (error instanceof SyntaxError) return `model.gltf: expected glTF, but it is not even JSON (${text})`;
+	if (error instanceof TypeError && UNREACHED.test(text))
+		return `files do not arrive: there is no connection, or their host does not let this page read them (${text})`;
 	// Message of three's loader, with address and status.
 	const missing = /^fetch for "([^"]*)" responded with 404/.exec(text);
 	return missing ? `${missing[1]?.split('/').at(-1)}: there is no such file` : text;

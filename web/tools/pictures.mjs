@@ -1,6 +1,7 @@
 /**
  * `npm run pictures`: regenerates the project's pictures: `public/og.jpg` for shared links, `still.jpg`, the bunny under
- * three lights, `presets.jpg`, the bunny in every preset, and `demo.jpg` and `learn.jpg`, the pages themselves. `npm run pictures -- --fox models/my-fox` makes
+ * three lights, `presets.jpg`, the bunny in every preset, `demo.jpg` and `learn.jpg`, the pages themselves, and `home.png`,
+ * the icon on a phone's home screen. `npm run pictures -- --fox models/my-fox` makes
  * `fox.jpg` of README's fox, baked there, `-- --bear models/my-bear` `usd.jpg` of a groomed one; `npm run pictures -- --truth` traces the lesson's ring (minutes; `mitsuba`);
  * `npm run pictures -- --blender` furs, bakes and renders the monkey of the docs in Blender (minutes; installs `bpy`).
  */
@@ -151,13 +152,25 @@ async function learn(browser, site) {
 	await photograph(page, 'learn.jpg');
 }
 
+/** The page's icon for the home screens of phones, which round its corners themselves. @param {Browser} browser */
+async function home(browser) {
+	const side = 180;
+	const icon = readFileSync(join(root, 'public', 'icon.svg'), 'utf8').replace(/ rx="[^"]*"/, '');
+	const page = await browser.newPage({ viewport: { width: side, height: side } });
+	await page.setContent(`<!doctype html><style>body { margin: 0 } svg { display: block }</style>${icon}`);
+	await photograph(page, 'home.png');
+}
+
 /**
  * @param {Page} page
  * @param {string} name of the file in public/
- * @param {number} quality of the JPEG, 0 to 100
+ * @param {number} quality of a JPEG, 0 to 100
  */
 async function photograph(page, name, quality = 84) {
-	await page.screenshot({ path: join(root, 'public', name), type: 'jpeg', quality, timeout: PATIENCE });
+	const kind = name.endsWith('.png')
+		? { type: /** @type {const} */ ('png') }
+		: { type: /** @type {const} */ ('jpeg'), quality };
+	await page.screenshot({ path: join(root, 'public', name), ...kind, timeout: PATIENCE });
 	await page.close();
 	say(`public/${name}`);
 }
@@ -235,6 +248,7 @@ await command(async () => {
 		await presets(browser, server.url);
 		await demo(browser, server.url);
 		await learn(browser, server.url);
+		await home(browser);
 	} finally {
 		await browser.close();
 		await server.close();

@@ -25,6 +25,28 @@ it('a model.gltf that is cut short twice is told', async () => {
 	expect(requests).toEqual({ 'model.gltf': 2 });
 });
 
+it.each(['Failed to fetch', 'NetworkError when attempting to fetch resource.', 'Load failed'])(
+	'a connection that breaks off twice is told: %s',
+	async (said) => {
+		const requests = serve(whole, () => new TypeError(said));
+		await expect(load()).rejects.toThrow(
+			`files do not arrive: there is no connection, or their host does not let this page read them (${said})`,
+		);
+		expect(requests).toEqual({ 'model.gltf': 2 });
+	},
+);
+
+it('a model that is known to be sound is checked where it fails', async () => {
+	const sound = () => loadModel({ url: 'http://files.test/model.gltf', sound: true }, { size: 2048, layers: 256 });
+	const requests = serve(whole);
+	expect((await sound()).fur).toBeDefined();
+	expect(requests['model.gltf']).toBe(1);
+	const spoilt = structuredClone(json);
+	spoilt.extensions.FUR_ptm_shells.layers = 'many';
+	serve({ ...whole, 'model.gltf': new Uint8Array(Buffer.from(JSON.stringify(spoilt))) });
+	await expect(sound()).rejects.toThrow('FUR_ptm_shells/layers');
+});
+
 it('a model.gltf that is not there is not asked for again', async () => {
 	const requests = serve(files);
 	await expect(load()).rejects.toThrow('there is no such file');

@@ -87,6 +87,7 @@ describe('sharePlugin', () => {
 			'og:image': './og.jpg',
 			'twitter:card': 'summary_large_image',
 			manifest: './manifest.webmanifest',
+			'apple-touch-icon': './home.png',
 		});
 		expect(found).not.toHaveProperty('canonical');
 	});

@@ -4,6 +4,8 @@ import { words } from '../words/index.ts';
 
 const READING_TIME = 9000; // milliseconds, at least
 const LETTER_TIME = 60; // per letter
+/** Notices at a time: an older one makes room. */
+const MOST = 3;
 
 /**
  * @param kind `note` goes by itself; `advice`, to be followed, and `error` stay until they are closed
@@ -24,7 +26,9 @@ export function notice(text: string, kind: 'note' | 'advice' | 'error' = 'note',
 	const remove = () => box.remove();
 	close.addEventListener('click', remove);
 	box.append(sentence, close);
-	document.getElementById('notices')?.append(box);
+	const place = document.getElementById('notices');
+	place?.append(box);
+	while (place && place.children.length > MOST) place.firstElementChild?.remove();
 	if (kind === 'note') onceLoaded(() => setTimeout(remove, Math.max(READING_TIME, LETTER_TIME * text.length)));
 	return remove;
 }

@@ -197,6 +197,7 @@ export function sharePlugin(site) {
 				open('og:image:alt', PICTURE.words),
 				{ tag: 'meta', attrs: { name: 'twitter:card', content: 'summary_large_image' }, injectTo: 'head' },
 				link('manifest', { href: './manifest.webmanifest' }),
+				link('apple-touch-icon', { href: './home.png' }),
 				...(own
 					? [
 							open('og:url', own.href),
