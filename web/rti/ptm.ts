@@ -126,7 +126,7 @@ async function unpacked(
 			const other = done[reference];
 			const transform = transforms[plane] ?? 0;
 			const moved = transform & ~1 && (across[plane] || down?.[plane]);
-			if (!other || moved) throw new RelitError('plane', `${plane}`);
+			if (!other || moved) throw new RelitError('plane', `plane ${plane}`);
 			for (let i = 0; i < grey.length; i++) {
 				const base = other[i] as number;
 				grey[i] = (grey[i] as number) + (transform & 1 ? 255 - base : base) - 128;
@@ -140,7 +140,7 @@ async function unpacked(
 
 async function greyOf(stream: Uint8Array, width: number, height: number, plane: number, decode: Decode) {
 	const found = await decode(new Blob([stream as BlobPart], { type: 'image/jpeg' })).catch(() => undefined);
-	if (found?.width !== width || found.height !== height) throw new RelitError('plane', `${plane}`);
+	if (found?.width !== width || found.height !== height) throw new RelitError('plane', `plane ${plane}`);
 	const grey = new Uint8Array(width * height);
 	for (let i = 0; i < grey.length; i++) grey[i] = found.data[4 * i] as number;
 	return grey;

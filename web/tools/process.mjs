@@ -30,8 +30,15 @@ export function say(line) {
 export function run(command, args, options = {}) {
 	return new Promise((resolve) => {
 		const child = spawn(command, args, { cwd: root, stdio: 'inherit', ...options });
-		child.on('error', () => resolve(127));
-		child.on('exit', (code, signal) => resolve(code ?? (signal === 'SIGINT' ? 130 : 143)));
+		// Passed on: the time limit of a CI may end this process alone.
+		const end = () => child.kill('SIGTERM');
+		process.on('SIGTERM', end);
+		const ended = (/** @type {number} */ code) => {
+			process.off('SIGTERM', end);
+			resolve(code);
+		};
+		child.on('error', () => ended(127));
+		child.on('exit', (code, signal) => ended(code ?? (signal === 'SIGINT' ? 130 : 143)));
 	});
 }
 

@@ -195,7 +195,8 @@ def bake_within(job: Job, bound: int | None) -> Baked:
 
 
 def _too_little(bound: int) -> MemoryShortError:
-    return MemoryShortError(f"memory: got a bound of {megabytes(bound)}, expected more for this bake")
+    got = f"a bound of {megabytes(bound)} for bakes and command together"
+    return MemoryShortError(f"memory: got {got}, expected more for this bake")
 
 
 def fur_of(job: Job) -> tuple[BakeOptions, float]:

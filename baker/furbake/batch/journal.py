@@ -9,9 +9,12 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import IO
 
-from furbake.asset.store import alone, atomic_file
+from furbake.asset.store import StoreError, alone, atomic_file
 
 NAME = "batch.jsonl"
+
+BEGINNING = b'{"name": "'
+"""Beginning of every line."""
 
 
 @dataclass(frozen=True)
@@ -49,11 +52,19 @@ def journal(out: Path) -> Iterator[Journal]:
     """The journal of a folder, for one batch alone. Raises StoreError where another has it, or it cannot be written."""
     place = out / NAME
     with alone(out / "batch"):
+        _check(place)
         entries = {entry.name: entry for entry in _read(place)}
         with atomic_file(place) as whole:
             whole.writelines(map(_line, entries.values()))
         with place.open("ab") as file:
             yield Journal(entries, file)
+
+
+def _check(place: Path) -> None:
+    """Raise StoreError for a file with lines of somebody else; one that a kill has cut off is ours."""
+    lines = place.read_bytes().splitlines() if place.exists() else []
+    if any(line and not (line.startswith(BEGINNING) or BEGINNING.startswith(line)) for line in lines):
+        raise StoreError(f"{place}: not written by furbake batch, expected a folder without it")
 
 
 def _line(entry: Entry) -> bytes:

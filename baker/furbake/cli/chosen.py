@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 
 from furbake.options import BakeOptions, OptionError, override, preset
@@ -17,6 +18,9 @@ GIVEN = (
 )  # fmt: skip
 """Options of the command that are options of the bake; one that is not given is the preset's."""
 
+INFO = "info.json"
+"""Description of the planes in a folder of relight."""
+
 
 def chosen(args: SimpleNamespace) -> BakeOptions:
     """The preset's options, overridden by every `--set`, then by the options of the command."""
@@ -29,6 +33,8 @@ def chosen(args: SimpleNamespace) -> BakeOptions:
     if given["states"] == ("dry..wet",):
         given["states"] = tuple(WETNESS)
     if given["swatch"] is not None:
+        if (info := Path(given["swatch"], INFO)).is_file():  # in a folder of relight
+            given["swatch"] = str(info)
         options = replace(options, **THIN)
     options = replace(options, **{name: value for name, value in given.items() if value is not None})
     if options.guide.endswith(".json"):  # strokes, and where there are none from nose to tail

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import click
 
-from furbake.cli.interrupt import INTERRUPTED, MESSAGE, importing
+from furbake.cli.interrupt import INTERRUPTED, MESSAGE, end_as_interrupted, importing
 from furbake.cli.output import complain, drop_output, open_streams
 from furbake.cli.parsing import FULL, Entry, Group, UsageError, sentence
 
@@ -31,7 +31,7 @@ COMMANDS = {
     "bend": Entry("studies", "table of how right the light on bent fur is, as Markdown"),
     "patches": Entry("studies", "table of how lapped patches cover models, as Markdown"),
     "groom": Entry("arguments", "write the strands of a baked fur on its body"),
-    "export": Entry("rti.arguments", "write a pelt from above for RTI viewers: PTM, relight"),
+    "export": Entry("rti.arguments", "write a pelt from above for RTI viewers (PTM, relight), or the body as a GLB"),
 }
 
 FURBAKE = Group("furbake", COMMANDS, help="Bakes fur that can be relit in real time, from any mesh.")
@@ -41,6 +41,7 @@ click.version_option(package_name="furbake", message="%(prog)s %(version)s")(FUR
 def run(argv: Sequence[str] | None) -> int:
     """Run the command; its exit status."""
     open_streams()
+    end_as_interrupted()
     arguments = list(sys.argv[1:] if argv is None else argv)
     try:
         with FURBAKE.make_context("furbake", list(arguments)) as context:

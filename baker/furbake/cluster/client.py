@@ -48,7 +48,9 @@ def connected(scheduler: str, workers: int) -> Iterator[Any]:
         return
     if "://" not in scheduler:
         raise ClusterError(f"scheduler: got {scheduler!r}, expected local or an address such as tcp://10.0.0.1:8786")
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    for name in ("distributed", *logging.root.manager.loggerDict):
+        if name.startswith("distributed"):
+            logging.getLogger(name).setLevel(logging.CRITICAL)
     try:
         with warnings.catch_warnings(action="ignore"):  # on versions, which are compared below
             client = distributed.Client(scheduler, timeout=PATIENCE)

@@ -80,7 +80,8 @@ def _understood(error: BaseException) -> Exception:
     """An error of a unit; those of Dask as a sentence."""
     if type(error).__module__.partition(".")[0] in {"distributed", "asyncio", "concurrent", "dask"}:
         name = type(error).__name__
-        return ClusterError(f"workers: lost with it ({name}), expected memory for it there, and a scheduler that lives")
+        lost = f"workers: the one that baked it was lost ({name})"
+        return ClusterError(f"{lost}, expected memory for it there, and a scheduler that lives")
     if isinstance(error, CrashError):
         return ClusterError(f"workers: a process of theirs was ended ({error}), expected memory and time enough for it")
     return error if isinstance(error, Exception) else RuntimeError(str(error))

@@ -99,6 +99,8 @@ def recorded(asset: Asset, fur: int = 0) -> BakeOptions:
     record = regions[fur - 1] if 0 < fur <= len(regions) else asset.record
     if not isinstance(record.get("options"), dict) or fur > len(regions):
         raise AssetError(f"{asset.folder}: no options in bake.json, expected a folder that furbake bake wrote")
+    if (photographed := record["options"].get("swatch")) is not None:
+        raise AssetError(f"{asset.folder}: fur that was photographed ({photographed}), expected grown hairs")
     try:
         return BakeOptions.from_record(record["options"])
     except (OptionError, TypeError, ValueError, LookupError) as error:

@@ -5,6 +5,7 @@ Such files are made by hand and on other machines: names have spaces and folders
 
 from __future__ import annotations
 
+import codecs
 import math
 import os
 import re
@@ -40,7 +41,7 @@ def read_lp(path: Path) -> Lamps:
     """The list in a file. Raises RtiError."""
     data = read_bytes(path)
     try:
-        text = data.decode("utf-8-sig")
+        text = data.decode("utf-16" if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig")
     except UnicodeDecodeError:
         text = data.decode("cp1252", "replace")
     return parse_lp(text, str(path))
@@ -95,9 +96,14 @@ def find(path: Path, name: str) -> Path | None:
     for folder in (path.parent, path.parent / EXPORTS, Path(os.path.realpath(path.parent)).parent / EXPORTS):
         with suppress(OSError):
             for entry in sorted(folder.iterdir()):
-                if entry.name.casefold() == wanted:
+                if wanted in (entry.name.casefold(), _latin(entry.name).casefold()):
                     return entry
     return None
+
+
+def _latin(name: str) -> str:
+    """A name whose bytes are no UTF-8, as archives of Windows leave it."""
+    return os.fsencode(name).decode("cp1252", "replace")
 
 
 def _short(line: str) -> str:

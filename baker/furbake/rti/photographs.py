@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from furbake.pelt.texels.basis import PTM
 from furbake.rti.lp import find, read_lp
 from furbake.rti.ptm import read_bytes
 from furbake.rti.relit import Array, Bytes, RtiError
@@ -19,6 +20,9 @@ from furbake.surface.material import Picture
 
 LEAST = 6
 """Photographs of a set: a polynomial has six numbers."""
+
+TELLS = 1e-6
+"""Least singular value of the functions at the lamps that tells them apart."""
 
 NAMED = 3
 """Names that a notice lists at the most."""
@@ -86,8 +90,16 @@ def read_photographs(path: Path) -> Photographs:
         raise RtiError(f"{path}: {len(kept)} photographs of one size{reason}, expected {LEAST} or more")
     if size[0] * size[1] > limits().pixels:
         raise RtiError(f"{path}: photographs of {size[0]} x {size[1]}, expected at most {limits().pixels} pixels")
+    lights = lamps.lights[kept]
+    if (rank := np.linalg.matrix_rank(PTM(lights), tol=TELLS)) < LEAST:
+        told.append(f"{path}: its lamps tell {rank} of the {LEAST} numbers of a PTM apart: the others are a guess")
+    if below := int((lights[:, 2] <= 0).sum()):
+        told.append(f"{path}: {below} of {len(lights)} lamps are not above the horizon, where a PTM has no light")
+    for name, count in Counter(lamps.names).items():
+        if count > 1:
+            told.append(f"{path}: lists {name} {count} times")
     taken = tuple(place for i in kept if (place := places[i]) is not None)
-    return Photographs(str(path), taken, lamps.lights[kept], *size, (*lamps.notices, *told))
+    return Photographs(str(path), taken, lights, *size, (*lamps.notices, *told))
 
 
 def _size(path: Path) -> tuple[int, int] | None:

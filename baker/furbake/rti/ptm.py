@@ -70,7 +70,7 @@ def parse_ptm(data: bytes, name: str) -> Relit:
     try:
         Budget(name, "bytes").take(header.width * header.height * planes)
     except MeshError as error:
-        raise RtiError(str(error)) from error
+        raise RtiError(f"{error} (it has {header.width} x {header.height} pixels)") from error
     if header.packing is not None:
         codes = unpacked(body, header.packing, header.width, header.height, name)[::-1]
     else:
@@ -142,6 +142,7 @@ class _Words:
             value = kind(text)
             if abs(value) <= GREATEST:
                 return value
+            wanted = f"{wanted}, below {GREATEST:g}"
         raise RtiError(f"{self.name}: got {text!r}, expected {wanted}")
 
 

@@ -50,9 +50,15 @@ def read_relight(path: Path) -> Relit:
         return _relit(info, path)
     except RtiError:
         raise
-    except (LookupError, TypeError, ValueError, AttributeError, OverflowError) as error:
-        detail = f"{type(error).__name__}: {' '.join(str(error).split())[:80]}"
-        raise RtiError(f"{path}: {detail}, expected relight's {INFO}") from error
+    except KeyError as error:
+        raise RtiError(f"{path}: no {error.args[0]}, expected relight's {INFO}") from error
+    except ValueError as error:
+        text = " ".join(str(error).split())[:160]
+        expected = "" if "expected" in text else f", expected relight's {INFO}"
+        raise RtiError(f"{path}: {text}{expected}") from error
+    except (LookupError, TypeError, AttributeError, OverflowError) as error:
+        detail = " ".join(str(error).split())[:80]
+        raise RtiError(f"{path}: malformed ({detail}), expected relight's {INFO}") from error
 
 
 def _relit(info: dict[str, Any], path: Path) -> Relit:
@@ -61,7 +67,7 @@ def _relit(info: dict[str, Any], path: Path) -> Relit:
     if type(planes) is not int or not 3 <= planes <= MOST_PLANES:
         raise RtiError(f"{path}: got {planes!r} planes, expected 3 to {MOST_PLANES}")
     material = info["materials"][0]
-    scale, bias = (_numbers(material[name], planes) for name in ("scale", "bias"))
+    scale, bias = (_numbers(material[name], planes, name) for name in ("scale", "bias"))
     weigh = _weights(info, kind, space, planes, path)
     codes = _planes(path, planes, str(info.get("format", "jpg")))
     colour = None
@@ -158,12 +164,12 @@ def _planes(path: Path, planes: int, suffix: str) -> Bytes:
     return codes
 
 
-def _numbers(values: Any, count: int | None = None) -> Array:
+def _numbers(values: Any, count: int | None = None, name: str = "a list") -> Array:
     array = np.array(values, np.float64)
     if array.ndim != 1 or (count is not None and len(array) != count) or len(array) > 100 * MOST_FUNCTIONS:
-        raise ValueError(f"a list of shape {array.shape}, expected {count} numbers")
+        raise ValueError(f"{name} of {array.size} numbers, expected {count or f'{100 * MOST_FUNCTIONS} at most'}")
     if not (np.abs(array) < GREATEST).all():
-        raise ValueError(f"a number that is not below {GREATEST:g}")
+        raise ValueError(f"{name} with a number that is not below {GREATEST:g}")
     return array
 
 

@@ -62,7 +62,8 @@ def test_killed_and_resumed_batches_are_those_of_one_by_one(tmp_path: Path) -> N
 def test_too_little_memory_is_a_sentence(run: Callable[..., Any], tmp_path: Path) -> None:
     done = run("batch", "plane", "-o", tmp_path / "out", "--memory", "20M", "--no-cache", *SETTINGS)
     assert done.status == 1
-    assert done.err == "furbake: error: plane: memory: got a bound of 20 MB, expected more for this bake\n"
+    bound = "a bound of 20 MB for bakes and command together"
+    assert done.err == f"furbake: error: plane: memory: got {bound}, expected more for this bake\n"
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["batch.jsonl", "index.html"]
 
 
@@ -101,18 +102,33 @@ def wait_for(folder: Path) -> None:
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="processes are read from /proc")
-def test_an_interrupted_batch_says_how_to_go_on(tmp_path: Path) -> None:
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupted_batch_says_how_to_go_on(tmp_path: Path, number: signal.Signals) -> None:
     out = tmp_path / "out"
     batch = started("plane", "torus:8x8", "-o", out, "--jobs", 1)
     assert batch.stdout is not None
     assert json.loads(batch.stdout.readline())["status"] == "baked"
     below = family(batch.pid)
-    batch.send_signal(signal.SIGINT)
+    batch.send_signal(number)
     _, err = batch.communicate()
     assert batch.returncode == 130
     assert err == "furbake: interrupted: 1 of 2 are done, the same command goes on from there\n"
     assert not any(Path(f"/proc/{number}").exists() for number in below)
-    assert sorted(path.name for path in out.iterdir()) == ["batch.jsonl", "plane"]
+    assert sorted(path.name for path in out.iterdir()) == ["batch.jsonl", "index.html", "plane"]
+    assert "stopped: 1 of 2 models" in (out / "index.html").read_text("utf-8")
+
+
+def test_a_log_of_somebody_else_is_left(run: Callable[..., Any], tmp_path: Path) -> None:
+    log = tmp_path / "batch.jsonl"
+    log.write_text('{"my": "log"}\n')
+    done = run("batch", "plane", "-o", tmp_path)
+    assert done.status == 2
+    assert done.err == f"furbake: error: {log}: not written by furbake batch, expected a folder without it\n"
+    assert log.read_text() == '{"my": "log"}\n'
+    # Cut off in its first line, as by a kill.
+    log.write_text('{"na')
+    with journal(tmp_path) as ours:
+        assert ours.entries == {}
 
 
 def test_two_batches_do_not_share_a_folder(run: Callable[..., Any], tmp_path: Path) -> None:

@@ -18,7 +18,8 @@ BAD = {
     "": "list.toml: got no list of models, expected [[model]] and then file = '...' for each",
     "model = 3": "list.toml: got no list of models, expected [[model]]",
     "[[model]": "list.toml: got no valid TOML (",
-    "[[model]]\nname = 'a'": "list.toml: model 1: file: got null, expected a path, a glob or a list of them",
+    "name = 'a'\n[[model]]\nfile = 'plane'": "list.toml: name: got it for all models, expected it below a [[model]]",
+    "[[model]]\nname = 'a'": "list.toml: model 1: file: got none, expected a path, a glob or a list of them",
     "[[model]]\nfile = 'none/*.obj'": "list.toml: model 1: no model, expected files that end in glb, gltf, obj",
     "[[model]]\nfile = 'a.obj'\nlenght = 2": "list.toml: model 1: lenght: unknown, expected one of name, file, preset",
     "[[model]]\nfile = 'a.obj'\nsize = 12.5": "list.toml: model 1: size: got '12.5', expected a whole number",
@@ -94,7 +95,7 @@ def test_a_folder_holds_all_that_a_bake_reads(run: Callable[..., Any]) -> None:
 def test_each_model_has_its_own_options(run: Callable[..., Any]) -> None:
     Path("list.toml").write_text(
         "seed = 3\n[[model]]\nfile = '*'\n"
-        "[[model]]\nfile = 'torus:4x4'\nname = 'ring'\nlength = 0.25\nfins = false\nset = { coat.clumps = 7 }\n"
+        "[[model]]\nfile = 'torus:4x4'\nname = 'ring'\nlength = 0.25\nno-fins = true\nset = { coat.clumps = 7 }\n"
     )
     done = run("batch", "list.toml", "-o", "out", *SETTINGS, "--json", "--no-cache", "--jobs", "1")
     assert done.status == 0, done.err

@@ -51,6 +51,51 @@ def test_photographs_are_fitted_relit_and_written(run: Callable[..., Any]) -> No
     assert np.abs(shown("c.png") - ptm_under(Path("own.ptm").read_bytes(), LIGHT)).max() <= 1
 
 
+def test_nothing_that_is_read_is_written_over(run: Callable[..., Any], fur: Path) -> None:
+    photographed(Path(), lamps(9))
+    assert run("swatch", "set.lp", "-o", "own.ptm", "--quiet").status == 0
+    assert run("export", fur, "--relight", "planes", "--planes", "png", "--pixels", "16", "--quiet").status == 0
+    before = {path: path.read_bytes() for path in Path().rglob("*") if path.is_file()}
+    for files, out in (
+        (("set.lp",), "photo 03.png"),
+        (("set.lp", "own.ptm"), "own.ptm"),
+        (("planes",), "planes/plane_1.png"),
+        (("planes/info.json",), "./planes/plane_0.png"),
+    ):
+        done = run("swatch", *files, "-o", out)
+        assert done.status == 2
+        assert done.err.endswith(f"out: got {Path(out)}, which is read for it, expected another file\n")
+    assert {path: path.read_bytes() for path in Path().rglob("*") if path.is_file()} == before
+
+
+def test_lamps_that_tell_no_polynomial_are_told(run: Callable[..., Any]) -> None:
+    ring = lamps(12) * [1, 1, 0] + [0, 0, 1]
+    ring[:, :2] /= np.hypot(*ring[:, :2].T)[:, None]
+    photographed(Path(), ring / np.sqrt(2))
+    done = run("swatch", "set.lp", "-o", "a.png")
+    assert "note: set.lp: its lamps tell 5 of the 6 numbers of a PTM apart: the others are a guess" in done.err
+    photographed(Path(), lamps(12) * [1, 1, -1])
+    done = run("swatch", "set.lp", "-o", "below.png")
+    assert done.status == 2
+    assert "set.lp: 0 of 12 lamps above the horizon, expected 6 or more" in done.err
+    assert not Path("below.png").exists()
+    photographed(Path(), lamps(12) * np.where(np.arange(12) < 3, -1, 1)[:, None] ** [2, 2, 1])
+    with Path("set.lp").open("a") as file:
+        file.write("photo 05.png 0 0 1\n")
+    done = run("swatch", "set.lp", "-o", "a.png")
+    assert "note: set.lp: 3 of 13 lamps are not above the horizon, where a PTM has no light" in done.err
+    assert "note: set.lp: lists photo 05.png 2 times" in done.err
+
+
+def test_an_export_is_whole_or_nothing(run: Callable[..., Any], fur: Path) -> None:
+    Path("there").mkdir()
+    done = run("export", fur, "--glb", "a.glb", "--ptm", "a.ptm", "--relight", "there", "--quiet")
+    assert done.status == 2
+    done = run("export", fur, "--glb", "a.glb", "--ptm", "a.ptm", "--state", "wett", "--quiet")
+    assert done.status == 2
+    assert sorted(path.name for path in Path().iterdir() if path.suffix in {".glb", ".ptm"}) == []
+
+
 def test_what_is_left_out_is_told(run: Callable[..., Any]) -> None:
     photographed(Path(), lamps(9))
     Path("photo 03.png").unlink()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import shutil
 from pathlib import Path
 
@@ -162,3 +163,14 @@ def test_noise_cannot_be_told_from_other_lamps(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("lights", "degree"), [(6, 2), (12, 2), (30, 3), (48, 4), (60, 5), (80, 6), (500, 6)])
 def test_few_lamps_bear_few_functions(lights: int, degree: int) -> None:
     assert smoothness(lights) == degree
+
+
+def test_names_of_windows_are_found(tmp_path: Path) -> None:
+    """Bytes of Latin-1 on the disk, as an old archive leaves them, and a list in UTF-16."""
+    photographed(tmp_path, lamps(9))
+    for path in tmp_path.glob("photo*"):
+        path.rename(tmp_path / os.fsdecode(path.name.replace("photo", "münze").encode("latin-1")))
+    text = (tmp_path / "set.lp").read_text().replace("photo", "münze")
+    for coding in ("latin-1", "utf-8", "utf-16"):
+        (tmp_path / "set.lp").write_text(text, coding)
+        assert len(read_photographs(tmp_path / "set.lp").paths) == 9

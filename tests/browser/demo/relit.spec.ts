@@ -172,7 +172,7 @@ test('a bad picture is refused in one sentence, and the one before stays', async
 	await open(page, '?model=sphere&shells=2&still=1&light=0,0,1&camera=0,0,1');
 	const said = page.locator('.notice p');
 	for (const [name, data, reason] of [
-		['short.ptm', lrgb.slice(0, -1), 'the end is missing: it was not copied or downloaded completely'],
+		['short.ptm', lrgb.slice(0, -1), 'it has fewer bytes than its header says'],
 		[
 			'large.ptm',
 			bytes('PTM_1.2\nPTM_FORMAT_RGB\n1000000000\n1000000000\n1 1 1 1 1 1\n0 0 0 0 0 0\n'),
@@ -185,4 +185,9 @@ test('a bad picture is refused in one sentence, and the one before stays', async
 	}
 	await drop(page, { ...relight(), 'plane_2.png': new Uint8Array([1, 2, 3]) });
 	await expect(said).toContainText('plane_2.png: this plane is missing, damaged or of another size');
+	const { 'plane_0.png': _, ...others } = relight();
+	await drop(page, others);
+	await expect(said).toContainText('plane_0.png: this plane is missing, damaged or of another size');
+	await drop(page, { 'a.ptm': lrgb, 'b.ptm': lrgb });
+	await expect(said).toContainText('there are several pictures in it (a.ptm, b.ptm); expected one');
 });

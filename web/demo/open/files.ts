@@ -36,7 +36,8 @@ export function isIgnored(path: string): boolean {
 	return path.split('/').some((name) => /^(\.|__MACOSX$|thumbs\.db$|desktop\.ini$)/i.test(name));
 }
 
-const depth = (path: string) => path.split('/').length - 1;
+/** Folders above a file. */
+export const depth = (path: string) => path.split('/').length - 1;
 const fileName = (path: string) => path.split('/').at(-1) as string;
 
 /**
@@ -57,7 +58,8 @@ export function findModel(files: Files): string {
 	throw new Refused((words) => (baked ? words.modelMissing : words.noModel(list(paths, words.more))));
 }
 
-function list(paths: string[], more: (count: number) => string): string {
+/** The first paths in words. */
+export function list(paths: string[], more: (count: number) => string): string {
 	const shown = paths.length > 3 ? paths.slice(0, 2) : paths;
 	return `${shown.join(', ')}${paths.length > shown.length ? ` ${more(paths.length - shown.length)}` : ''}`;
 }

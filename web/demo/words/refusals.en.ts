@@ -44,6 +44,7 @@ export const en = {
 	more: (count: number) => `and ${count} more`,
 	modelMissing: 'model.gltf is missing: the other files of a baked folder are there',
 	severalModels: (paths: string) => `there are several models in it (${paths}); expected one`,
+	severalPictures: (paths: string) => `there are several pictures in it (${paths}); expected one`,
 	notInZip: (path: string) => `${path}: it is not in the zip`,
 	notInFolder: (path: string) => `${path}: it is not in the folder`,
 	notBeside: (path: string) => `${path}: it was not dropped with the model; drop the whole folder, or its zip`,
@@ -63,7 +64,7 @@ export const en = {
 		ptmKind: (got: string) =>
 			`it is a PTM of another kind (${got}); expected PTM_1.2 as RGB, LRGB, JPEG_RGB or JPEG_LRGB`,
 		header: (_: string) => 'its header is damaged; expected size, scales and biases of a PTM',
-		short: (_: string) => 'the end is missing: it was not copied or downloaded completely',
+		short: (_: string) => 'it has fewer bytes than its header says: the end is missing, or the header is wrong',
 		plane: (name: string) => `${name}: this plane is missing, damaged or of another size`,
 		large: (size: string) => `it has ${size} pixels, more than this page opens`,
 		relightKind: (got: string) => `its kind is unknown (${got}); expected ptm, hsh, sh, rbf or bilinear of relight`,

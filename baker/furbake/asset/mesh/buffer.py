@@ -73,7 +73,9 @@ class Buffer:
         padded = np.zeros((count, stride), dtype=np.uint8)
         padded[:, : width * values.itemsize] = _little(values).view(np.uint8).reshape(count, -1)
         properties = {"target": ARRAY_BUFFER, "byteStride": stride}
-        view = self._packed(padded, "ATTRIBUTES", _octahedral(values) if octahedral else None, **properties)
+        view = self._packed(
+            padded, "ATTRIBUTES", _octahedral(values) if octahedral and self.compress else None, **properties
+        )
         return self._append({"bufferView": view} | _described(values, bounds, normalised))
 
     def displacements(self, values: NDArray[Any], bounds: bool = False) -> int:

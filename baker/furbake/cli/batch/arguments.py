@@ -16,7 +16,8 @@ BATCH = [
     option("--jobs", metavar="N", type=WHOLE, help="bakes at the same time, at most (default: one per core)"),
     option(
         "--memory", metavar="BYTES", type=SIZE,
-        help="memory for all of them together, such as 8G or 500M (default: 80 % of what is free)",
+        help="memory for all of them and the command together, such as 8G or 500M (default: 80 % of what is free); "
+        "with the address of a --scheduler, of each",
     ),
     option("--scheduler", metavar="local|tcp://HOST:PORT", help=SCHEDULER),
     switch("--send", "with --scheduler: send models there and results back, where no folder is shared"),

@@ -104,7 +104,8 @@ def _of_list(place: str) -> Iterator[tuple[str, str | None, dict[str, Any], str]
         file, name = entry.get("file"), entry.get("name")
         patterns = [file] if isinstance(file, str) else file
         if not patterns or not isinstance(patterns, list) or not all(isinstance(one, str) for one in patterns):
-            raise OptionError(f"{where}: file: got {show(file)}, expected a path, a glob or a list of them")
+            got = "none" if file is None else show(file)
+            raise OptionError(f"{where}: file: got {got}, expected a path, a glob or a list of them")
         if name is not None and not isinstance(name, str):
             raise OptionError(f"{where}: name: got {show(name)}, expected text")
         options = _options({key: value for key, value in entry.items() if key not in OWN}, where, folder)
@@ -133,7 +134,11 @@ def _options(table: Mapping[str, Any], where: str, folder: Path) -> dict[str, An
     found: dict[str, Any] = {}
     for key, value in table.items():
         name = key.replace("-", "_")
+        if name.removeprefix("no_") in OPTIONS and isinstance(value, bool) and name not in OPTIONS:
+            name, value = name.removeprefix("no_"), not value  # noqa: PLW2901 — as the command spells it
         if name not in OPTIONS:
+            if key in OWN:
+                raise OptionError(f"{where}: {key}: got it for all models, expected it below a [[model]]")
             known = ", ".join(option.replace("_", "-") for option in (*OWN, *OPTIONS))
             raise OptionError(f"{where}: {key}: unknown, expected one of {known}")
         found[name] = _settings(value, where) if name == "set" else _value(PARAMETERS[name], value, where)

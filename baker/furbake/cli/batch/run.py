@@ -22,6 +22,7 @@ from furbake.cli.command import INVALID, told
 from furbake.cli.interrupt import INTERRUPTED
 from furbake.cli.output import complain, say
 from furbake.cluster.crew import cluster_crew
+from furbake.cluster.versions import ClusterError
 from furbake.cores import cores
 from furbake.options import OptionError
 from furbake.show.sheet import MARK, NAME, Cell, sheet, thumbnail
@@ -50,10 +51,12 @@ def run_batch(args: SimpleNamespace) -> int:
 
         try:
             rows = run(jobs, log, crew, Telling(ended, table.event, _sentence))
-        except KeyboardInterrupt:
+        except (KeyboardInterrupt, ClusterError) as error:
             done = sum(row.status != "failed" for row in ends)
-            complain(f"interrupted: {done} of {len(jobs)} are done, the same command goes on from there")
-            return INTERRUPTED
+            why = "interrupted" if isinstance(error, KeyboardInterrupt) else str(error)
+            complain(f"{why}: {done} of {len(jobs)} are done, the same command goes on from there")
+            _write_sheet(out, ends, f"stopped: {done} of {len(jobs)} models")
+            return INTERRUPTED if isinstance(error, KeyboardInterrupt) else INVALID
     counts = {status: sum(row.status == status for row in rows) for status in ("baked", "fresh", "failed")}
     seconds = time.perf_counter() - start
     summary = (
@@ -65,10 +68,9 @@ def run_batch(args: SimpleNamespace) -> int:
         say(json.dumps({"folder": str(out), **counts, "seconds": seconds}))
     elif not args.quiet:
         say(f"{out}: {summary}; {out / NAME} shows them")
-    if not args.json:
-        for row in rows:
-            if row.status == "failed":
-                complain(f"error: {row.job.name}: {row.entry.error}")
+    for row in rows:
+        if row.status == "failed":
+            complain(f"error: {row.job.name}: {row.entry.error}")
     return INVALID if counts["failed"] else 0
 
 

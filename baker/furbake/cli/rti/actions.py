@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
-from contextlib import nullcontext
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import asdict
 from pathlib import Path
 from types import SimpleNamespace
+from typing import BinaryIO
 
 from furbake.asset.planes import write_png
 from furbake.asset.store import atomic_file, atomic_folder
@@ -15,13 +16,13 @@ from furbake.cli import actions
 from furbake.cli.output import complain, say
 from furbake.cli.progress import shown
 from furbake.options import OptionError
-from furbake.rti.files import LP, PTM, is_rti, read_relit, suffix_of
+from furbake.rti.files import LP, PTM, is_rti, members, read_relit, suffix_of
 from furbake.rti.fit import Figure, beside, fit_photographs, held_out
-from furbake.rti.photographs import read_photographs
+from furbake.rti.photographs import LEAST, read_photographs
 from furbake.rti.ptm import write_ptm
 from furbake.rti.relight import write_relight
 from furbake.rti.relit import LRGB, RGB, Relit, RtiError
-from furbake.show.export import COMPOSITE, exported
+from furbake.show.export import COMPOSITE, Exported, exported
 from furbake.show.plain import write_plain
 from furbake.show.swatch import FROM_THE_SIDE, light_direction
 
@@ -34,27 +35,19 @@ def run_export(args: SimpleNamespace) -> int:
     if not (args.ptm or args.relight or args.glb):
         raise OptionError("export: got none of --ptm, --relight and --glb, expected one of them")
     _check_export(args)
-    kind, layer, planes = args.kind or LRGB, args.layer or COMPOSITE, args.planes or "jpg"
-    look = {"tiles": args.tiles, "size": args.pixels}
     source = Path(args.folder)
     check(source)
-    if args.glb:
-        with atomic_file(Path(args.glb)) as file:
-            write_plain(file, source)
-        if not (args.ptm or args.relight):
-            return _told_body(args)
     folder = atomic_folder(Path(args.relight), force=None) if args.relight else nullcontext()
-    with folder as fresh, atomic_file(Path(args.ptm)) if args.ptm else nullcontext() as file:
-        with shown(("fit",), args.quiet) as progress:
-            found = exported(
-                source, kind=kind, state=args.state, layer=layer, linear=args.linear,
-                step=lambda fraction: progress("fit", fraction),
-                **{name: value for name, value in look.items() if value is not None},
-            )  # fmt: skip
-        if file is not None:
+    with folder as fresh, _file(args.ptm) as file, _file(args.glb) as body:
+        if body is not None:
+            write_plain(body, source)
+        found = _from_above(args, source) if args.ptm or args.relight else None
+        if found is not None and file is not None:
             write_ptm(file, found.relit)
-        if fresh is not None:
-            write_relight(fresh, found.relit, planes)
+        if found is not None and fresh is not None:
+            write_relight(fresh, found.relit, args.planes or "jpg")
+    if found is None:
+        return _told_body(args)
     written = [name for name in (args.ptm, args.relight, args.glb) if name]
     relit = found.relit
     if args.json:
@@ -66,6 +59,20 @@ def run_export(args: SimpleNamespace) -> int:
         size_told = f"{relit.width} x {relit.height}"
         say(f"{', '.join(written)}: {relit.kind}, {size_told}, {told}, {found.psnr:.1f} dB on lamps left out")
     return 0
+
+
+def _file(name: str | None) -> AbstractContextManager[BinaryIO | None]:
+    return atomic_file(Path(name)) if name else nullcontext()
+
+
+def _from_above(args: SimpleNamespace, source: Path) -> Exported:
+    look = {"tiles": args.tiles, "size": args.pixels}
+    with shown(("fit",), args.quiet) as progress:
+        return exported(
+            source, kind=args.kind or LRGB, state=args.state, layer=args.layer or COMPOSITE, linear=args.linear,
+            step=lambda fraction: progress("fit", fraction),
+            **{name: value for name, value in look.items() if value is not None},
+        )  # fmt: skip
 
 
 def _check_export(args: SimpleNamespace) -> None:
@@ -114,6 +121,9 @@ def _relit_swatch(args: SimpleNamespace, files: list[Path]) -> int:
     first, others = files[0], files[1:]
     light, out = light_direction(args.light or FROM_THE_SIDE), Path(args.out)
     measured = suffix_of(first) == LP
+    read = {path.resolve() for file in files for path in (file, *members(file))}
+    if out.resolve() in read:
+        raise OptionError(f"out: got {out}, which is read for it, expected another file")
     if out.suffix.lower() == PTM:
         _refuse(args, ("light",), "swatch", out, "a .png to be lit")
     if others and not measured:
@@ -140,6 +150,11 @@ def _fitted(path: Path, others: list[Path], args: SimpleNamespace) -> tuple[Reli
     if not args.quiet:
         for notice in photographs.notices:
             complain(f"note: {notice}")
+    above = int((photographs.lights[:, 2] > 0).sum())
+    if above < LEAST:
+        raise RtiError(
+            f"{path}: {above} of {len(photographs.lights)} lamps above the horizon, expected {LEAST} or more"
+        )
     size = photographs.width, photographs.height
     known = {str(other): _of_size(read_relit(other), size, other) for other in others}
     with shown(("fit",), args.quiet) as progress:

@@ -8,14 +8,17 @@ from furbake.cli.values import DIRECTION, PLACE, WHOLE, NewFile
 
 EXPORT = [
     folder(),
-    option("--ptm", metavar="FILE.ptm", type=NewFile(".ptm"), help="PTM 1.2, for RTIViewer and others"),
+    option(
+        "--ptm", metavar="FILE.ptm", type=NewFile(".ptm"),
+        help="PTM 1.2, for RTIViewer and others; replaced where it exists",
+    ),
     option(
         "--relight", metavar="FOLDER", type=PLACE,
         help="info.json and planes, for OpenLIME and relight; a new folder",
     ),
     option(
         "--glb", metavar="FILE.glb", type=NewFile(".glb"),
-        help="the body without its fur, for any program that reads glTF",
+        help="the body without its fur, for any program that reads glTF; replaced where it exists",
     ),
     option(
         "--format", "kind", metavar="lrgb|rgb",
@@ -28,8 +31,8 @@ EXPORT = [
     ),
     switch("--linear", "bytes proportional to light, not as a screen shows them"),
     option("--planes", metavar="jpg|png", help="pictures of --relight: with losses (default), or without"),
-    option("--tiles", metavar="T", type=WHOLE, help="repeats of the tile along a side (default: 2)"),
-    option("--pixels", metavar="P", type=WHOLE, help="side of the picture (default: 512)"),
+    option("--tiles", metavar="T", type=WHOLE, help="repeats of the tile along a side (default: 2); of the composite"),
+    option("--pixels", metavar="P", type=WHOLE, help="side of the picture (default: 512); of the composite"),
     switch("--json", "figures as one JSON object"),
     switch("--quiet", QUIET),
 ]  # fmt: skip
@@ -57,7 +60,9 @@ SWATCH = [
 COMMANDS = {
     command.name: command
     for command in (
-        Command("export", "DIR --ptm FILE.ptm", action("rti.actions", "run_export"), EXPORT),
+        Command(
+            "export", "DIR --ptm FILE.ptm|--relight FOLDER|--glb FILE.glb", action("rti.actions", "run_export"), EXPORT
+        ),
         Command("swatch", "DIR|FILE -o FILE.png", action("rti.actions", "run_swatch"), SWATCH),
     )
 }

@@ -166,6 +166,8 @@ def recorded_options(asset: Asset, pelt: Pelt) -> BakeOptions:
         if not isinstance(record.get(key), kind):
             what = f"no {key}" if record else "missing or empty"
             raise AssetError(f"bake.json: {what}, expected the record of a bake")
+    if (photographed := record["options"].get("swatch")) is not None:
+        raise AssetError(f"bake.json: fur that was photographed ({photographed}), expected grown hairs")
     try:
         options = BakeOptions.from_record(record["options"])
         options.check()
