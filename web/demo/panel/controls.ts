@@ -150,7 +150,8 @@ export class Controls {
 		const { link } = this;
 		const { own, dynamics } = this.#exhibit;
 		const more = [...(own ? [words.noLink] : []), ...(dynamics.hasPaint ? [words.notInLink] : [])];
-		notice([(await copy(link)) ? words.copied : words.copyThis(link), ...more].join('\n'));
+		const copied = more.length ? words.copiedPart : words.copied;
+		notice([(await copy(link)) ? copied : words.copyThis(link), ...more].join('\n'), 'note', 'link');
 	}
 
 	async #save(): Promise<void> {

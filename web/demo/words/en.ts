@@ -117,7 +117,8 @@ export const en = {
 	resolution: (percent: number) => (percent === 100 ? 'full resolution' : `${percent}\u00a0% resolution`),
 
 	copied: 'The link is copied: it shows just this picture.',
-	copyThis: (link: string) => `This link shows just this picture:\n${link}`,
+	copiedPart: 'The link is copied.',
+	copyThis: (link: string) => `This is the link:\n${link}`,
 	saved: (file: string) => `Saved as ${file}.`,
 	notSaved: (reason: string) => `The picture cannot be saved: ${reason}`,
 	noLink: 'A model from your own files has no address: this link shows the rest of the view.',

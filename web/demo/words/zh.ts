@@ -124,7 +124,8 @@ export const zh: Words = {
 	resolution: (percent) => (percent === 100 ? '全分辨率' : `${percent}% 分辨率`),
 
 	copied: '链接已复制：打开它看到的就是这幅画面。',
-	copyThis: (link) => `用此链接可重现这幅画面：\n${link}`,
+	copiedPart: '链接已复制。',
+	copyThis: (link) => `链接如下：\n${link}`,
 	saved: (file) => `已保存为 ${file}。`,
 	notSaved: (reason) => `无法保存图片：${reason}`,
 	noLink: '来自本地文件的模型没有地址：此链接只重现其余设置。',
