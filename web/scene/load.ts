@@ -79,9 +79,8 @@ export async function loadModel(
 	};
 	const whole = await load()
 		.catch((error: unknown) => {
-			const broken = !isBrokenOff(error);
-			if (broken && check) throw error;
-			check ||= broken;
+			if (check && !isBrokenOff(error)) throw error;
+			check = true;
 			return load();
 		})
 		.catch((error: unknown) => {
@@ -115,13 +114,13 @@ async function player(
 	return new ClipPlayer(object, meshes, clips, rest, Gaze.of(object));
 }
 
-/** Makes a model without its fur, which is not in the scene yet. */
-async function modelOf(object: Object3D, animations: readonly AnimationClip[]): Promise<Model> {
+/** Makes a model without its fur, which is not in the scene yet. @param object undefined for a file without a scene */
+async function modelOf(object: Object3D | undefined, animations: readonly AnimationClip[]): Promise<Model> {
 	const meshes: Mesh[] = [];
-	object.traverse((child) => {
+	object?.traverse((child) => {
 		if (child instanceof Mesh && child.geometry.getAttribute('position')?.count > 0) meshes.push(child);
 	});
-	if (meshes.length === 0) throw new Error('model.gltf: got a scene without a mesh, expected one');
+	if (!object || meshes.length === 0) throw new Error('model.gltf: got a scene without a mesh, expected one');
 	object.updateMatrixWorld(true);
 	// Bones carry a mesh out of the sphere that three culls it by.
 	for (const mesh of meshes) if (mesh instanceof SkinnedMesh) mesh.frustumCulled = false;

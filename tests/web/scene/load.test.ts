@@ -41,6 +41,8 @@ it('a model that is known to be sound is checked where it fails', async () => {
 	const requests = serve(whole);
 	expect((await sound()).fur).toBeDefined();
 	expect(requests['model.gltf']).toBe(1);
+	serve({ ...whole, 'model.gltf': new TextEncoder().encode('{"asset": {"version": "2.0"}}') });
+	await expect(sound()).rejects.toThrow('model.gltf: got a scene without a mesh, expected one');
 	const spoilt = structuredClone(json);
 	spoilt.extensions.FUR_ptm_shells.layers = 'many';
 	serve({ ...whole, 'model.gltf': new Uint8Array(Buffer.from(JSON.stringify(spoilt))) });
