@@ -168,17 +168,20 @@ def _parted(model: FurModel, stood: Attributes) -> tuple[FurModel, Attributes]:
     return replace(model, charts=parts.charts), parts.copies(stood)
 
 
+def _has_targets(model: FurModel) -> bool:
+    """True where morph targets move a body."""
+    return model.motion is not None and bool(model.motion.rig.targets)
+
+
 def _skin_first(model: FurModel) -> Charts | None:
     """Charts that begin with the faces of the skin, which needs none of its own then; None where it has some."""
-    moved = model.motion is not None and model.motion.rig.targets
-    alone = model.ground is not None or model.skin.skin or moved
+    alone = model.ground is not None or model.skin.skin or _has_targets(model)
     return None if alone else skin_first(model.charts, model.skin.faces)
 
 
 def _fin_edges(model: FurModel, charts: Charts, stood: Attributes, buffer: Buffer) -> Record | None:
     """Fins as edges of the shells, of which readers make quads; None for those that are stored."""
-    morphs = model.motion is not None and model.motion.rig.targets
-    if model.fins is None or model.pelts[0].curves is None or morphs or model.regions is not None:
+    if model.fins is None or model.pelts[0].curves is None or _has_targets(model) or model.regions is not None:
         return None
     return edges_record(charts, stood["POSITION"], model.fins, buffer)
 

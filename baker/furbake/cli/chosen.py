@@ -9,6 +9,7 @@ from types import SimpleNamespace
 from furbake.options import BakeOptions, OptionError, override, preset
 from furbake.options.bake_options import THIN
 from furbake.pelt.hairs.states import WETNESS
+from furbake.rti.relight import INFO
 from furbake.surface.shapes import is_builtin
 
 GIVEN = (
@@ -17,9 +18,6 @@ GIVEN = (
     "meshopt", "states", "dirt", "pose", "swatch", "colour", "regions", "rig", "groom", "follow",
 )  # fmt: skip
 """Options of the command that are options of the bake; one that is not given is the preset's."""
-
-INFO = "info.json"
-"""Description of the planes in a folder of relight."""
 
 
 def chosen(args: SimpleNamespace) -> BakeOptions:
