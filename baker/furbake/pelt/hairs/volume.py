@@ -30,9 +30,6 @@ PLANES = 2
 SOLID_SLAB = 1 / 16
 """Share of the fur's height to which `Coat.opacity` refers."""
 
-UPRIGHT = 0.01
-"""Slope by which hairs that stand count in the mean displacement."""
-
 
 @dataclass(frozen=True)
 class Volume:
@@ -43,7 +40,7 @@ class Volume:
     radius : (K,) mean over the hairs by their width, tile widths
     tangent : (K, N, N, 3) unit mean direction of the hairs, towards the tips; +z where there are none
     tint, hue : (K, N, N) means over the hairs, 0..1
-    drift : (K, 2) mean displacement of the hairs from their roots, each by what is seen of it from above, tile widths
+    drift : (K, 2) mean displacement of the hairs from their roots, tile widths
     height : tile widths
     aside : (K, 2) how far a slab's voxels lie beside the skin's, tile widths; None: nowhere
     off_axis : (K, N, N, 2) mean place of a voxel's middle beside the axes of its hairs, level, in their radii; None:
@@ -178,9 +175,7 @@ class _Drawn:
             shares = cover * apart * per_radius[:, None]
             self.off_axis[axis] += np.bincount(voxel.ravel(), shares.ravel(), size * size)
         self.widths += (thick * thick).sum(), thick.sum()
-        slope = np.linalg.norm(onwards[:, :2], axis=-1) / np.abs(onwards[:, 2])
-        shown = thick * (slope + UPRIGHT)
-        self.drift += np.append(shown @ (centre - points[hair, 0, :2]), shown.sum())
+        self.drift += np.append(thick @ (centre - points[hair, 0, :2]), thick.sum())
 
 
 def cross_sections(centre: Array, thick: Array, along: Array, size: int) -> tuple[Array, NDArray[np.int64], Array]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from scipy.ndimage import binary_dilation
@@ -19,6 +21,26 @@ WIDTHS = (1.0, 1.1, 1.2, 1.3, 1.5)
 """Widths of the whole that are tried, over that of a square without gaps."""
 
 
+@dataclass(frozen=True)
+class Layout:
+    """Patches in places of their own.
+
+    uv : (M, 2) texture coordinates, tiles; patch : (M,) the patch of each vertex
+    owner : (rows, columns) the patch whose vertices, roots or margin lie in each cell, -1: none
+    """
+
+    uv: Floats
+    patch: Ints
+    owner: Ints
+
+    def owner_at(self, uv: Floats) -> Ints:
+        """(n,) the patch that has the place (n, 2), tiles; -1: none."""
+        column, row = np.floor(uv * CELLS).astype(np.int64).T
+        rows, columns = self.owner.shape
+        there = (row >= 0) & (row < rows) & (column >= 0) & (column < columns)
+        return np.where(there, self.owner[np.clip(row, 0, rows - 1), np.clip(column, 0, columns - 1)], -1)
+
+
 def patches_of(charts: Charts) -> tuple[int, Ints]:
     """Number of patches, and (M,) the patch of each vertex: vertices that faces join."""
     count = len(charts.source)
@@ -28,8 +50,8 @@ def patches_of(charts: Charts) -> tuple[int, Ints]:
     return int(patches), patch.astype(np.int64)
 
 
-def laid_out(charts: Charts, drift: Floats) -> Floats:
-    """(M, 2) texture coordinates, tiles from 0 on, with every patch in a place of its own in a square or so.
+def laid_out(charts: Charts, drift: Floats) -> Layout:
+    """Texture coordinates from 0 on, with every patch in a place of its own in a square or so.
 
     drift : (2,) displacement of the tips from their roots, tiles: roots lie that far beside a patch
     """
@@ -39,29 +61,31 @@ def laid_out(charts: Charts, drift: Floats) -> Floats:
     least = int(np.ceil(np.sqrt(sum(mask.sum() for mask in masks)) / CELLS))
     widest = max(-(-mask.shape[1] // CELLS) for mask in masks)
     sides = sorted({max(int(np.ceil(least * share)), widest) for share in WIDTHS})
-    places, _ = min((_packed([masks[one] for one in order], side) for side in sides), key=lambda packed: packed[1])
+    packed = (_packed([masks[one] for one in order], side) for side in sides)
+    places, taken, _ = min(packed, key=lambda found: found[2])
     move = np.zeros((patches, 2))
     move[order] = places
-    return np.asarray(charts.uv + (move - np.array(lows))[patch])
+    owner = np.append(order, -1)[taken]
+    return Layout(np.asarray(charts.uv + (move - np.array(lows))[patch]), patch, owner)
 
 
-def _packed(masks: list[Flags], side: int) -> tuple[Floats, int]:
-    """(P, 2) places of masks in a strip `side` tiles wide, and the longer side of it all.
+def _packed(masks: list[Flags], side: int) -> tuple[Floats, Ints, int]:
+    """(P, 2) places of masks in a strip `side` tiles wide, the mask in each cell of it, -1: none, and its longer side.
 
     Each has the first free place of whole tiles, top row first.
     """
     tall = [-(-len(mask) // CELLS) for mask in masks]
-    taken = np.zeros((sum(tall) * CELLS, side * CELLS), dtype=bool)
+    taken = np.full((sum(tall) * CELLS, side * CELLS), -1, dtype=np.int64)
     places, rows = [], 0
-    for mask, height in zip(masks, tall, strict=True):
-        windows = sliding_window_view(taken[: (rows + height) * CELLS], mask.shape)[::CELLS, ::CELLS]
+    for number, (mask, height) in enumerate(zip(masks, tall, strict=True)):
+        windows = sliding_window_view(taken[: (rows + height) * CELLS] >= 0, mask.shape)[::CELLS, ::CELLS]
         free = ~np.any(windows & mask, axis=(2, 3))
         row, column = (int(at) for at in np.unravel_index(int(np.argmax(free)), free.shape))
         top, left = row * CELLS, column * CELLS
-        taken[top : top + mask.shape[0], left : left + mask.shape[1]] |= mask
+        taken[top : top + mask.shape[0], left : left + mask.shape[1]][mask] = number
         places.append((column, row))
         rows = max(rows, row + height)
-    return np.array(places, dtype=np.float64), max(side, rows)
+    return np.array(places, dtype=np.float64), taken[: rows * CELLS], max(side, rows)
 
 
 def _mask(charts: Charts, mine: Flags, drift: Floats) -> tuple[Flags, Floats]:

@@ -13,10 +13,11 @@ from furbake.surface.charts import Charts
 from furbake.surface.colours import Bytes, smaller, srgb_bytes
 from furbake.surface.material import Picture
 from furbake.surface.mesh import Surface
-from furbake.surface.roots.layout import laid_out
+from furbake.surface.roots.beyond import unfolded
+from furbake.surface.roots.layout import Layout, laid_out
 from furbake.surface.roots.look import BaseColours, Points, nearest_on_skin, on_skin
 from furbake.surface.roots.raster import drawn
-from furbake.surface.soup import Flags, Floats
+from furbake.surface.soup import Flags, Floats, Ints
 
 LONGEST = 1024
 """Texels of the picture's longer side, at most."""
@@ -44,21 +45,26 @@ def picture_of_roots(skin: Surface, ground: Surface, charts: Charts, drift: Floa
 
     drift : (2,) displacement of the tips from their roots, tiles; finest : texels per tile that are of use
     """
-    uv = laid_out(charts, drift)
-    density = min(float(finest), (LONGEST - 1) / float(uv.max()))
-    width, height = (int(np.ceil(side * density - 1e-6)) + 1 for side in uv.max(axis=0))
-    pixels = _drawn(skin, ground, charts, uv * density, (height, width), density)
-    return Roots(smaller(pixels), uv, density / np.array([width, height]))
+    layout = laid_out(charts, drift)
+    far = np.maximum(layout.uv, layout.uv - drift).max(axis=0)
+    density = min(float(finest), (LONGEST - 1) / float(far.max()))
+    width, height = (int(np.ceil(side * density - 1e-6)) + 1 for side in far)
+    pixels = _drawn(skin, ground, charts, layout, (height, width), density)
+    return Roots(smaller(pixels), layout.uv, density / np.array([width, height]))
 
 
-def _drawn(skin: Surface, ground: Surface, charts: Charts, uv: Floats, shape: tuple[int, int], density: float) -> Bytes:
-    """(height, width, 3) sRGB bytes; uv : (M, 2) in texels."""
-    parts = list(drawn(uv[charts.faces], shape))
-    face, row, column, shares = (np.concatenate(found) for found in zip(*parts, strict=True))
-    corners = charts.source[charts.faces]
+def _drawn(
+    skin: Surface, ground: Surface, charts: Charts, layout: Layout, shape: tuple[int, int], density: float
+) -> Bytes:
+    """(height, width, 3) sRGB bytes; density : texels per tile."""
+    around = unfolded(ground.vertices, ground.faces, charts, layout)
+    corners = np.concatenate([charts.source[charts.faces], around.corners])
+    triangles = np.concatenate([layout.uv[charts.faces], around.triangles]) * density
+    patch = np.concatenate([layout.patch[charts.faces[:, 0]], around.patch])
+    face, row, column, shares = _nearest(triangles, patch, layout, shape, density)
     same = on_skin(skin, corners) if ground is skin else None
     colours_of, steps = BaseColours(skin), (np.arange(WITHIN) + 0.5) / WITHIN - 0.5
-    shown, triangles = np.unique(face), uv[charts.faces]
+    shown = np.unique(face)
 
     def seen(aside: tuple[float, float]) -> Floats:
         """Colours beside the middle, but never beyond the face: there may be another part of the model's picture."""
@@ -79,6 +85,19 @@ def _drawn(skin: Surface, ground: Surface, charts: Charts, uv: Floats, shape: tu
     known = np.zeros(shape, dtype=bool)
     known[row, column] = True
     return srgb_bytes(_filled(colours, known, density))
+
+
+def _nearest(
+    triangles: Floats, patch: Ints, layout: Layout, shape: tuple[int, int], density: float
+) -> tuple[Ints, Ints, Ints, Floats]:
+    """Face, row, column and shares of the corners of every texel: of the first of its patch's triangles (n, 3, 2)."""
+    parts = list(drawn(triangles, shape))
+    face, row, column, shares = (np.concatenate(found) for found in zip(*parts, strict=True))
+    at = np.column_stack([column + 0.5, row + 0.5]) / density
+    mine = np.flatnonzero(layout.owner_at(at) == patch[face])
+    _, first = np.unique((row * shape[1] + column)[mine], return_index=True)
+    kept = mine[first]
+    return face[kept], row[kept], column[kept], shares[kept]
 
 
 def _change(corners: Floats, aside: tuple[float, float]) -> Floats:

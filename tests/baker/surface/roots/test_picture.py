@@ -85,7 +85,7 @@ def random_places(faces: int, count: int = 4000) -> tuple[np.ndarray, np.ndarray
 
 def test_patches_have_places_of_their_own(sphere: Surface) -> None:
     charts = lapped(sphere)
-    uv = laid_out(charts, DRIFT)
+    uv = laid_out(charts, DRIFT).uv
     moved = uv - charts.uv
     np.testing.assert_allclose(moved, np.rint(moved), atol=1e-9)
     assert uv.min() >= 0
@@ -118,6 +118,33 @@ def test_every_place_has_the_colour_of_the_model(sphere: Surface, simpler: bool)
     inside = np.abs(places[:, 2]) > 0.06 * np.abs(sphere.vertices).max()  # the border of the materials is sharp
     assert np.percentile(off[inside], 99) < (0.03 if simpler else 0.012)
     assert inside.mean() > 0.9
+
+
+@pytest.mark.parametrize("drift", [np.array([0.1, 0.9]), np.array([-0.8, 0.3])])
+def test_roots_beyond_a_patch_have_the_colour_of_the_skin_there(sphere: Surface, drift: np.ndarray) -> None:
+    """As far from a place of the patch as its hairs stand aside of their roots, along a great circle.
+
+    The nearest colour of the patch is .023 off.
+    """
+    charts = lapped(sphere)
+    roots = picture_of_roots(sphere, sphere, charts, drift, 64)
+    pixels = decode(roots.picture)
+    assert pixels is not None
+    face, shares = random_places(len(charts.faces))
+    corners = charts.faces[face]
+    places, uv = (
+        np.einsum("nc,nck->nk", shares, numbers[corners]) for numbers in (sphere.vertices[charts.source], roots.uv)
+    )
+    edges = charts.uv[corners[:, 1:]] - charts.uv[corners[:, :1]]
+    sides = sphere.vertices[charts.source[corners[:, 1:]]] - sphere.vertices[charts.source[corners[:, :1]]]
+    step = -np.einsum("nij,nj->ni", np.linalg.solve(edges, sides).transpose(0, 2, 1), np.tile(drift, (len(face), 1)))
+    radius = np.linalg.norm(places, axis=1, keepdims=True)
+    angle = np.linalg.norm(step, axis=1, keepdims=True) / radius
+    moved = np.cos(angle) * places + radius * np.sin(angle) * step / np.linalg.norm(step, axis=1, keepdims=True)
+    column, row = ((uv - drift) * roots.scale * pixels.shape[1::-1]).astype(int).T
+    off = np.abs(LINEAR[pixels[row, column, :3]] - seen(sphere, moved))
+    inside = np.abs(moved[:, 2]) > 0.12 * np.abs(sphere.vertices).max()
+    assert np.percentile(off[inside], 95) < 0.01
 
 
 def test_what_lies_between_islands_does_not_show() -> None:
