@@ -23,6 +23,8 @@ fillHeader(element('site'), 'bench', language);
 const { options, quick: asked, run, post, problems } = parseOptions(location.search);
 const [button, quick] = [element<HTMLButtonElement>('run'), element<HTMLInputElement>('quick')];
 const [bar, doing, problem] = [element<HTMLProgressElement>('bar'), element('doing'), element('problem')];
+/** Beginning and end, spoken; the progress between them, once a second, would be too much. */
+const outcome = element('outcome');
 const pictures = document.createElement('div');
 const texts = document.createElement('div');
 element('report').append(pictures, texts);
@@ -70,6 +72,7 @@ function show(figures: BenchFigures): void {
 async function start(): Promise<void> {
 	running = new AbortController();
 	button.textContent = words.stop;
+	outcome.textContent = words.measuring;
 	quick.disabled = true;
 	element('progress').hidden = false;
 	bar.value = 0;
@@ -78,10 +81,12 @@ async function start(): Promise<void> {
 		const wanted = quick.checked === asked ? options : quick.checked ? QUICK : DEFAULTS;
 		const figures = await measure(wanted, running.signal, listener());
 		setState('done');
+		outcome.textContent = words.done;
 		await tell({ figures, sections: sections(figures, words).map(({ title, tables }) => ({ title, tables })) });
 	} catch (error) {
 		const stopped = running.signal.aborted;
 		const { message } = error as Error;
+		outcome.textContent = stopped ? words.stopped : '';
 		if (!stopped) {
 			complain(words.failed(message));
 			await tell({ error: message });

@@ -24,7 +24,8 @@ function tableElement({ caption, head, rows }: Table): HTMLElement {
 			'tr',
 			'',
 			...cells.map((cell, i) => {
-				const made = element(heading || i === 0 ? 'th' : 'td', cell);
+				// An empty corner heads nothing.
+				const made = element((heading || i === 0) && cell ? 'th' : 'td', cell);
 				if (made.localName === 'th') made.setAttribute('scope', heading ? 'col' : 'row');
 				return made;
 			}),

@@ -30,7 +30,10 @@ function start(): void {
 	const store = new Store(view);
 	const tools = new Tools();
 	const hint = element('hint');
-	showHint(hint, 'light');
+	const canvas = element<HTMLCanvasElement>('picture');
+	const hinted = () => showHint(hint, tools.act, canvas.matches(':focus-visible'));
+	hinted();
+	canvas.addEventListener('focus', hinted);
 
 	const { still, ui } = view;
 	const calm = still || matchMedia('(prefers-reduced-motion: reduce)').matches;
@@ -38,7 +41,7 @@ function start(): void {
 		store.change({ camera });
 		if (tools.act === 'camera') hint.hidden = true;
 	};
-	const picture = new Picture(element<HTMLCanvasElement>('picture'), { still, calm, turned });
+	const picture = new Picture(canvas, { still, calm, turned });
 	if (ui) picture.overlay = addOverlay(picture, store);
 	const exhibit = new Exhibit(picture, store, new Progress(element<HTMLProgressElement>('progress')));
 	const controls = new Controls(element('panel'), tools, picture, exhibit, store);
@@ -47,8 +50,8 @@ function start(): void {
 	picture.space = (spacing) => exhibit.looks.space(spacing);
 	listenToHands(picture, tools, gestures, {
 		lightTaken: () => store.change({ light: picture.light.wanted }),
-		chosen: (act) => {
-			showHint(hint, act);
+		chosen: () => {
+			hinted();
 			void exhibit.style();
 		},
 		used: () => {
@@ -59,8 +62,32 @@ function start(): void {
 	if (ui) keepRoom(picture, [element('top'), controls.panel.element, element('dock')]);
 	followContext(picture, exhibit);
 	picture.fit();
-	// The address stays as it was asked for until something changes after that.
-	void exhibit.open().then(() => followInAddressBar(store));
+	holdOnRequest(picture, exhibit, store);
+	void exhibit.open().then(async () => {
+		// The address stays as it was asked for until something changes after that.
+		followInAddressBar(store);
+		const spoken = await import('./say/spoken.ts').catch(() => undefined);
+		spoken?.speak(canvas, language, {
+			model: () => exhibit.title,
+			lamp: () => picture.light.wanted,
+			camera: () => picture.camera.orbit,
+			act: () => tools.act,
+		});
+	});
+}
+
+/** Ends all that moves by itself when the system asks for less motion meanwhile; the lamp's drift with a clip that is held. */
+function holdOnRequest(picture: Picture, exhibit: Exhibit, store: Store): void {
+	const hold = () => picture.light.want(() => {});
+	store.subscribe(({ time }, changed) => {
+		if (changed.includes('time') && time !== undefined) hold();
+	});
+	matchMedia('(prefers-reduced-motion: reduce)').addEventListener('change', ({ matches }) => {
+		if (!matches) return;
+		hold();
+		store.change({ time: picture.stage.model?.clips?.time, turn: undefined, wind: undefined });
+		void exhibit.style();
+	});
 }
 
 /** Adds the figures; whether all of them are shown is in the view. */
@@ -75,9 +102,11 @@ function addOverlay(picture: Picture, store: Store): Overlay {
 	return overlay;
 }
 
-/** Says what a drag does. */
-function showHint(hint: HTMLElement, act: DragAction): void {
-	const more = matchMedia('(pointer: coarse)').matches ? words.hintTouch : words.hintMouse;
+/** Says what a drag does. @param keys whether the picture was reached by the keyboard */
+function showHint(hint: HTMLElement, act: DragAction, keys: boolean): void {
+	const { hintKeys, hintTouch, hintMouse, hintZoom } = words;
+	const mouse = act === 'camera' ? hintZoom : hintMouse;
+	const more = keys ? hintKeys : matchMedia('(pointer: coarse)').matches ? hintTouch : mouse;
 	// A line ends with a dot, none begins with one.
 	const line = document.createElement('span');
 	line.textContent = `${words.hints[act]} · ${more}`.replaceAll(' ·', '\u00a0·');

@@ -13,6 +13,8 @@ const words = WORDS[language];
 fillIn(words, language);
 fillHeader(element('site'), 'embed', language);
 
+const said = element('said');
+
 /** Fills a place with text and a button that copies it. @param what of which picture it is; @returns what changes the text */
 function copyable(place: HTMLElement, what: string): (text: string) => void {
 	const [pre, code, button] = [
@@ -22,12 +24,19 @@ function copyable(place: HTMLElement, what: string): (text: string) => void {
 	];
 	pre.append(code);
 	button.type = 'button';
-	button.textContent = words.copy;
-	button.setAttribute('aria-label', words.copyOf(what));
+	const show = (text: string) => {
+		button.textContent = text;
+		button.setAttribute('aria-label', words.about(text, what));
+	};
+	show(words.copy);
 	button.addEventListener('click', async () => {
-		button.textContent = (await copy(code.textContent ?? '')) ? words.copied : words.notCopied;
+		const result = (await copy(code.textContent ?? '')) ? words.copied : words.notCopied;
+		show(result);
+		said.textContent = words.about(result, what);
 		setTimeout(() => {
-			button.textContent = words.copy;
+			show(words.copy);
+			// The same words a second time are news again.
+			said.textContent = '';
 		}, 2000);
 	});
 	place.append(pre, button);

@@ -9,15 +9,17 @@ function add<K extends keyof HTMLElementTagNameMap>(parent: Element, tag: K, cla
 	return element;
 }
 
+/** Milliseconds without another value after which one is spoken. */
+const REST = 400;
+
 /**
- * Focusable canvas, as wide as its place.
+ * Canvas as wide as its place. One that takes keys is focusable and more than an image: see `takeKeys`.
  *
  * @param label accessible name
  * @param aspect width over height
  */
 export function figureCanvas(place: Element, label: string, aspect: number): HTMLCanvasElement {
 	const canvas = add(place, 'canvas');
-	canvas.tabIndex = 0;
 	canvas.setAttribute('role', 'img');
 	canvas.setAttribute('aria-label', label);
 	canvas.style.setProperty('--aspect', String(aspect));
@@ -112,6 +114,23 @@ export function note(place: Element, live = false): HTMLParagraphElement {
 	const line = add(place, 'p', 'note');
 	if (live) line.setAttribute('aria-live', 'polite');
 	return line;
+}
+
+/**
+ * Status that is heard, not seen: the value that keys have set on a canvas.
+ *
+ * @returns function that has a text spoken once keys rest
+ */
+export function spoken(place: Element): (text: string) => void {
+	const status = add(place, 'p', 'hidden');
+	status.setAttribute('role', 'status');
+	let resting: ReturnType<typeof setTimeout> | undefined;
+	return (text) => {
+		clearTimeout(resting);
+		resting = setTimeout(() => {
+			status.textContent = text;
+		}, REST);
+	};
 }
 
 /** Row of pictures side by side. */

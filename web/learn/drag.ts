@@ -38,9 +38,16 @@ export function slideByKeys(target: GlobalEventHandlers, { least, most, step, va
 	});
 }
 
-/** Lets arrow keys move the light while `target` is focused. */
-export function lightByKeys(target: HTMLElement, light: SharedLight): void {
-	arrows(target, (right, up) => light.turn(right * STEP, up * STEP));
+/** Lets a canvas take arrow keys: it can be focused, and is an application, whose keys screen readers hand on. */
+export function takeKeys(canvas: HTMLCanvasElement, step: (right: number, up: number) => void): void {
+	canvas.tabIndex = 0;
+	canvas.setAttribute('role', 'application');
+	arrows(canvas, step);
+}
+
+/** Lets arrow keys move the light while a canvas is focused. */
+export function lightByKeys(canvas: HTMLCanvasElement, light: SharedLight): void {
+	takeKeys(canvas, (right, up) => light.turn(right * STEP, up * STEP));
 }
 
 /**

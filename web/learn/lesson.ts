@@ -2,14 +2,15 @@
 
 import type { Language } from '../page/language.ts';
 import type { Painter } from '../scene/Painter.ts';
+import type { Calm } from './calm.ts';
 import type { SharedLight } from './light.ts';
 import type { Words } from './words/index.ts';
 
 export interface Lesson {
 	readonly language: Language;
 	readonly words: Words;
-	/** Whether nothing moves by itself: reduced motion is preferred, or the address has `still=1`. */
-	readonly calm: boolean;
+	/** While it is on nothing moves by itself; always with `still=1` in the address. */
+	readonly calm: Calm;
 	/** Light shared by all figures. */
 	readonly light: SharedLight;
 	readonly painter: Painter;

@@ -14,6 +14,7 @@ export type LightListener = (direction: Vector3) => void;
 export class SharedLight {
 	readonly #moving: MovingLight;
 	readonly #listeners = new Set<LightListener>();
+	readonly #calm: { readonly on: boolean };
 	readonly #wake: () => void;
 	/** Seconds since the last step. */
 	#late = 0;
@@ -21,12 +22,13 @@ export class SharedLight {
 
 	/**
 	 * @param first initial direction to the lamp
-	 * @param calm whether the light jumps to its target and never drifts
+	 * @param calm while it is on the light does not drift, and jumps to its target
 	 * @param wake requests a call of `step` in the next frame
 	 */
-	constructor(first: Triple, calm: boolean, wake: () => void) {
-		this.#moving = new MovingLight(!calm);
+	constructor(first: Triple, calm: { readonly on: boolean }, wake: () => void) {
+		this.#moving = new MovingLight(true);
 		this.#moving.put(first, true);
+		this.#calm = calm;
 		this.#wake = wake;
 	}
 
@@ -35,7 +37,7 @@ export class SharedLight {
 		return this.#moving.direction;
 	}
 
-	/** Whether the light drifts, as it does until it is set. */
+	/** Whether the light drifts, as it does until it is set; held while calm is on. */
 	get drifting(): boolean {
 		return this.#moving.drifting;
 	}
@@ -77,10 +79,15 @@ export class SharedLight {
 
 	/** @param elapsed seconds since the last frame; @returns whether it is still moving */
 	step(elapsed: number): boolean {
+		const { on: calm } = this.#calm;
+		if (this.drifting && calm) {
+			this.#late = 0;
+			return false;
+		}
 		this.#late += elapsed;
 		// The drift is slow: half of the frames are enough.
 		if (this.drifting && this.#late < DRIFT_FRAME) return true;
-		const moved = this.#moving.step(this.#late);
+		const moved = this.#moving.step(calm ? Number.POSITIVE_INFINITY : this.#late);
 		this.#late = 0;
 		if (!moved) return false;
 		for (const listener of this.#listeners) listener(this.#moving.direction);

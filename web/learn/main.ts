@@ -1,13 +1,16 @@
-/** Lesson: text of one language with its figures, each built when it comes near the window. */
+/** Lesson: text of one language with its figures, each built when the window or the focus comes near. */
 
 import 'katex/dist/katex.min.css';
 import { element, setState } from '../page/element.ts';
 import { fillHeader } from '../page/header.ts';
 import { fillIn, type Language, languageOf } from '../page/language.ts';
-import { MARGIN, Painter } from '../scene/Painter.ts';
+import { Painter } from '../scene/Painter.ts';
+import { Calm } from './calm.ts';
 import { action } from './controls.ts';
 import { arriveAtSteps } from './guide/arrive.ts';
 import { fillContents } from './guide/contents.ts';
+import { buildFigures } from './guide/figures.ts';
+import { holdButton } from './guide/hold.ts';
 import type { Lesson, Mount } from './lesson.ts';
 import { SharedLight } from './light.ts';
 import { WORDS } from './words/index.ts';
@@ -41,15 +44,16 @@ const steps: Record<string, () => Promise<{ mount: Mount }>> = {
 
 function newLesson(language: Language): Lesson {
 	const still = new URLSearchParams(location.search).get('still') === '1';
-	const calm = still || matchMedia('(prefers-reduced-motion: reduce)').matches;
+	const calm = new Calm(still, matchMedia('(prefers-reduced-motion: reduce)'));
 	const painter = new Painter();
 	const light = new SharedLight([-0.62, 0.62, 0.48], calm, () => painter.wake());
 	painter.animate((elapsed) => light.step(elapsed));
+	calm.listen(() => painter.wake());
 	return { language, words: WORDS[language], calm, light, painter };
 }
 
-/** Builds one figure, or shows why it failed. @returns its place */
-async function build(figure: HTMLElement, lesson: Lesson): Promise<HTMLElement> {
+/** Builds one figure, or shows why it failed. */
+async function build(figure: HTMLElement, lesson: Lesson): Promise<void> {
 	const place = document.createElement('div');
 	place.className = 'live';
 	figure.prepend(place);
@@ -66,7 +70,7 @@ async function build(figure: HTMLElement, lesson: Lesson): Promise<HTMLElement> 
 		place.textContent = message === needsWebGL2 ? message : failed(message);
 		figure.dataset.state = 'failed';
 	}
-	return place;
+	void settled(figure, place, lesson);
 }
 
 /** Marks the figure as drawn, and the page with its first one. */
@@ -78,15 +82,6 @@ async function settled(figure: HTMLElement, place: HTMLElement, { painter }: Les
 	if (document.documentElement.dataset.state === 'loading') setState(figure.dataset.state as 'ready' | 'failed');
 }
 
-/** Figure nearest to the middle of the window. */
-function nearest(figures: Iterable<HTMLElement>): HTMLElement | undefined {
-	const away = (figure: HTMLElement) => {
-		const { top, bottom } = figure.getBoundingClientRect();
-		return Math.abs((top + bottom - innerHeight) / 2);
-	};
-	return [...figures].sort((a, b) => away(a) - away(b))[0];
-}
-
 async function start(): Promise<void> {
 	const language = languageOf(location.search, navigator.languages);
 	fillIn(WORDS[language], language);
@@ -96,44 +91,18 @@ async function start(): Promise<void> {
 	arriveAtSteps();
 
 	const lesson = newLesson(language);
-	const waiting = new Set<HTMLElement>();
-	let building = false;
-	// One after the other, nearest first.
-	const next = async () => {
-		const figure = nearest(waiting);
-		if (!figure || building) return;
-		waiting.delete(figure);
-		building = true;
-		void settled(figure, await build(figure, lesson), lesson);
-		building = false;
-		void next();
-	};
-	const near = new IntersectionObserver(
-		(changes) => {
-			for (const { target, isIntersecting } of changes) {
-				// A figure may be reported twice.
-				if (!isIntersecting || (target as HTMLElement).dataset.state) continue;
-				near.unobserve(target);
-				waiting.add(target as HTMLElement);
-			}
-			void next();
-		},
-		{ rootMargin: MARGIN },
-	);
 	const figures = [...document.querySelectorAll<HTMLElement>('figure[data-figure]')];
-	for (const figure of figures) near.observe(figure);
-	// Build at least one: in a small window none may be near.
-	const first = nearest(figures);
-	if (first) waiting.add(first);
-	void next();
+	const buildAll = buildFigures(figures, (figure) => build(figure, lesson), lesson.words);
+	if (figures[0]) holdButton(figures[0], lesson.words.hold, lesson.calm);
 
-	const print = action(document.getElementById('more') ?? document.body, WORDS[language].print, async () => {
-		print.disabled = true;
-		for (const figure of figures) if (!figure.dataset.state) waiting.add(figure);
-		void next();
+	const print = action(document.getElementById('more') ?? document.body, lesson.words.print, async () => {
+		if (print.ariaDisabled) return;
+		// Keeps the focus, unlike `disabled`.
+		print.ariaDisabled = 'true';
+		buildAll();
 		while (figures.some(({ dataset: { state } }) => !state || state === 'loading'))
 			await new Promise(requestAnimationFrame);
-		print.disabled = false;
+		print.ariaDisabled = null;
 		window.print();
 	});
 }

@@ -12,6 +12,7 @@ const PAGES = {
 
 export type PageName = keyof typeof PAGES;
 
+const SKIP = { en: 'Skip to the content', zh: '跳到正文' } as const;
 const LABEL = { en: 'Pages', zh: '页面' } as const;
 
 function link(text: string, href: string, className = ''): HTMLAnchorElement {
@@ -20,6 +21,14 @@ function link(text: string, href: string, className = ''): HTMLAnchorElement {
 	made.href = href;
 	if (className) made.className = className;
 	return made;
+}
+
+/** Puts a link past header and contents in front of them, seen while it has the focus. */
+function addSkipLink(language: Language): void {
+	const main = document.querySelector('main');
+	if (!main) return;
+	main.id ||= 'content';
+	document.body.prepend(link(SKIP[language], `#${main.id}`, 'skip'));
 }
 
 /**
@@ -47,4 +56,6 @@ export function fillHeader(nav: HTMLElement, here: PageName, language: Language)
 		change.href = addressIn(other, location.href);
 	});
 	nav.replaceChildren(home, ...links, change);
+	// The demo's first control comes right after its few links.
+	if (here !== 'demo') addSkipLink(language);
 }

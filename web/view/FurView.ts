@@ -162,7 +162,7 @@ export class FurView extends Base implements Face {
 	/** Says what the controls do, and shows those that there are. */
 	#label(): void {
 		const { say, tools, play } = this.#frame;
-		say(wordsFor(this), this.alt, !this.paused, this.#failure);
+		say(wordsFor(this), this.getAttribute('alt') ?? (this.ariaLabel || null), !this.paused, this.#failure);
 		tools.classList.toggle('shown', this.controls);
 		play.hidden = !this.clips.includes(this.clip);
 		this.#hold(false);

@@ -14,6 +14,7 @@ export const ATTRIBUTES = [
 	'environment',
 	'controls',
 	'alt',
+	'aria-label',
 	'lang',
 ] as const;
 

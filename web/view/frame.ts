@@ -29,9 +29,10 @@ export interface Frame {
 	/**
 	 * Writes the words; what the page says takes their place.
 	 *
+	 * @param name what the page says that the picture shows; '' where it is decoration, null where it says nothing
 	 * @param failure why there is no picture, if so; read out where it comes later
 	 */
-	say(words: Words, alt: string, playing: boolean, failure: Failure | undefined): void;
+	say(words: Words, name: string | null, playing: boolean, failure: Failure | undefined): void;
 }
 
 let sheet: CSSStyleSheet | undefined;
@@ -76,23 +77,12 @@ function button(): HTMLButtonElement {
 	return element;
 }
 
-function name(element: HTMLElement, text: string): void {
-	element.setAttribute('aria-label', text);
-	element.title = text;
+function label(element: HTMLElement, text: string): void {
+	element.ariaLabel = element.title = text;
 }
 
-/** Fills an element's shadow. */
-export function frame(host: HTMLElement): Frame {
-	const shadow = host.attachShadow({ mode: 'open' });
-	shadow.adoptedStyleSheets = [styles()];
-	const canvas = made('canvas', '');
-	canvas.tabIndex = 0;
-	// It takes the arrow keys for itself, as on the demo page.
-	canvas.setAttribute('role', 'application');
-	canvas.setAttribute('aria-describedby', 'hint');
-	const hint = made('p', '');
-	hint.id = 'hint';
-	hint.hidden = true;
+/** Words in the place of a picture that cannot be had. `reach` is called when they have changed. */
+function apology() {
 	const [sentence, reason] = [made('p', ''), made('p', '')] as const;
 	reason.lang = 'en';
 	const words = made('div', 'words', slot('fallback', sentence, reason));
@@ -103,6 +93,21 @@ export function frame(host: HTMLElement): Frame {
 		else words.removeAttribute('tabindex');
 	};
 	new ResizeObserver(reach).observe(words);
+	return { words, sentence, reason, reach };
+}
+
+/** Fills an element's shadow. */
+export function frame(host: HTMLElement): Frame {
+	const shadow = host.attachShadow({ mode: 'open' });
+	shadow.adoptedStyleSheets = [styles()];
+	const canvas = made('canvas', '');
+	// It takes the arrow keys for itself, as on the demo page.
+	canvas.setAttribute('role', 'application');
+	canvas.setAttribute('aria-describedby', 'hint');
+	const hint = made('p', '');
+	hint.id = 'hint';
+	hint.hidden = true;
+	const { words, sentence, reason, reach } = apology();
 	const poster = made('div', 'poster', slot('poster'));
 	const [turn, play, reset] = [button(), button(), button()] as const;
 	turn.append(icon('turn'));
@@ -118,16 +123,27 @@ export function frame(host: HTMLElement): Frame {
 	});
 	return {
 		...{ root, canvas, turn, play, reset, tools },
-		say(words, alt, playing, failure) {
-			canvas.ariaLabel = alt || words.label;
+		say(words, name, playing, failure) {
+			const isPicture = name !== '';
+			// Without an index it takes no focus at all.
+			if (isPicture) canvas.tabIndex = 0;
+			else canvas.removeAttribute('tabindex');
+			canvas.ariaLabel = name ?? words.label;
 			// The poster stands for the picture that cannot be had.
-			poster.role = failure ? 'img' : null;
-			poster.ariaLabel = failure ? canvas.ariaLabel : null;
+			poster.role = failure && isPicture ? 'img' : null;
+			poster.ariaLabel = poster.role && canvas.ariaLabel;
+			canvas.ariaHidden = poster.ariaHidden = isPicture ? null : 'true';
+			// Words of the element are in its own language, those of the page in the page's.
+			for (const own of [hint, tools, sentence]) own.lang = words.lang;
+			for (const picture of [canvas, poster]) {
+				if (name === null) picture.lang = words.lang;
+				else picture.removeAttribute('lang');
+			}
 			hint.textContent = words.hint;
-			name(tools, words.controls);
-			name(turn, words.turn);
-			name(reset, words.reset);
-			name(play, playing ? words.pause : words.play);
+			label(tools, words.controls);
+			label(turn, words.turn);
+			label(reset, words.reset);
+			label(play, playing ? words.pause : words.play);
 			play.replaceChildren(icon(playing ? 'pause' : 'play'));
 			sentence.textContent = failure ? words[failure.text] : '';
 			reason.textContent = failure?.reason ?? '';

@@ -36,7 +36,7 @@ export interface FurView extends HTMLElement {
 	environment: string;
 	/** Whether lamp and buttons are shown. */
 	controls: boolean;
-	/** What the picture shows, for those who do not see it. */
+	/** What the picture shows, for those who do not see it; the attribute without a text makes it decoration. */
 	alt: string;
 	/** What the view does. */
 	readonly state: FurViewState;

@@ -3,6 +3,7 @@
 import { type Language, languageOf } from '../page/language.ts';
 
 const en = {
+	lang: 'en',
 	label: 'Fur under a lamp',
 	hint: 'Drag or press the arrow keys to move the light. With Shift they turn the view; + and - bring it nearer and farther.',
 	controls: 'Light and view',
@@ -19,6 +20,7 @@ const en = {
 export type Words = typeof en;
 
 const zh: Words = {
+	lang: 'zh-Hans',
 	label: '灯下的毛皮',
 	hint: '拖动或按方向键移动灯光；按住 Shift 则转动视角；+ 和 - 拉近或拉远。',
 	controls: '灯光与视角',

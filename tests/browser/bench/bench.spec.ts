@@ -47,8 +47,12 @@ test('the page sends figures of the shape that is fixed, and shows them', async 
 	expect(new Set(figures?.results_of_layers.map(({ triangles }) => triangles))).toEqual(new Set([32]));
 
 	await expect.poll(() => state(page)).toBe('done');
+	await expect(page.getByRole('status')).toHaveText('Done: the figures are below.');
 	await expect(page.locator('.gallery figure')).toHaveCount(6);
 	await expect(page.locator('table').first().locator('tbody tr')).toHaveCount(9);
+	// Corners head nothing.
+	await expect(page.locator('th:empty')).toHaveCount(0);
+	await expect(page.locator('thead tr > td:first-child:empty')).not.toHaveCount(0);
 	const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
 	expect(wide).toBeLessThanOrEqual(0);
 });
@@ -127,6 +131,7 @@ test('a measurement can be stopped', async ({ page }) => {
 	await expect(page.locator('#problem'), 'told although it has started').toHaveText(/rounds=many/);
 	await page.getByRole('button', { name: 'Stop' }).click();
 	await expect.poll(() => state(page)).toBe('ready');
+	await expect(page.getByRole('status')).toHaveText('Stopped.');
 	await page.getByRole('button', { name: 'Measure' }).click();
 	await expect.poll(() => state(page)).toBe('running');
 	await page.getByRole('button', { name: 'Stop' }).click();

@@ -75,7 +75,7 @@ test('every control is reached by the Tab key, and says what it is', async ({ pa
 	const hair = ['Hair', 'Auto shells', 'Shells', 'Fins', 'Length', 'Density', 'Root', 'Tip', 'Colours as baked'];
 	const buttons = ['Copy link', 'Save picture', 'Reset', 'Turn camera', 'Line between PTM and Unlit'];
 	for (const name of [...header, ...panel, ...hair, ...buttons]) expect([...reached], name).toContain(name);
-	await expect(page.getByRole('application', { name: /furry model/ })).toBeVisible();
+	await expect(page.getByRole('application', { name: /, under a lamp that you move/ })).toBeVisible();
 });
 
 test('ui=0 leaves the picture alone', async ({ page }) => {

@@ -1,9 +1,20 @@
 /** Figures of the lesson, as its tests look at them. */
 
 import type { Page } from '@playwright/test';
-import { expect } from '../harness.ts';
+import { expect, open } from '../harness.ts';
 
 export const figure = (page: Page, name: string) => page.locator(`figure[data-figure="${name}"]`);
+
+/** Opens the lesson with these figures alone. @param at hash of the address */
+export async function openWith(page: Page, names: string, at = '', query = 'still=1&lang=en'): Promise<void> {
+	await page.route(/\/assets\/(en|index)-[\w-]+\.js$/, async (route) => {
+		const response = await route.fetch();
+		const others = new RegExp(`data-figure="(?!(?:${names})")`, 'g');
+		await route.fulfill({ response, body: (await response.text()).replaceAll(others, 'data-left-out="') });
+	});
+	await open(page, `learn.html?${query}${at}`);
+	await expect(page.locator('figure[data-left-out]')).not.toHaveCount(0);
+}
 
 /** Brings a figure near and waits until it has been drawn. */
 export async function show(page: Page, name: string): Promise<void> {

@@ -61,6 +61,7 @@ test('lamps, texels, bits and numbers, by mouse and keyboard', async ({ page }) 
 	await texels.press('ArrowUp');
 	await texels.press('ArrowRight');
 	await expect.poll(picked).toEqual([column + 1, up + 1]);
+	await expect(figure('texel').getByRole('status')).toHaveText(`texel (${column + 1}, ${up + 1})`);
 	const sum = figure('texel').locator('.sum');
 	const at = ((7 * 64 + up + 1) * 64 + column + 1) * 4;
 	const stored = [0, 1, 2].map((channel) => planes[0]?.[at + channel]);

@@ -39,7 +39,7 @@ test('figures say what was baked, and one light moves them all', async ({ page }
 	expect(await state(page)).toBe('ready');
 	await show(page, 'shells');
 	const many = await pixels(page, 'shells');
-	await page.getByLabel('Shells').fill('2');
+	await page.getByRole('slider', { name: 'Shells' }).fill('2');
 	await expect.poll(async () => apart(many, await pixels(page, 'shells'))).toBeGreaterThan(1);
 	await expect(figure(page, 'shells').getByRole('status')).toHaveText('2');
 

@@ -1,21 +1,10 @@
 /** Learn's figures to try first: the opening, a parabola by hand, questions and their answers, means over neighbours. */
 
-import type { Page } from '@playwright/test';
-import { expect, open, test } from '../harness.ts';
-import { changes, figure, show } from './figures.ts';
+import type { Locator } from '@playwright/test';
+import { expect, test } from '../harness.ts';
+import { changes, figure, openWith, show } from './figures.ts';
 
 test.use({ viewport: { width: 1100, height: 760 } });
-
-/** Opens the lesson with these figures alone. @param at hash of the address */
-async function openWith(page: Page, names: string, at = ''): Promise<void> {
-	await page.route(/\/assets\/(en|index)-[\w-]+\.js$/, async (route) => {
-		const response = await route.fetch();
-		const others = new RegExp(`data-figure="(?!(?:${names})")`, 'g');
-		await route.fulfill({ response, body: (await response.text()).replaceAll(others, 'data-left-out="') });
-	});
-	await open(page, `learn.html?still=1&lang=en${at}`);
-	await expect(page.locator('figure[data-left-out]')).not.toHaveCount(0);
-}
 
 test('a parabola is fitted by hand', async ({ page }) => {
 	await openWith(page, 'hair');
@@ -75,15 +64,23 @@ test('a question tells whether the guess was right, and shows it in the figure',
 	const lamp = figure(page, 'dome').locator('canvas.dome');
 	const lit = await lamp.getAttribute('data-lamp');
 	const question = figure(page, 'dome').locator('fieldset.ask');
-	await question.getByRole('radio', { name: 'layer 14' }).check();
+	// Keys that walk through the answers give none.
+	const [, second] = await question.getByRole('button').all();
+	await question.getByRole('button').first().focus();
+	for (const key of ['ArrowRight', 'ArrowDown', 'Tab']) await page.keyboard.press(key);
+	await expect(second as Locator).toBeFocused();
+	await expect(question.getByRole('status')).toHaveText('');
+	await page.keyboard.press('Enter');
 	await expect(question).toHaveAttribute('data-answer', 'wrong');
+	await expect(question.getByRole('status')).toContainText('No. Layer 4 loses');
+	await expect(question.getByRole('button', { name: 'layer 14', pressed: true })).toBeFocused();
 	await expect(question.locator('.right')).toHaveText('layer 4, near the roots');
 	await expect(lamp).not.toHaveAttribute('data-lamp', lit ?? '');
-	await question.getByRole('radio', { name: 'layer 4' }).check();
+	await question.getByRole('button', { name: 'layer 4' }).click();
 	await expect(question).toHaveAttribute('data-answer', 'right');
 	await show(page, 'bits');
 	const bits = figure(page, 'bits').locator('fieldset.ask');
-	await bits.getByRole('radio').nth(2).check();
+	await bits.getByRole('button').nth(2).click();
 	await expect(bits).toHaveAttribute('data-answer', /right|wrong/);
 	await expect(bits.locator('.right')).toHaveCount(1);
 	// Both values beside the curves can be read, however near the curves are.

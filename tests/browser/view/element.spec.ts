@@ -168,6 +168,14 @@ test('the hint describes the canvas and is not read on its own; words follow the
 	});
 	expect(colours).toEqual({ outlineStyle: 'solid', differs: true });
 
+	// In colours of the system it is not like its neighbour either.
+	await page.emulateMedia({ forcedColors: 'active' });
+	const [pressed, other] = await page
+		.getByRole('button')
+		.evaluateAll((buttons) => buttons.map((button) => getComputedStyle(button).backgroundColor));
+	expect(pressed).not.toBe(other);
+	await page.emulateMedia({ forcedColors: null });
+
 	await page.emulateMedia({ media: 'print' });
 	await expect(turn).toBeHidden();
 	await expect(page.getByRole('application')).toBeVisible();

@@ -50,7 +50,7 @@ export function listenToHands(
 		gestures.point(hover.set(((clientX - left) / width) * 2 - 1, 1 - ((clientY - top) / height) * 2));
 	});
 	canvas.addEventListener('pointerleave', () => gestures.point(undefined));
-	listenToKeys({
+	listenToKeys(canvas, tools.camera, {
 		arrow: (right, up) => {
 			if (camera.dragTurns) return camera.turn(right, up, 1);
 			used();

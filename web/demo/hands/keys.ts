@@ -1,4 +1,8 @@
-/** Keyboard on the picture: arrow keys move the light (or the camera, the brush, the body), + and - zoom. */
+/**
+ * Keyboard of the picture: arrow keys move the light (or the camera, the brush, the body), + and - zoom.
+ *
+ * Arrow keys act while nothing else has the focus, too. Signs only act on the picture itself: speech input types them.
+ */
 
 const STEP = 4; // degrees; with Shift three times as far
 
@@ -16,16 +20,17 @@ const ARROWS: Record<string, [number, number]> = {
 	ArrowDown: [0, -1],
 };
 
-export function listenToKeys({ arrow, zoom }: KeyHandlers): void {
+/** @param cameraButton button that lets arrow keys turn the camera, and keeps the focus */
+export function listenToKeys(picture: Element, cameraButton: Element, { arrow, zoom }: KeyHandlers): void {
 	addEventListener('keydown', (event) => {
-		// The panel's fields, the tools and the line of the split have their own use for these keys.
 		if (event.ctrlKey || event.altKey || event.metaKey) return;
-		if (event.target instanceof Element && event.target.closest('#panel, [role=slider], [role=radiogroup]')) return;
+		const onPicture = event.target === picture;
+		if (!onPicture && event.target !== document.body && event.target !== cameraButton) return;
 		const way = ARROWS[event.key];
 		const size = event.shiftKey ? 3 * STEP : STEP;
 		if (way) arrow(way[0] * size, way[1] * size);
-		else if (event.key === '+' || event.key === '=') zoom(1 / 1.08);
-		else if (event.key === '-') zoom(1.08);
+		else if (onPicture && (event.key === '+' || event.key === '=')) zoom(1 / 1.08);
+		else if (onPicture && event.key === '-') zoom(1.08);
 		else return;
 		event.preventDefault();
 	});

@@ -13,7 +13,8 @@ export type DragAction = Tool | 'camera';
 export class Tools {
 	/** Called when another action is chosen. */
 	changed: (act: DragAction) => void = () => {};
-	readonly #orbit = element<HTMLButtonElement>('orbit');
+	/** Button that lets a drag turn the camera. */
+	readonly camera = element<HTMLButtonElement>('orbit');
 	readonly #radios: HTMLInputElement[];
 	#tool: Tool = 'light';
 	#camera = false;
@@ -22,7 +23,7 @@ export class Tools {
 		const bar = element('tools');
 		this.#radios = names.map((name) => bar.querySelector(`[value=${name}]`) as HTMLInputElement);
 		for (const radio of this.#radios) radio.addEventListener('change', () => this.choose(radio.value as Tool));
-		this.#orbit.addEventListener('click', () => this.#choose(this.#tool, !this.#camera));
+		this.camera.addEventListener('click', () => this.#choose(this.#tool, !this.#camera));
 		this.#show();
 	}
 
@@ -50,7 +51,7 @@ export class Tools {
 	}
 
 	#show(): void {
-		this.#orbit.setAttribute('aria-pressed', String(this.#camera));
+		this.camera.setAttribute('aria-pressed', String(this.#camera));
 		for (const radio of this.#radios) radio.checked = radio.value === this.act;
 	}
 }

@@ -150,8 +150,10 @@ export class Controls {
 		const { link } = this;
 		const { own, dynamics } = this.#exhibit;
 		const more = [...(own ? [words.noLink] : []), ...(dynamics.hasPaint ? [words.notInLink] : [])];
+		const done = await copy(link);
 		const copied = more.length ? words.copiedPart : words.copied;
-		notice([(await copy(link)) ? copied : words.copyThis(link), ...more].join('\n'), 'note', 'link');
+		// A link that is to be copied by hand stays until it is.
+		notice([done ? copied : words.copyThis(link), ...more].join('\n'), done ? 'note' : 'advice', 'link');
 	}
 
 	async #save(): Promise<void> {

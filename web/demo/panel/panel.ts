@@ -61,7 +61,7 @@ export class Panel {
 		const buttons = { bakedColours: () => handlers.bakedColours(), clean: () => handlers.clean() };
 		this.#bakedColours = this.#folders.hair.add(buttons, 'bakedColours').name(words.bakedColours);
 		this.#clean = this.#folders.weather.add(buttons, 'clean').name(words.clean);
-		const reasons = folders.map(([name, folder]) => [name, placeForReason(folder)]);
+		const reasons = folders.map(([name, folder]) => [name, placeForReason(folder, `reason-${name}`)]);
 		this.#reasons = Object.fromEntries(reasons) as Record<Folder, HTMLElement>;
 		this.#actions.className = 'actions';
 		this.#last = null;
@@ -110,10 +110,13 @@ export class Panel {
 		for (const { control, controller } of this.#rows) {
 			controller.enable(control.enabled?.(able, view) ?? true);
 			controller.show(control.visible?.(view) ?? true);
-			if (control.kind === 'slider')
-				(controller as NumberController).max(
-					control.most?.(shown) ?? Math.max(control.range[1], control.get(view, shown)),
-				);
+			if (control.kind === 'slider') {
+				const value = control.get(view, shown);
+				const most = control.most?.(shown) ?? Math.max(control.range[1], value);
+				(controller as NumberController).max(most);
+				// It is a field of text beside a bar of the package's own.
+				describe(controller.domElement.querySelector('input'), [control.range[0], most, value]);
+			}
 			if (control.kind === 'choice') {
 				const { options } = (controller as OptionController).$select;
 				control.names.forEach((name, i) => {
@@ -162,6 +165,11 @@ export class Panel {
 		const place = this.#reasons[folder];
 		place.textContent = reason;
 		place.hidden = reason === '';
+		for (const { control, controller } of this.#rows) {
+			const field = control.folder === folder ? controller.domElement.querySelector('input, select') : null;
+			if (reason === '') field?.removeAttribute('aria-describedby');
+			else field?.setAttribute('aria-describedby', place.id);
+		}
 	}
 }
 
@@ -187,8 +195,16 @@ function addTo(folder: GUI, bound: { value: unknown }, control: Control): Contro
 	}
 }
 
-function placeForReason(folder: GUI): HTMLElement {
+/** Tells assistive technology what a field of a number takes. @param numbers least, most and present */
+function describe(field: Element | null, numbers: [number, number, number]): void {
+	field?.setAttribute('role', 'spinbutton');
+	for (const [i, name] of ['valuemin', 'valuemax', 'valuenow'].entries())
+		field?.setAttribute(`aria-${name}`, String(numbers[i]));
+}
+
+function placeForReason(folder: GUI, id: string): HTMLElement {
 	const place = document.createElement('p');
+	place.id = id;
 	place.className = 'reason';
 	place.hidden = true;
 	folder.$children.append(place);

@@ -29,7 +29,12 @@ export function notice(text: string, kind: 'note' | 'advice' | 'error' = 'note',
 	const place = document.getElementById('notices');
 	place?.append(box);
 	while (place && place.children.length > MOST) place.firstElementChild?.remove();
-	if (kind === 'note') onceLoaded(() => setTimeout(remove, Math.max(READING_TIME, LETTER_TIME * text.length)));
+	const leave = () => {
+		// Not under a pointer, or from under the keyboard.
+		if (box.matches(':hover, :focus-within')) setTimeout(leave, READING_TIME);
+		else remove();
+	};
+	if (kind === 'note') onceLoaded(() => setTimeout(leave, Math.max(READING_TIME, LETTER_TIME * text.length)));
 	return remove;
 }
 

@@ -5,11 +5,12 @@ export const en = {
 	description: 'Real-time fur, baked from any mesh: drag, and the light moves through it.',
 	heading: 'Fur that you relight by dragging',
 
-	picture:
-		'A furry model in three dimensions. Drag or use the arrow keys to move the light, plus and minus to come nearer or go away. With a brush the arrow keys move its ring, Enter strokes or paints there.',
+	picture: 'A furry model in three dimensions',
 	/** Added to a tool's hint. */
 	hintMouse: 'right drag turns the camera · scroll to zoom',
 	hintTouch: 'two fingers turn and zoom',
+	hintZoom: 'scroll to zoom',
+	hintKeys: 'keyboard: arrow keys, + and − to zoom',
 	orbit: 'Turn camera',
 	tools: 'What a drag does',
 	toolLight: 'Move the light',

@@ -5,10 +5,11 @@ export const zh: Words = {
 	description: '由任意网格烘焙的实时毛发：拖动画面，光就在毛丛中移动。',
 	heading: '拖动光源，毛发即时变化',
 
-	picture:
-		'一个长着毛发的三维模型。拖动或按方向键移动光源，按加号、减号拉近或拉远。选用刷子时，方向键移动圆环，回车键在圆环处抚摸或涂抹。',
+	picture: '一个长着毛发的三维模型',
 	hintMouse: '右键拖动旋转视角 · 滚轮缩放',
 	hintTouch: '双指旋转与缩放',
+	hintZoom: '滚轮缩放',
+	hintKeys: '键盘：方向键，加减号缩放',
 	orbit: '旋转视角',
 	tools: '拖动的作用',
 	toolLight: '移动光源',

@@ -29,9 +29,10 @@ export const en = {
 	more: 'Attributes, properties, events, slots, and what a content security policy has to allow:',
 	docs: 'the tag in the docs',
 	copy: 'Copy this',
-	copyOf: (what: string) => `Copy this: ${what}`,
 	copied: 'Copied',
 	notCopied: 'The browser does not allow it',
+	/** Words of a button with the picture that it is for. */
+	about: (said: string, picture: string) => `${said}: ${picture}`,
 	presets: { bunny: 'bunny', fox: 'fox', wolf: 'wolf', sheep: 'sheep', teddy: 'teddy', mole: 'mole' } as Record<
 		string,
 		string

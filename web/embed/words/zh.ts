@@ -30,9 +30,9 @@ export const zh: Words = {
 	more: '属性、事件、插槽，以及内容安全策略需要允许什么：',
 	docs: '文档中的这个标签',
 	copy: '复制',
-	copyOf: (what) => `复制：${what}`,
 	copied: '已复制',
 	notCopied: '浏览器不允许复制',
+	about: (said, picture) => `${said}：${picture}`,
 	presets: { bunny: '兔子', fox: '狐狸', wolf: '狼', sheep: '绵羊', teddy: '泰迪熊', mole: '鼹鼠' },
 	places: { studio: '摄影棚', city: '城市', sky: '天空', sunset: '夕阳', forest: '森林' },
 };

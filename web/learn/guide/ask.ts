@@ -16,8 +16,6 @@ export interface Answer {
 	because: string;
 }
 
-let made = 0;
-
 /** @param reveal brings the figure to the state that shows the answer */
 export function ask(
 	place: Element,
@@ -29,25 +27,21 @@ export function ask(
 	const legend = document.createElement('legend');
 	legend.textContent = ask;
 	const says = document.createElement('p');
-	says.setAttribute('aria-live', 'polite');
-	set.append(legend);
-	const name = `ask-${++made}`;
-	const inputs = answers.map((text, i) => {
-		const label = document.createElement('label');
-		const input = Object.assign(document.createElement('input'), { type: 'radio', name, value: String(i) });
-		const span = document.createElement('span');
-		span.textContent = text;
-		label.append(input, span);
-		set.append(label);
-		return { input, label };
+	says.setAttribute('role', 'status');
+	// No radio buttons: arrow keys would answer on their way through them.
+	const buttons = answers.map((text, i) => {
+		const button = document.createElement('button');
+		Object.assign(button, { type: 'button', textContent: text, ariaPressed: 'false' });
+		button.addEventListener('click', () => void answer(i));
+		return button;
 	});
-	set.append(says);
+	const answer = async (picked: number) => {
+		for (const [i, button] of buttons.entries()) button.ariaPressed = String(i === picked);
+		const { right: index, because } = await reveal();
+		for (const [i, button] of buttons.entries()) button.classList.toggle('right', i === index);
+		says.textContent = `${picked === index ? right : wrong} ${because}`;
+		set.dataset.answer = picked === index ? 'right' : 'wrong';
+	};
+	set.append(legend, ...buttons, says);
 	place.prepend(set);
-	set.addEventListener('change', async () => {
-		const picked = inputs.findIndex(({ input }) => input.checked);
-		const answer = await reveal();
-		for (const [i, { label }] of inputs.entries()) label.classList.toggle('right', i === answer.right);
-		says.textContent = `${picked === answer.right ? right : wrong} ${answer.because}`;
-		set.dataset.answer = picked === answer.right ? 'right' : 'wrong';
-	});
 }

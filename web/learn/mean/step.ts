@@ -23,7 +23,7 @@ export const mount: Mount = async (place, lesson) => {
 	const row = panels(place, 3);
 	const names = [lesson.words.measured.measured, words.relit, words.off(AMPLIFIED)];
 	const [truth, relit, off] = names.map((name) => panel(row, name)) as [Panel, Panel, Panel];
-	for (const { canvas } of [truth, relit, off]) lightFromAbove(canvas, lesson.light);
+	for (const { canvas } of [truth, relit, off]) lightFromAbove(canvas, lesson);
 	line(place)(lesson.words.measured.differs);
 	const controls = controlRow(place);
 	const says = line(place);

@@ -1,12 +1,13 @@
 /** Slices of fur as pictures: a colour per texel, clear without hair; v grows upwards. */
 
 import './panels.css';
-import { arrows, listenToDrags } from '../../scene/drag.ts';
-import { figureCanvas } from '../controls.ts';
+import { listenToDrags } from '../../scene/drag.ts';
+import { figureCanvas, spoken } from '../controls.ts';
 import type { Layer } from '../data/measurements.ts';
 import type { Selection } from '../data/Selection.ts';
-import { lightByKeys } from '../drag.ts';
-import type { SharedLight } from '../light.ts';
+import { lightByKeys, takeKeys } from '../drag.ts';
+import type { Lesson } from '../lesson.ts';
+import type { MeasuredWords } from '../words/index.ts';
 import type { RGB } from './colours.ts';
 
 /** Coverage from which a texel is opaque; fainter ones are translucent. */
@@ -92,8 +93,9 @@ export function panels(place: Element, columns: 2 | 3): HTMLElement {
 }
 
 /** Lets drags on a picture from above put the lamp over that place, and arrow keys turn it. */
-export function lightFromAbove(canvas: HTMLCanvasElement, light: SharedLight, reach = 1): void {
+export function lightFromAbove(canvas: HTMLCanvasElement, { light, words }: Lesson, reach = 1): void {
 	canvas.classList.add('lit');
+	canvas.setAttribute('aria-description', words.measured.moveLight);
 	listenToDrags(canvas, ({ x, y }) => {
 		const out = Math.hypot(x, y) / reach;
 		const share = Math.min(out, 1) / Math.max(out, 1e-6) / reach;
@@ -103,12 +105,16 @@ export function lightFromAbove(canvas: HTMLCanvasElement, light: SharedLight, re
 	lightByKeys(canvas, light);
 }
 
-/** Lets pointers and arrow keys choose a texel on a slice. */
-export function texelByHand(canvas: HTMLCanvasElement, selection: Selection): void {
+/** Lets pointers and arrow keys choose a texel on a slice; the one that keys have come to is spoken. */
+export function texelByHand(canvas: HTMLCanvasElement, selection: Selection, { texelAt }: MeasuredWords): void {
+	const say = spoken(canvas.parentElement as HTMLElement);
 	canvas.classList.add('picked');
 	listenToDrags(canvas, ({ x, y }) => {
 		const { size } = selection.layer;
 		selection.pick(((y + 1) / 2) * size - 0.5, ((x + 1) / 2) * size - 0.5);
 	});
-	arrows(canvas, (right, up) => selection.step(right, up));
+	takeKeys(canvas, (right, up) => {
+		selection.step(right, up);
+		say(texelAt(selection.column, selection.row));
+	});
 }

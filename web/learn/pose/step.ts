@@ -1,9 +1,10 @@
 /** The light follows the pose: one vertex's frame and its six moments, before and after its joint turns under the lamp. */
 
-import { arrows, listenToDrags } from '../../scene/drag.ts';
+import { listenToDrags } from '../../scene/drag.ts';
 import { controlRow, figureCanvas, slider } from '../controls.ts';
 import { seenFromAbove } from '../data/above.ts';
 import { ARTICLE_FORM, loadFurry } from '../data/assets.ts';
+import { takeKeys } from '../drag.ts';
 import type { Mount } from '../lesson.ts';
 import { line } from '../plot/parts.ts';
 import { decimal, Plot } from '../plot/plot.ts';
@@ -66,6 +67,6 @@ export const mount: Mount = async (place, lesson) => {
 		const sheet = new Sheet(canvas.width, canvas.height);
 		turn(sheet.angleTo(((x + 1) / 2) * canvas.width, ((1 - y) / 2) * canvas.height) / RADIANS);
 	});
-	arrows(canvas, (across, up) => turn(degrees + STEP * (up || -across)));
+	takeKeys(canvas, (across, up) => turn(degrees + STEP * (up || -across)));
 	lesson.light.listen(show);
 };

@@ -35,7 +35,7 @@ export const mount: Mount = async (place, lesson) => {
 	const exact = panel(row, words.unrounded);
 	const rounded = panel(row, words.rounded(bits));
 	const noise = panel(row, words.noise);
-	for (const { canvas } of [exact, rounded, noise]) lightFromAbove(canvas, lesson.light);
+	for (const { canvas } of [exact, rounded, noise]) lightFromAbove(canvas, lesson);
 	const controls = controlRow(place);
 	const says = line(place);
 	const beside = panels(place, 2);

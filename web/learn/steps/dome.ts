@@ -1,9 +1,10 @@
 /** Lamps under which every layer was sampled, and the layer as measured under the lit one. */
 
-import { arrows, listenToDrags } from '../../scene/drag.ts';
-import { controlRow, figureCanvas } from '../controls.ts';
+import { listenToDrags } from '../../scene/drag.ts';
+import { controlRow, figureCanvas, spoken } from '../controls.ts';
 import { elevationOf, nearest, neighbour, toTile, toWorld } from '../data/lights.ts';
 import { Selection } from '../data/Selection.ts';
+import { takeKeys } from '../drag.ts';
 import { ask } from '../guide/ask.ts';
 import { lostAtHorizon } from '../guide/sinking.ts';
 import type { Lesson, Mount } from '../lesson.ts';
@@ -35,7 +36,14 @@ export const mount: Mount = async (place, lesson) => {
 	askOfDepth(place, lesson, selection);
 
 	const dome = new Dome(lamps, record.fitted);
-	const lit = lampByHand(canvas, dome, selection, lesson.light);
+	const nameOf = (lamp: number) => {
+		const high = decimal(elevationOf(lamps[lamp] ?? [0, 0, 1]), 0);
+		return lamp < record.fitted
+			? words.lamp(lamp + 1, record.fitted, high)
+			: words.heldOut(lamp - record.fitted + 1, record.held_out, high);
+	};
+	const say = spoken(box);
+	const lit = lampByHand(canvas, dome, selection, lesson.light, (lamp) => say(nameOf(lamp)));
 	const colourOf = (measured: Float32Array) => (texel: number) => lightColour(measured[texel] ?? 0, record.peak);
 	live(lesson, selection, [
 		[
@@ -43,13 +51,8 @@ export const mount: Mount = async (place, lesson) => {
 			() => {
 				const lamp = lit();
 				dome.draw(canvas, lamp, selection.layer, colourOf(selection.measured(lamp)));
-				const high = decimal(elevationOf(lamps[lamp] ?? [0, 0, 1]), 0);
 				canvas.dataset.lamp = String(lamp);
-				lampSays(
-					lamp < record.fitted
-						? words.lamp(lamp + 1, record.fitted, high)
-						: words.heldOut(lamp - record.fitted + 1, record.held_out, high),
-				);
+				lampSays(nameOf(lamp));
 			},
 		],
 		[
@@ -81,8 +84,19 @@ function askOfDepth(place: HTMLElement, { light, words }: Lesson, selection: Sel
 	});
 }
 
-/** Drags and arrow keys on the dome move the light from lamp to lamp. @returns index of the lit one */
-function lampByHand(canvas: HTMLCanvasElement, dome: Dome, { lamps }: Selection, light: Lesson['light']): () => number {
+/**
+ * Drags and arrow keys on the dome move the light from lamp to lamp.
+ *
+ * @param say tells the lamp that keys have asked for
+ * @returns index of the lit one
+ */
+function lampByHand(
+	canvas: HTMLCanvasElement,
+	dome: Dome,
+	{ lamps }: Selection,
+	light: Lesson['light'],
+	say: (lamp: number) => void,
+): () => number {
 	/** Target lamp of the moving light: the next key continues from there. */
 	let asked: number | undefined;
 	const lit = () => {
@@ -100,6 +114,9 @@ function lampByHand(canvas: HTMLCanvasElement, dome: Dome, { lamps }: Selection,
 		asked = undefined;
 	});
 	listenToDrags(canvas, ({ x, y }) => take(dome.lampAt(x, y)));
-	arrows(canvas, (right, up) => take(neighbour(lamps, asked ?? lit(), right, up)));
+	takeKeys(canvas, (right, up) => {
+		take(neighbour(lamps, asked ?? lit(), right, up));
+		say(asked ?? lit());
+	});
 	return lit;
 }

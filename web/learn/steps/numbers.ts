@@ -73,13 +73,13 @@ function slices(place: HTMLElement, lesson: Lesson, selection: Selection): { tru
 	const words = lesson.words.measured;
 	const row = panels(place, 3);
 	const truth = panel(row, words.measured);
-	texelByHand(truth.canvas, selection);
+	texelByHand(truth.canvas, selection, words);
 	const relit = (['ptm', 'eigen'] as const).map((kind) => ({ kind, seen: panel(row, words.relit(words[kind])) }));
 	const below = panels(place, 3);
 	line(below, 'note')(words.differs);
 	const shown = relit.map(({ kind, seen }) => {
 		const off = panel(below, kind === 'ptm' ? words.ptmOff : words.eigenOff);
-		for (const { canvas } of [seen, off]) lightFromAbove(canvas, lesson.light);
+		for (const { canvas } of [seen, off]) lightFromAbove(canvas, lesson);
 		return { kind, seen, off };
 	});
 	truth.say(words.measured);

@@ -1,7 +1,8 @@
 /** The spring of each hair. Its exact step lies on the curve at any length, Euler's diverges. */
 
-import { arrows, listenToDrags } from '../../scene/drag.ts';
+import { listenToDrags } from '../../scene/drag.ts';
 import { action, controlRow, figureCanvas, note, slider } from '../controls.ts';
+import { takeKeys } from '../drag.ts';
 import type { Lesson, Mount } from '../lesson.ts';
 import { decimal, legend, Plot, type Scale } from '../plot/plot.ts';
 import { drawRun } from '../swing/drawRun.ts';
@@ -56,7 +57,9 @@ export const mount: Mount = async (place, lesson) => {
 	pullByHand(tufts.canvas, run, hold, letGo);
 	sliders(controls, lesson, run, compute);
 	action(controls, words.letGo, letGo);
-	if (!lesson.calm) onceVisible(tufts.canvas, letGo);
+	onceVisible(tufts.canvas, () => {
+		if (!lesson.calm.on) letGo();
+	});
 };
 
 /** Tufts bent by the solution, exact steps and Euler's steps, with their values. */
@@ -110,7 +113,7 @@ function pullByHand(canvas: HTMLCanvasElement, { spring }: SpringRun, hold: (x: 
 		},
 		letGo,
 	);
-	arrows(canvas, (across, up) => {
+	takeKeys(canvas, (across, up) => {
 		hold(spring.from + NUDGE * (across || up));
 		letGo();
 	});

@@ -30,8 +30,8 @@ export const mount: Mount = async (place, lesson) => {
 	const disc = panel(row, words.disc);
 	ramp(place, lesson, record.peak);
 	layerChoice(controlRow(place), lesson, selection);
-	texelByHand(slice.canvas, selection);
-	lightFromAbove(disc.canvas, light, DISC);
+	texelByHand(slice.canvas, selection, words);
+	lightFromAbove(disc.canvas, lesson, DISC);
 
 	const sum = new Substituted(place, words);
 	const beside = panels(place, 2);

@@ -6,7 +6,7 @@ import { action, controlRow, slider } from '../controls.ts';
 import { loadFurry } from '../data/assets.ts';
 import type { Mount } from '../lesson.ts';
 import { FurPatch, tiled } from '../patch.ts';
-import { View } from '../view.ts';
+import { View, type WindowOptions } from '../view.ts';
 import type { Words } from '../words/index.ts';
 
 const TILES = 4;
@@ -32,11 +32,7 @@ export const mount: Mount = async (place, lesson) => {
 	Object.assign(patch.shells.material, { gloss: 0.1, backlight: 2 });
 	patch.shells.coarseness = COARSE;
 	const motion = new FurMotion(patch.fur);
-	motion.wind.gusts = lesson.calm ? 0 : 1;
 
-	const [before, now] = [new Vector3(), new Vector3()];
-	const touch = touchAt(TOUCHED * patch.height, now);
-	let touching = false;
 	/** Elapsed share of the shaking, 0..1. */
 	let shaken = 1;
 	const view = new View(place, lesson, {
@@ -44,20 +40,13 @@ export const mount: Mount = async (place, lesson) => {
 		...SEEN,
 		centre: patch.middle,
 		radius: TILES * 0.6,
-		drag(pointer, camera) {
-			if (!pointer || !touch(pointer, camera)) touching = false;
-			else {
-				if (touching) stroke(before, now);
-				touching = true;
-				before.copy(now);
-			}
-		},
+		drag: strokesOf(TOUCHED * patch.height, (from, to) => stroke(from, to)),
 	});
 	view.add(patch);
 
 	/** Jump to the equilibrium if the page is still; else move there. */
 	const changed = () => {
-		if (!lesson.calm) return lesson.painter.wake();
+		if (!lesson.calm.on) return lesson.painter.wake();
 		motion.settle();
 		view.redraw();
 	};
@@ -66,7 +55,7 @@ export const mount: Mount = async (place, lesson) => {
 		changed();
 	};
 	lesson.painter.animate((elapsed) => {
-		if (lesson.calm || !view.visible) return false;
+		if (lesson.calm.on || !view.visible) return false;
 		shaken = Math.min(shaken + elapsed / SHAKEN, 1);
 		patch.position.x = SHAKE * Math.sin(2 * Math.PI * SHAKES * shaken) * Math.sin(Math.PI * shaken);
 		const moving = patch.fur.update(elapsed) || shaken < 1;
@@ -77,12 +66,36 @@ export const mount: Mount = async (place, lesson) => {
 	const controls = controlRow(place);
 	sliders(controls, words, motion, changed);
 	action(controls, words.stroke, () => strokeOnce(stroke));
-	if (lesson.calm) return;
-	action(controls, words.shake, () => {
+	const shake = action(controls, words.shake, () => {
 		shaken = 0;
 		lesson.painter.wake();
 	});
+	lesson.calm.listen((calm) => {
+		motion.wind.gusts = calm ? 0 : 1;
+		shake.hidden = calm;
+		if (calm) {
+			shaken = 1;
+			patch.position.x = 0;
+		}
+		changed();
+	});
 };
+
+/** Drags as strokes along the skin. @param height of the plane touched */
+function strokesOf(height: number, stroke: (from: Vector3, to: Vector3) => void): WindowOptions['drag'] {
+	const [before, now] = [new Vector3(), new Vector3()];
+	const touch = touchAt(height, now);
+	let touching = false;
+	return (pointer, camera) => {
+		if (!pointer || !touch(pointer, camera)) {
+			touching = false;
+			return;
+		}
+		if (touching) stroke(before, now);
+		touching = true;
+		before.copy(now);
+	};
+}
 
 /** Ray cast from a finger. @param height of the plane touched; @param place takes the place on the skin below */
 function touchAt(height: number, place: Vector3): (pointer: Vector2, camera: Camera) => Vector3 | undefined {

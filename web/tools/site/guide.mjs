@@ -145,6 +145,7 @@ function render({ path, title }, { groups, paths, reference }) {
 <link rel="stylesheet" href="style.css" />
 </head>
 <body>
+<a class="skip" href="#content">Skip to the content</a>
 <header class="bar"><nav class="site" aria-label="Pages">
 <a class="home" href="../"><img src="../icon.svg" alt="" />furbake</a>
 ${listOf([
@@ -156,7 +157,7 @@ ${listOf([
 ])}
 </nav></header>
 <div class="frame">
-<main>
+<main id="content">
 ${htmlOf(tokens.slice(0, top))}
 ${path !== CONTENTS && sections.length > 2 ? `<nav class="sections" aria-label="On this page">\n${inPage}\n</nav>` : ''}
 ${htmlOf(tokens.slice(top))}
