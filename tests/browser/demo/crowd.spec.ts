@@ -40,7 +40,7 @@ test('the lamp of a crowd is in the first picture', async ({ page }) => {
 test('a link leads close to one body of a crowd', async ({ page }) => {
 	await drawNothing(page);
 	await open(page, '?model=sphere&shells=4&camera=0,10,0.09&crowd=20&still=1');
-	await page.keyboard.press('+');
+	await page.locator('#picture').press('+');
 	// Nearer from there, and not from where it would stand beside a body alone.
 	await expect
 		.poll(() => Number(new URL(page.url()).searchParams.get('camera')?.split(',')[2]), { timeout: 5000 })

@@ -157,7 +157,7 @@ test('pictures of museums show what their specification says, under a lamp that 
 	expect(lamp[0]).toBeGreaterThan(0.3);
 	expect(lamp[1]).toBeGreaterThan(0.2);
 	await expectSpecified(page, lamp, 4);
-	await page.keyboard.press('+');
+	await page.locator('#picture').press('+');
 	await expect
 		.poll(async () => Number(((await page.locator('#picture').getAttribute('data-box')) ?? '').split(',')[2]))
 		.toBeGreaterThan(wide);

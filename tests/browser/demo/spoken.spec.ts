@@ -82,6 +82,8 @@ test('a number tells its range; a notice stays while it has the focus', async ({
 	const lights = page.getByRole('spinbutton', { name: 'Lights' });
 	await expect(lights).toHaveAttribute('aria-valuemin', '1');
 	await expect(lights).toHaveAttribute('aria-valuemax', '8');
+	const weather = page.getByRole('group', { name: 'Weather' });
+	await expect(weather).toHaveAccessibleDescription(/without gusts/);
 	const close = page.getByRole('button', { name: 'Close this message' });
 	await close.focus();
 	await page.clock.runFor(20_000);

@@ -61,7 +61,7 @@ export class Panel {
 		const buttons = { bakedColours: () => handlers.bakedColours(), clean: () => handlers.clean() };
 		this.#bakedColours = this.#folders.hair.add(buttons, 'bakedColours').name(words.bakedColours);
 		this.#clean = this.#folders.weather.add(buttons, 'clean').name(words.clean);
-		const reasons = folders.map(([name, folder]) => [name, placeForReason(folder, `reason-${name}`)]);
+		const reasons = folders.map(([name, folder]) => [name, placeForReason(folder, name)]);
 		this.#reasons = Object.fromEntries(reasons) as Record<Folder, HTMLElement>;
 		this.#actions.className = 'actions';
 		this.#last = null;
@@ -165,11 +165,6 @@ export class Panel {
 		const place = this.#reasons[folder];
 		place.textContent = reason;
 		place.hidden = reason === '';
-		for (const { control, controller } of this.#rows) {
-			const field = control.folder === folder ? controller.domElement.querySelector('input, select') : null;
-			if (reason === '') field?.removeAttribute('aria-describedby');
-			else field?.setAttribute('aria-describedby', place.id);
-		}
 	}
 }
 
@@ -202,11 +197,15 @@ function describe(field: Element | null, numbers: [number, number, number]): voi
 		field?.setAttribute(`aria-${name}`, String(numbers[i]));
 }
 
-function placeForReason(folder: GUI, id: string): HTMLElement {
+/** Place in a folder, whose description it is. */
+function placeForReason(folder: GUI, name: Folder): HTMLElement {
 	const place = document.createElement('p');
-	place.id = id;
+	place.id = `reason-${name}`;
 	place.className = 'reason';
 	place.hidden = true;
+	folder.$children.setAttribute('role', 'group');
+	folder.$children.setAttribute('aria-label', words[name]);
+	folder.$children.setAttribute('aria-describedby', place.id);
 	folder.$children.append(place);
 	return place;
 }
