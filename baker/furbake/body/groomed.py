@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from furbake.imported.bind import Bound, bind, ground_of
 from furbake.imported.colours import Colours, colours_of
+from furbake.imported.curves import GroomError
 from furbake.imported.drawn import Source, draw
 from furbake.imported.fields import Fields, Standing, areas, direction_of, fields_of, standing
 from furbake.imported.follow import filled, followers
@@ -176,7 +177,13 @@ def combed_by(name: str, options: BakeOptions, skin: Surface, ground: Surface) -
             "asked for" if options.follow is not None else "alone they hardly cover the skin (--follow 0: as they are)"
         )
         notices.append(f"{name}: {follow} hairs grown beside each of {bound.count} guides, {some}")
-        bound = bind(name, filled(bound, follow, options.seed), skin)
+        try:
+            bound = bind(name, filled(bound, follow, options.seed), skin)
+        except GroomError:
+            raise GroomError(
+                f"{name}: {bound.count} guides are so far apart that hairs between them leave the body, expected more"
+                " of them (or --follow 0: as they are)"
+            ) from None
     stands = standing(ground_of(ground), bound, ground_of(skin))
     fields = fields_of(stands, bound)
     direction = direction_of(ground, fields, options.guide)

@@ -41,6 +41,7 @@ def _write_usd(path: Path, groom: Groom) -> None:
     try:
         stage = usd.Stage.CreateNew(str(scratch))
         geometry.SetStageUpAxis(stage, geometry.Tokens.y)
+        geometry.SetStageMetersPerUnit(stage, 1.0)  # as glTF's units
         curves = geometry.BasisCurves.Define(stage, "/fur")
         stage.SetDefaultPrim(curves.GetPrim())
         curves.CreateTypeAttr(geometry.Tokens.cubic)

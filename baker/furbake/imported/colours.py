@@ -42,7 +42,7 @@ def colours_of(bound: Bound, stands: Standing, fields: Fields) -> Colours | None
     tint = np.clip(brightness / brightest, 0.0, 1.0)
     weight = (fields.area * fields.density * ~fields.bald)[:, None]
     ends = [
-        np.clip(brightest * (end * weight).sum(0) / (places * weight).sum(0), 0.0, 1.0)
+        np.clip(brightest * (end * weight).sum(0) / np.maximum((places * weight).sum(0), 1e-30), 0.0, 1.0)
         for end in (fields.root, fields.tip)
     ]
     root, tip = ((float(r), float(g), float(b)) for r, g, b in ends)

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 Single = NDArray[np.float32]
 Ints = NDArray[np.int64]
@@ -99,6 +100,13 @@ class Curves:
         return at(self.points), widths, None if self.colours is None else at(self.colours)
 
 
+def neighbours(tree: cKDTree, places: Floats, count: int) -> Ints:
+    """(n, count) the nearest of a tree's points at each of them (n, d), fewer where it has no more."""
+    most = min(count + 1, tree.n)
+    found = np.asarray(tree.query(places, k=most)[1], np.int64)
+    return found.reshape(len(places), most)[:, 1:]
+
+
 def checked(
     name: str, points: NDArray[Any], counts: NDArray[Any],
     widths: NDArray[Any] | None = None, colours: NDArray[Any] | None = None,
@@ -132,5 +140,14 @@ def checked(
     if broken.any():
         notices.append(f"{name}: {int(broken.sum())} curves with NaN or infinity left out")
         found = found.some(~broken)
+    flat = found.lengths() == 0.0
+    if flat.all():
+        raise GroomError(f"{name}: every curve has all its points at one place, expected strands that are long")
+    if flat.any():
+        notices.append(f"{name}: {int(flat.sum())} curves without a length left out")
+        found = found.some(~flat)
     widths_ = None if found.widths is None else np.maximum(found.widths, 0.0)
+    if widths_ is not None and not widths_.any():
+        notices.append(f"{name}: all widths are 0 or less, taken as none")
+        widths_ = None
     return replace(found, widths=widths_, notices=tuple(notices))

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
-from furbake.imported.curves import Floats, Ints
+from furbake.imported.curves import Floats, Ints, neighbours
 from furbake.imported.drawn import Source, distance
 from furbake.pelt.hairs.strands import Strands
 from furbake.pelt.hairs.tiling import TILE
@@ -77,8 +77,8 @@ def of_groom(source: Source, rng: np.random.Generator) -> dict[str, Floats]:
     points = bound.curves.evened(which, POINTS)[0]
     chord = np.linalg.norm(points[:, -1] - points[:, 0], axis=1)
     roots, tips = (bound.curves.points[at].astype(np.float64) for at in (bound.curves.starts, bound.curves.ends))
-    near = np.asarray(cKDTree(roots).query(roots[which], k=min(AROUND + 1, len(roots)))[1])[:, 1:]
-    apart = [np.linalg.norm(places[near] - places[which][:, None], axis=2).mean(axis=1) for places in (roots, tips)]
+    near = neighbours(cKDTree(roots), roots[which], AROUND)
+    apart = [np.linalg.norm(places[near] - places[which][:, None], axis=2).sum(axis=1) for places in (roots, tips)]
     return {
         "length": bound.length[which],
         "lean": bound.firm[which],
@@ -97,13 +97,13 @@ def of_tile(source: Source, strands: Strands, rng: np.random.Generator) -> dict[
     chord = points[:, -1] - points[:, 0]
     straight = np.maximum(np.linalg.norm(chord, axis=1), 1e-30)
     root = strands.points[:, 0, :2] % 1.0 % 1.0
-    near = np.asarray(cKDTree(root, boxsize=TILE).query(root, k=min(AROUND + 1, len(root)))[1])[:, 1:]
+    near = neighbours(cKDTree(root, boxsize=TILE), root, AROUND)
     way = root[near] - root[:, None]
     roots = np.pad(tile * (way - np.round(way)), ((0, 0), (0, 0), (0, 1)))
     one = rng.integers(source.bound.count)  # a place of which all of the tile is looked at
     whole = _standing(source, strands, np.arange(len(root)), np.full(len(root), one), height)
     tips = roots + whole[near, -1] - whole[near, 0] - (whole[:, -1] - whole[:, 0])[:, None]
-    spread = [np.linalg.norm(apart, axis=2).mean(axis=1) for apart in (roots, tips)]
+    spread = [np.linalg.norm(apart, axis=2).sum(axis=1) for apart in (roots, tips)]
     steps = np.linalg.norm(np.diff(points, axis=1), axis=2)
     radius = strands.radius[hair]
     return {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import re
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -68,7 +69,9 @@ class Stage:
 
     up : axis, "Y" or "Z"; metres : per unit, None where the file does not say
     others : types of what else has a shape, as often as it occurs
-    hidden : number of curves that are invisible or guides and left out, as others are neither
+    hidden, hidden_meshes : numbers of curves and meshes that are invisible, guides or proxies and left out, as others
+        are none of these
+    missing : names of layers that it asks for and that are not there
     """
 
     up: str
@@ -77,6 +80,8 @@ class Stage:
     meshes: list[UsdMesh] = field(default_factory=list)
     others: dict[str, int] = field(default_factory=dict)
     hidden: int = 0
+    hidden_meshes: int = 0
+    missing: tuple[str, ...] = ()
 
     def placed(self, points: Array) -> Array:
         """(n, 3) points of the stage in metres, where it says how long its unit is, y up."""
@@ -136,19 +141,42 @@ def stage_of(path: str) -> Stage:
     places = geometry.XformCache(time)
     metres = geometry.GetStageMetersPerUnit(stage) if geometry.StageHasAuthoredMetersPerUnit(stage) else None
     found = Stage("Z" if geometry.GetStageUpAxis(stage) == geometry.Tokens.z else "Y", metres)
-    hidden = list[UsdCurves]()
-    for prim in stage.Traverse(usd.TraverseInstanceProxies()):
+    curves, meshes = list[UsdCurves](), list[UsdMesh]()  # that are not seen
+    prims = iter(stage.Traverse(usd.TraverseInstanceProxies()))
+    for prim in prims:
         if prim.IsA(geometry.BasisCurves):
-            imageable = geometry.Imageable(prim)
-            guide = imageable.ComputePurpose() == geometry.Tokens.guide
-            unseen = guide or imageable.ComputeVisibility(time) == geometry.Tokens.invisible
-            (hidden if unseen else found.curves).append(_curves(geometry, prim, time, places))
+            read = _curves(geometry, prim, time, places)
+            (found.curves if _seen(geometry, prim, time) else curves).append(read)
         elif prim.IsA(geometry.Mesh):
-            found.meshes.append(_mesh(geometry, prim, time, places))
-        elif prim.IsA(geometry.Gprim):
+            body = _mesh(geometry, prim, time, places)
+            (found.meshes if _seen(geometry, prim, time) else meshes).append(body)
+        elif prim.IsA(geometry.Gprim) or prim.IsA(geometry.PointInstancer):
             kind = str(prim.GetTypeName())
             found.others[kind] = found.others.get(kind, 0) + 1
-    return replace(found, hidden=len(hidden)) if found.curves else replace(found, curves=hidden)
+            # Its prototypes stand nowhere.
+            if prim.IsA(geometry.PointInstancer):
+                prims.PruneChildren()
+    return replace(
+        found,
+        curves=found.curves or curves,
+        meshes=found.meshes or meshes,
+        hidden=len(curves) if found.curves else 0,
+        hidden_meshes=len(meshes) if found.meshes else 0,
+        missing=_missing(stage),
+    )
+
+
+def _seen(geometry: Any, prim: Any, time: Any) -> bool:
+    """True for what a picture shows: no guide, no stand-in, nothing invisible."""
+    imageable = geometry.Imageable(prim)
+    purpose, tokens = imageable.ComputePurpose(), geometry.Tokens
+    return purpose not in (tokens.guide, tokens.proxy) and imageable.ComputeVisibility(time) != tokens.invisible
+
+
+def _missing(stage: Any) -> tuple[str, ...]:
+    """Names of layers that the stage asks for and that cannot be opened."""
+    errors = stage.GetCompositionErrors() if hasattr(stage, "GetCompositionErrors") else []
+    return tuple(dict.fromkeys(name for error in errors for name in re.findall("@([^@]+)@", str(error))[:1]))
 
 
 def _curves(geometry: Any, prim: Any, time: Any, places: Any) -> UsdCurves:

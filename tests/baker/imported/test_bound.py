@@ -79,6 +79,27 @@ def test_hairs_with_colours_take_none_of_the_skins_picture(tmp_path: Path) -> No
     assert "roots" in read_asset(tmp_path / "none").fur
 
 
+@pytest.mark.parametrize(("count", "shade"), [(3000, (0.0, 0.0, 0.0)), (3000, (0.6, 0.0, 0.0)), (1, (0.3, 0.2, 0.1))])
+def test_black_hairs_and_single_ones_are_worn_too(
+    files: Path, tmp_path: Path, count: int, shade: tuple[float, float, float]
+) -> None:
+    points = strands(count)
+    colours = np.broadcast_to(shade, (*points.shape[:2], 3))
+    np.savez(tmp_path / "a.npz", points=points, widths=np.full(points.shape[:2], 0.01), colours=colours)
+    bake(str(files / "ball.obj"), tmp_path / "out", BakeOptions(groom=str(tmp_path / "a.npz"), follow=0, **BAKE))
+    assert validate(tmp_path / "out") == []
+    root = np.array(read_asset(tmp_path / "out").fur["ramp"]["root"])
+    assert ((root > 0) == (np.array(shade) > 0)).all()
+
+
+def test_guides_that_are_too_far_apart_are_told_as_such(files: Path, tmp_path: Path) -> None:
+    """Hairs between them leave the body; another body's groom they are not."""
+    np.savez(tmp_path / "a.npz", points=strands(12), widths=0.01)
+    options = BakeOptions(groom=str(tmp_path / "a.npz"), follow=10, **BAKE)
+    with pytest.raises(GroomError, match="12 guides are so far apart that hairs between them leave the body"):
+        bake(str(files / "ball.obj"), tmp_path / "out", options)
+
+
 def test_roots_are_bound_and_floating_strands_counted(ball: Surface) -> None:
     points = strands(1000)
     points[:100] *= 1.5

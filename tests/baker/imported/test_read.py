@@ -14,6 +14,7 @@ from furbake.groom.strands import Groom
 from furbake.imported.curves import GroomError
 from furbake.imported.read.reading import read_curves
 from furbake.imported.read.splines import weights
+from furbake.surface.read.usd import read_usd
 from helpers.grooms import hair, strands, tfx, usda
 
 POINTS = strands(20)
@@ -198,6 +199,51 @@ def test_strands_that_are_none_are_left_out_and_told(tmp_path: Path) -> None:
     found = read_curves(tmp_path / "a.npz")
     assert found.count == 19
     assert found.notices == (f"{tmp_path / 'a.npz'}: 1 curves with NaN or infinity left out",)
+
+
+def test_strands_without_a_length_are_left_out_and_told(tmp_path: Path) -> None:
+    points = POINTS.copy()
+    points[3] = points[3, :1]
+    np.savez(tmp_path / "a.npz", points=points)
+    found = read_curves(tmp_path / "a.npz")
+    assert found.count == 19
+    assert found.notices == (f"{tmp_path / 'a.npz'}: 1 curves without a length left out",)
+    np.savez(tmp_path / "b.npz", points=np.repeat(POINTS[:, :1], 3, axis=1))
+    assert "all its points at one place" in (refusal(tmp_path / "b.npz") or "")
+
+
+def test_widths_of_nothing_are_none(tmp_path: Path) -> None:
+    for width in (0.0, -0.01):
+        np.savez(tmp_path / "a.npz", points=POINTS, widths=width)
+        found = read_curves(tmp_path / "a.npz")
+        assert found.widths is None
+        assert found.notices == (f"{tmp_path / 'a.npz'}: all widths are 0 or less, taken as none",)
+
+
+@pytest.mark.usefixtures("usd")
+def test_what_a_stage_does_not_show_is_left_out_and_told(tmp_path: Path) -> None:
+    """Cages, stand-ins, kinds of curves that are not read, and prototypes, which stand nowhere."""
+    faces = "int[] faceVertexCounts = [3]\nint[] faceVertexIndices = [0, 1, 2]"
+    mesh = f"{faces}\npoint3f[] points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]"
+    cage = f'def Mesh "body" {{\n{mesh}\n}}\ndef Mesh "cage" {{\nuniform token purpose = "{{}}"\n{mesh}\n}}\n'
+    other = 'def NurbsCurves "nurbs" {\n}\ndef PointInstancer "many" {\ndef BasisCurves "one" {\n}\n}\n'
+    for purpose in ("guide", "proxy"):
+        path = usda(
+            tmp_path / f"{purpose}.usda", POINTS, "subLayers = [@gone.usda@]", cage.replace("{}", purpose) + other
+        )
+        found = read_curves(path)
+        assert found.count == len(POINTS)
+        assert found.notices == (
+            f"{path}: gone.usda is missing, and what it has with it",
+            f"{path}: 1 NurbsCurves, 1 PointInstancer left out, only BasisCurves are read",
+        )
+        scene = read_usd(path)
+        assert scene.soup is not None
+        assert len(scene.soup.faces) == 1
+        assert scene.notices[1] == "1 meshes are guides, proxies or invisible and left out"
+    alone = tmp_path / "alone.usda"
+    alone.write_text(f"#usda 1.0\n{other}", "utf-8")
+    assert "no curves (1 NurbsCurves, 1 PointInstancer)" in (refusal(alone) or "")
 
 
 def refusal(path: Path) -> str | None:

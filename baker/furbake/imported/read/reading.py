@@ -50,21 +50,38 @@ def of_stage(name: str, stage: Stage) -> Curves:
         other = ", ".join(
             f"{count} {kind}" for kind, count in {"Mesh": len(stage.meshes), **stage.others}.items() if count
         )
-        raise GroomError(f"{name}: no curves ({other or 'nothing with a shape'}), expected BasisCurves")
+        gone = "".join(f"; {layer} is missing" for layer in stage.missing)
+        raise GroomError(f"{name}: no curves ({other or 'nothing with a shape'}){gone}, expected BasisCurves")
     some = [curves for curves in stage.curves if len(curves.counts) or len(curves.points)]
     parts = [_part(name, stage, curves) for curves in some or stage.curves]
-    hidden = (f"{name}: {stage.hidden} groups of curves are guides or invisible and left out",) if stage.hidden else ()
+    told = _told(name, stage)
     if len(parts) == 1:
-        return replace(parts[0], notices=(*hidden, *parts[0].notices))
+        return replace(parts[0], notices=(*told, *parts[0].notices))
     widths = [part.widths for part in parts if part.widths is not None]
     colours = [part.colours for part in parts if part.colours is not None]
+    for what, some_ in (("widths", widths), ("colours", colours)):
+        if 0 < len(some_) < len(parts):
+            told.append(f"{name}: {len(some_)} of {len(parts)} groups of curves have {what}, which are left out")
     return Curves(
         np.concatenate([part.points for part in parts]),
         np.concatenate([part.counts for part in parts]),
         np.concatenate(widths) if len(widths) == len(parts) else None,
         np.concatenate(colours) if len(colours) == len(parts) else None,
-        (*hidden, *(notice for part in parts for notice in part.notices)),
+        (*told, *(notice for part in parts for notice in part.notices)),
     )
+
+
+def _told(name: str, stage: Stage) -> list[str]:
+    """Notices on what is left out of a stage that has curves."""
+    others = [f"{count} {kind}" for kind, count in stage.others.items() if kind.endswith(("Curves", "Instancer"))]
+    return [
+        *(f"{name}: {layer} is missing, and what it has with it" for layer in stage.missing),
+        *(
+            [f"{name}: {stage.hidden} groups of curves are guides, proxies or invisible and left out"]
+            * bool(stage.hidden)
+        ),
+        *([f"{name}: {', '.join(others)} left out, only BasisCurves are read"] * bool(others)),
+    ]
 
 
 def _part(name: str, stage: Stage, curves: UsdCurves) -> Curves:
@@ -82,9 +99,8 @@ def _part(name: str, stage: Stage, curves: UsdCurves) -> Curves:
     fewest = least(curves.kind, curves.basis, curves.wrap)
     if int(counts.min()) < fewest:
         most = "one point" if int(counts.max()) < 2 else f"{int(counts.min())} points"
-        raise GroomError(
-            f"{where}: curves of {most}, expected {fewest} or more of a {curves.basis} that is {curves.wrap}"
-        )
+        kind = "linear ones" if curves.kind == "linear" else f"a {curves.basis} that is {curves.wrap}"
+        raise GroomError(f"{where}: curves of {most}, expected {fewest} or more of {kind}")
     values = {
         what: found for what, found in (("widths", curves.widths), ("colours", curves.colours)) if found is not None
     }

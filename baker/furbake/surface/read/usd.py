@@ -27,7 +27,11 @@ def read_usd(path: Path) -> Scene:
         if (found := _soup(str(path), mesh, stage.placed(mesh.points))) is not None:
             index = materials.setdefault(_material(mesh), len(materials))
             soups.append(Soup(found[0], found[1], np.full(len(found[1]), index), uv=found[2]))
-    return Scene(join(soups) if soups else None, tuple(materials), 0, ())
+    hidden = stage.hidden_meshes
+    notices = [f"{layer} is missing, and what it has with it" for layer in stage.missing]
+    if hidden:
+        notices.append(f"{hidden} meshes are guides, proxies or invisible and left out")
+    return Scene(join(soups) if soups else None, tuple(materials), 0, tuple(notices))
 
 
 def _material(mesh: UsdMesh) -> Material:
