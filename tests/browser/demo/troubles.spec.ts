@@ -122,3 +122,24 @@ test('a first model still grows its fur where the next one fails', async ({ page
 	await expect(page.getByRole('combobox', { name: 'Preset' })).toBeEnabled({ timeout: 2000 });
 	await expect(page.getByRole('status')).toContainText('torus cannot be shown');
 });
+
+test('a script that is missing, as after an update of the site, is told, with a way on', async ({ page, watch }) => {
+	await drawNothing(page);
+	await page.route('**/assets/FurFins-*.js', (route) => route.fulfill({ status: 404 }));
+	await page.goto(`${site}?model=sphere&still=1&shells=2`);
+	await expect(page.getByRole('status')).toContainText('A file of this page cannot be loaded.');
+	await expect.poll(() => state(page)).toBe('failed');
+	await page.unrouteAll();
+	await page.getByRole('link', { name: 'Reload' }).click();
+	await expect.poll(() => state(page)).toBe('ready');
+	await expect(page.getByRole('status')).toHaveText('');
+	watch.complaints.length = 0;
+});
+
+test('without the list of models the page says so once', async ({ page, watch }) => {
+	await page.route('**/models/models.json', (route) => route.fulfill({ body: '<!doctype html>' }));
+	await page.goto(`${site}?still=1`);
+	await expect(page.locator('.notice')).toHaveText(/models.json: got no JSON, expected the list of models/);
+	await expect.poll(() => state(page)).toBe('failed');
+	watch.complaints.length = 0;
+});

@@ -94,7 +94,8 @@ export class Exhibit {
 		camera.target = view.target;
 		camera.orbit = view.camera ?? firstView(undefined).camera;
 		await this.change(async () => {
-			await Promise.all([this.#surround(view.env ?? 'none'), this.#show(name)]);
+			// Without a list of models, and none in the address, there is none to show.
+			await Promise.all([this.#surround(view.env ?? 'none'), name && this.#show(name)]);
 			// The first picture does without them.
 			const lines = await import('../../page/lamp/lines.ts').catch(() => undefined);
 			if (lines) this.#picture.lamp.addLines(new lines.LampLines());

@@ -36,7 +36,9 @@ export interface MenuEntry {
 export async function loadMenu(): Promise<MenuEntry[]> {
 	const response = await fetch('models/models.json');
 	if (!response.ok) throw new Error(`models/models.json: got status ${response.status}, expected the list of models`);
-	return response.json();
+	return response.json().catch(() => {
+		throw new Error('models/models.json: got no JSON, expected the list of models');
+	});
 }
 
 /** Entries that the menu of models offers. */

@@ -1,0 +1,25 @@
+/** Notice where a script or style of the page is missing, as after an update of the site: the page itself never runs then. */
+
+addEventListener(
+	'error',
+	({ target }) => {
+		if (!(target instanceof HTMLScriptElement || target instanceof HTMLLinkElement)) return;
+		const notices = document.getElementById('notices');
+		if (!notices || notices.querySelector('[data-about="missing"]')) return;
+		const chinese = document.documentElement.lang.startsWith('zh') || /[?&]lang=zh/.test(location.search);
+		const box = document.createElement('div');
+		box.className = 'notice error';
+		box.dataset.about = 'missing';
+		const sentence = document.createElement('p');
+		sentence.textContent = chinese ? '本页有一个文件无法加载。' : 'A file of this page cannot be loaded. ';
+		const again = document.createElement('a');
+		again.href = '';
+		again.textContent = chinese ? '重新加载' : 'Reload';
+		sentence.append(again);
+		box.append(sentence);
+		notices.append(box);
+		// The header is filled by the page.
+		if (document.querySelector('nav.site:empty')) document.documentElement.dataset.state = 'failed';
+	},
+	true,
+);
