@@ -101,7 +101,7 @@ class Curves:
 
 
 def neighbours(tree: cKDTree, places: Floats, count: int) -> Ints:
-    """(n, count) the nearest of a tree's points at each of them (n, d), fewer where it has no more."""
+    """(n, count) the nearest other points of a tree at each of some of its own (n, d); fewer where it has no more."""
     most = min(count + 1, tree.n)
     found = np.asarray(tree.query(places, k=most)[1], np.int64)
     return found.reshape(len(places), most)[:, 1:]
