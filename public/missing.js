@@ -6,7 +6,8 @@ addEventListener(
 		if (!(target instanceof HTMLScriptElement || target instanceof HTMLLinkElement)) return;
 		const notices = document.getElementById('notices');
 		if (!notices || notices.querySelector('[data-about="missing"]')) return;
-		const chinese = document.documentElement.lang.startsWith('zh') || /[?&]lang=zh/.test(location.search);
+		const asked = new URLSearchParams(location.search).get('lang');
+		const chinese = (asked ?? navigator.language).startsWith('zh');
 		const box = document.createElement('div');
 		box.className = 'notice error';
 		box.dataset.about = 'missing';

@@ -100,7 +100,7 @@ class Curves:
         return at(self.points), widths, None if self.colours is None else at(self.colours)
 
 
-def neighbours(tree: cKDTree, places: Floats, count: int) -> Ints:
+def nearest_others(tree: cKDTree, places: Floats, count: int) -> Ints:
     """(n, count) the nearest other points of a tree at each of some of its own (n, d); fewer where it has no more."""
     most = min(count + 1, tree.n)
     found = np.asarray(tree.query(places, k=most)[1], np.int64)

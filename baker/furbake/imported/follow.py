@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from furbake.imported.bind import Bound
-from furbake.imported.curves import Curves, Floats, Ints, Single, neighbours
+from furbake.imported.curves import Curves, Floats, Ints, Single, nearest_others
 
 AROUND = 6
 """Neighbours of a guide, between two of which and itself its followers grow."""
@@ -73,7 +73,7 @@ def filled(bound: Bound, count: int, seed: int) -> Curves:
 
 def _neighbours(bound: Bound, roots: Floats) -> Ints:
     """(S, AROUND) nearest roots of each that stand on the same side of the body; itself in place of others."""
-    near = neighbours(cKDTree(roots), roots, AROUND)
+    near = nearest_others(cKDTree(roots), roots, AROUND)
     alike = np.einsum("skd,sd->sk", bound.normal[near], bound.normal) > 0.3
     ratio = bound.length[near] / np.maximum(bound.length[:, None], 1e-30)
     return np.where(alike & (ratio > UNLIKE) & (ratio < 1 / UNLIKE), near, np.arange(len(roots))[:, None])

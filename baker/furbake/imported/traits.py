@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
-from furbake.imported.curves import Floats, Ints, neighbours
+from furbake.imported.curves import Floats, Ints, nearest_others
 from furbake.imported.drawn import Source, distance
 from furbake.pelt.hairs.strands import Strands
 from furbake.pelt.hairs.tiling import TILE
@@ -77,7 +77,7 @@ def of_groom(source: Source, rng: np.random.Generator) -> dict[str, Floats]:
     points = bound.curves.evened(which, POINTS)[0]
     chord = np.linalg.norm(points[:, -1] - points[:, 0], axis=1)
     roots, tips = (bound.curves.points[at].astype(np.float64) for at in (bound.curves.starts, bound.curves.ends))
-    near = neighbours(cKDTree(roots), roots[which], AROUND)
+    near = nearest_others(cKDTree(roots), roots[which], AROUND)
     apart = [np.linalg.norm(places[near] - places[which][:, None], axis=2).sum(axis=1) for places in (roots, tips)]
     return {
         "length": bound.length[which],
@@ -97,7 +97,7 @@ def of_tile(source: Source, strands: Strands, rng: np.random.Generator) -> dict[
     chord = points[:, -1] - points[:, 0]
     straight = np.maximum(np.linalg.norm(chord, axis=1), 1e-30)
     root = strands.points[:, 0, :2] % 1.0 % 1.0
-    near = neighbours(cKDTree(root, boxsize=TILE), root, AROUND)
+    near = nearest_others(cKDTree(root, boxsize=TILE), root, AROUND)
     way = root[near] - root[:, None]
     roots = np.pad(tile * (way - np.round(way)), ((0, 0), (0, 0), (0, 1)))
     one = rng.integers(source.bound.count)  # a place of which all of the tile is looked at

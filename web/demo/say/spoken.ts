@@ -45,28 +45,33 @@ export function speak(picture: HTMLElement, language: 'en' | 'zh', seen: Seen): 
 		if (model !== undefined) said.textContent = words.arrived(model);
 	}).observe(document.documentElement, { attributeFilter: ['data-state'] });
 
-	const place = (azimuth: number, elevation: number): [string, string] => {
-		const [aside, up] = [Math.round(MathUtils.euclideanModulo(azimuth + 180, 360) - 180), Math.round(elevation)];
-		const side = aside > 0 ? words.right(aside) : words.left(-aside);
-		const turned = aside === 0 ? words.front : Math.abs(aside) === 180 ? words.behind : side;
-		return [turned, up < 0 ? words.below(-up) : words.above(up)];
-	};
-	const sentence = (): string => {
-		const [azimuth, elevation, distance] = seen.camera();
-		if (seen.act() === 'camera') return words.camera(...place(azimuth, elevation), distance.toFixed(2));
-		spherical.setFromVector3(vector.set(...seen.lamp()));
-		const [turn, tilt] = [MathUtils.radToDeg(spherical.theta), 90 - MathUtils.radToDeg(spherical.phi)];
-		return words.lamp(...place(turn - azimuth, tilt));
-	};
 	let waiting = 0;
 	addEventListener('keydown', ({ key, defaultPrevented }) => {
 		const act = seen.act();
+		// Keys that the picture has taken: its own listeners come before.
 		if (!defaultPrevented) return;
 		clearTimeout(waiting);
 		if (key === 'Enter' || key === ' ') said.textContent = words.painted[act] ?? '';
 		else if ((act === 'light' && key.startsWith('Arrow')) || act === 'camera')
 			waiting = window.setTimeout(() => {
-				said.textContent = sentence();
+				said.textContent = place(seen, words);
 			}, PAUSE);
 	});
+}
+
+/** Sentence on the place of what arrow keys move: the camera, or the lamp as the camera sees it. */
+function place(seen: Seen, words: typeof en): string {
+	const [azimuth, elevation, distance] = seen.camera();
+	if (seen.act() === 'camera') return words.camera(...angles(azimuth, elevation, words), distance.toFixed(2));
+	spherical.setFromVector3(vector.set(...seen.lamp()));
+	const [turn, tilt] = [MathUtils.radToDeg(spherical.theta), 90 - MathUtils.radToDeg(spherical.phi)];
+	return words.lamp(...angles(turn - azimuth, tilt, words));
+}
+
+/** Words of whole degrees to the side and up. */
+function angles(azimuth: number, elevation: number, words: typeof en): [string, string] {
+	const [aside, up] = [Math.round(MathUtils.euclideanModulo(azimuth + 180, 360) - 180), Math.round(elevation)];
+	const side = aside > 0 ? words.right(aside) : words.left(-aside);
+	const turned = aside === 0 ? words.front : Math.abs(aside) === 180 ? words.behind : side;
+	return [turned, up < 0 ? words.below(-up) : words.above(up)];
 }

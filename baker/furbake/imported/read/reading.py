@@ -59,9 +59,9 @@ def of_stage(name: str, stage: Stage) -> Curves:
         return replace(parts[0], notices=(*told, *parts[0].notices))
     widths = [part.widths for part in parts if part.widths is not None]
     colours = [part.colours for part in parts if part.colours is not None]
-    for what, some_ in (("widths", widths), ("colours", colours)):
-        if 0 < len(some_) < len(parts):
-            told.append(f"{name}: {len(some_)} of {len(parts)} groups of curves have {what}, which are left out")
+    for what, had in (("widths", widths), ("colours", colours)):
+        if 0 < len(had) < len(parts):
+            told.append(f"{name}: {len(had)} of {len(parts)} groups of curves have {what}, which are left out")
     return Curves(
         np.concatenate([part.points for part in parts]),
         np.concatenate([part.counts for part in parts]),
@@ -73,15 +73,13 @@ def of_stage(name: str, stage: Stage) -> Curves:
 
 def _told(name: str, stage: Stage) -> list[str]:
     """Notices on what is left out of a stage that has curves."""
+    told = [f"{name}: {layer} is missing, and what it has with it" for layer in stage.missing]
+    if stage.hidden:
+        told.append(f"{name}: {stage.hidden} groups of curves are guides, proxies or invisible and left out")
     others = [f"{count} {kind}" for kind, count in stage.others.items() if kind.endswith(("Curves", "Instancer"))]
-    return [
-        *(f"{name}: {layer} is missing, and what it has with it" for layer in stage.missing),
-        *(
-            [f"{name}: {stage.hidden} groups of curves are guides, proxies or invisible and left out"]
-            * bool(stage.hidden)
-        ),
-        *([f"{name}: {', '.join(others)} left out, only BasisCurves are read"] * bool(others)),
-    ]
+    if others:
+        told.append(f"{name}: {', '.join(others)} left out, only BasisCurves are read")
+    return told
 
 
 def _part(name: str, stage: Stage, curves: UsdCurves) -> Curves:

@@ -10,7 +10,7 @@ from furbake.surface.charts import Charts
 from furbake.surface.roots.layout import CELLS, Layout
 from furbake.surface.soup import Flags, Floats, Ints
 
-LONGEST = 64
+PLACES = 64
 """Places along an edge at which it is asked whether roots lie there, at most."""
 
 
@@ -83,7 +83,7 @@ def _ends(charts: Charts, layout: Layout) -> _Rim:
 def _wanted(rim: _Rim, layout: Layout) -> Flags:
     """(n,) whether a root of the patch may lie on the edge."""
     length = np.linalg.norm(rim.uv[:, 1] - rim.uv[:, 0], axis=1).max(initial=0.0)
-    count = int(np.clip(np.ceil(2.0 * CELLS * length), 2, LONGEST))
+    count = int(np.clip(np.ceil(2.0 * CELLS * length), 2, PLACES))
     found = np.zeros(len(rim.patch), dtype=bool)
     for share in np.linspace(0.0, 1.0, count):
         found |= layout.owner_at(rim.uv[:, 0] + share * (rim.uv[:, 1] - rim.uv[:, 0])) == rim.patch
