@@ -141,6 +141,54 @@ test('nothing pops where a body goes from level to level', async ({ page }) => {
 	expect(compare(finer, coarser).psnr).toBeGreaterThan(60);
 });
 
+/** Mean light of two pictures over each other, and their peak signal to noise as the eye sees 4 × 4 pixels, decibels. */
+function alike(one: Drawn, other: Drawn, side: number): { brighter: number; psnr: number } {
+	const [a, b] = [one, other].map(({ picture }) => {
+		const quarter = new Float64Array((3 * side * side) / 16);
+		for (const [i, value] of floats(picture).entries()) {
+			const [pixel, c] = [i >> 2, i & 3];
+			const at = ((pixel % side) >> 2) + (side >> 2) * (Math.floor(pixel / side) >> 2);
+			if (c < 3) quarter[3 * at + c] = (quarter[3 * at + c] as number) + value / 16;
+		}
+		return quarter;
+	}) as [Float64Array, Float64Array];
+	const light = ([...values]: Float64Array) => values.reduce((sum, value) => sum + value, 0);
+	const tone = (value: number) => Math.min(value, 1) ** (1 / 2.2);
+	const furry = [...a.keys()].filter((i) => Math.max(a[i] as number, b[i] as number) > 0.01);
+	const square = furry.reduce((sum, i) => sum + (tone(a[i] as number) - tone(b[i] as number)) ** 2, 0) / furry.length;
+	return { brighter: light(b) / light(a), psnr: -10 * Math.log10(square) };
+}
+
+for (const [name, url] of [
+	['bunny', bunny],
+	['tiger', served('public/models/tiger/model.gltf')],
+] as const) {
+	test(`bodies far away look alike on fewer faces: ${name}`, async ({ page }) => {
+		const places = rows(12).map(([x, y, z, ...turned], i): Place => [(i % 4) - 1.5 + x / 40, y, z - 4, ...turned]);
+		const wanted: Wanted = { places, size: 240, eye: [0, 2, 9], target: [0, 0, -4], shorn: true };
+		const all = await draw(page, url, wanted);
+		const fewer = await draw(page, url, { ...wanted, far: 'fewer' });
+		expect(Math.max(...all.levels.map(([shells]) => shells))).toBeLessThanOrEqual(12);
+		expect([fewer.calls, fewer.levels]).toEqual([all.calls, all.levels]);
+		expect(fewer.triangles / all.triangles).toBeLessThan(name === 'tiger' ? 0.7 : 0.4);
+		const { brighter, psnr } = alike(all, fewer, 240);
+		test.info().annotations.push({ type: 'alike', description: `${psnr.toFixed(1)} dB, light ${brighter.toFixed(3)}` });
+		expect(Math.abs(brighter - 1)).toBeLessThan(0.035);
+		expect(psnr).toBeGreaterThan(32);
+	});
+}
+
+test('without a simplifier only overlaps are left out, and near bodies keep all', async ({ page }) => {
+	const far: Wanted = { places: [[0, 0, 0, 1]], eye: [0, 2, 20], levels: [12], size: 160 };
+	const [all, apart] = [await draw(page, bunny, far), await draw(page, bunny, { ...far, far: 'apart' })];
+	expect(apart.triangles).toBeLessThan(0.9 * all.triangles);
+	expect(alike(all, apart, 160).psnr).toBeGreaterThan(33);
+	const near: Wanted = { places: [[0, 0, 0, 1]], eye: [0, 1, 3], levels: [24], size: 160 };
+	const [before, after] = [await draw(page, bunny, near), await draw(page, bunny, { ...near, far: 'fewer' })];
+	expect(after.triangles).toBe(before.triangles);
+	expect(compare(before, after).worst).toBe(0);
+});
+
 test('only what moves is uploaded', async ({ page }) => {
 	await page.evaluate(() => loaded.blind());
 	const uploads = await page.evaluate(([url, places]) => loaded.frames(url, { places }), [sphere, crowd] as const);
@@ -149,10 +197,10 @@ test('only what moves is uploaded', async ({ page }) => {
 });
 
 test('bodies share the fur on the GPU, and leave it as it was', async ({ page }) => {
-	const { counts, pictures } = await page.evaluate(([url, places]) => loaded.memory(url, { places, shadow: true }), [
-		bunny,
-		crowd,
-	] as const);
+	const { counts, pictures } = await page.evaluate(
+		([url, places]) => loaded.memory(url, { places, shadow: true, levels: [24, 12], far: 'fewer' }),
+		[bunny, crowd] as const,
+	);
 	const [before, during, after] = counts;
 	expect(during?.planes, 'planes are not uploaded twice').toBe(before?.planes);
 	expect(during?.buffers).toBeGreaterThan(before?.buffers ?? Number.NaN);

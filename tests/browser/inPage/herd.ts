@@ -1,5 +1,6 @@
 /** Runs inside the page: many bodies of one asset, without the demo. Its answers go to `instances.spec.ts`. */
 
+import { MeshoptSimplifier } from 'meshoptimizer';
 import {
 	DirectionalLight,
 	FloatType,
@@ -21,6 +22,7 @@ import { type Fur, FurInstances, fitFurShadow } from '../../../web/fur/index.ts'
 import { loadFur, renderFloats } from '../../../web/measure/studio.ts';
 import { removeWhiskers, toBase64 } from './Stand.ts';
 
+await MeshoptSimplifier.ready;
 const renderer = new WebGLRenderer({ antialias: false });
 renderer.info.autoReset = false;
 const gl = renderer.getContext() as WebGL2RenderingContext;
@@ -60,6 +62,8 @@ export interface Wanted {
 	/** together in one FurInstances, each in one of its own, or the plain fur at the first place */
 	as?: 'one' | 'each' | 'plain';
 	levels?: number[];
+	/** far bodies without overlaps, and with fewer faces */
+	far?: 'apart' | 'fewer';
 	eye?: [number, number, number];
 	target?: [number, number, number];
 	/** pixels */
@@ -122,6 +126,7 @@ class Herd {
 		this.bodies = (as === 'each' ? places.map((place) => [place]) : [places]).map((group) => {
 			const bodies = new FurInstances(fur, group.length, levels);
 			bodies.height = size;
+			if (wanted.far) bodies.simplify(wanted.far === 'fewer' ? MeshoptSimplifier : undefined);
 			if (places.length === 1) bodies.fewestShells = fur.asset.layers; // as the fur by itself
 			for (const [i, place] of group.entries()) bodies.setMatrixAt(i, matrixOf(place));
 			return bodies;

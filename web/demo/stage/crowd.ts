@@ -86,6 +86,14 @@ export class Crowd extends Group {
 			this.#shadows.setMatrixAt(i, matrix.multiply(this.#shadow.matrix));
 		}
 		this.add(this.#shadows, this.#instances);
+		void this.#simplify();
+	}
+
+	/** Draws far bodies on fewer faces, once the code for it is there. */
+	async #simplify(): Promise<void> {
+		const { MeshoptSimplifier } = await import('meshoptimizer/simplifier');
+		await MeshoptSimplifier.ready;
+		this.#instances.simplify(MeshoptSimplifier);
 	}
 
 	/** Height of the picture in pixels, for the levels of detail in the first frame. */

@@ -33,17 +33,17 @@ const COPIED: readonly string[] = ['color', 'skinIndex', 'skinWeight'];
  * Four vertices per edge: root, root, tip, tip, first end before second. Fins run the way in which the fur is laid.
  *
  * @param surface the shells' geometry
- * @param mask a bit for each edge of it, lowest first
+ * @param mask a bit for each edge of it, lowest first; undefined: all have fins
  * @throws Error for a mask of another number of edges
  */
-export function finQuads(surface: BufferGeometry, mask: Uint8Array, places: FinPlaces): BufferGeometry {
+export function finQuads(surface: BufferGeometry, mask: Uint8Array | undefined, places: FinPlaces): BufferGeometry {
 	const { start, tile, lean, tiles, roots: scale } = places;
 	const faces = new EdgeFaces(surface);
-	if (mask.length !== Math.ceil(faces.count / 8))
+	if (mask && mask.length !== Math.ceil(faces.count / 8))
 		throw new Error(
 			`got a mask of ${mask.length} bytes, expected ${Math.ceil(faces.count / 8)} for ${faces.count} edges`,
 		);
-	const edges = [...faces.edges].filter((_, i) => (mask[i >> 3] as number) & (1 << (i & 7)));
+	const edges = [...faces.edges].filter((_, i) => !mask || (mask[i >> 3] as number) & (1 << (i & 7)));
 	const count = edges.length;
 	const quads = new BufferGeometry();
 	for (const [name, size] of Object.entries(SIZES)) {
@@ -103,7 +103,9 @@ class Root {
 		this.#normal.fromBufferAttribute(normal, vertex).normalize();
 		const t = this.#comb.fromBufferAttribute(tangent, vertex).normalize();
 		this.across.crossVectors(this.#normal, t).multiplyScalar(tangent.getW(vertex)).normalize();
-		t.multiplyScalar(_comb?.getX(vertex) ?? 0).addScaledVector(this.across, _comb?.getY(vertex) ?? 0);
+		// Combs that copies of a vertex share are vectors.
+		if (_comb?.itemSize === 3) t.fromBufferAttribute(_comb, vertex);
+		else t.multiplyScalar(_comb?.getX(vertex) ?? 0).addScaledVector(this.across, _comb?.getY(vertex) ?? 0);
 	}
 
 	/** Writes the place of a vertex in the picture of the roots. */

@@ -21,8 +21,16 @@ import {
 import type { Fur } from '../Fur.ts';
 import { beginClip, endClip, type FurColumns } from '../shells/clip.ts';
 import { followHue } from '../shells/hue.ts';
+import { SPACING } from '../shells/lod.ts';
+import type { FarSurface, MeshSimplifier } from './FarSurface.ts';
+import { farFins } from './farFins.ts';
 import type { HerdPoses } from './HerdPoses.ts';
 import { Places } from './Places.ts';
+
+/** Shells per body up to which a level's bodies are far away: hairs of 18 pixels. */
+const FAR = 12;
+/** Pixels by which the surfaces of far bodies may move where they are simplified. */
+const MOVED = 1;
 
 /** Copy of a fur's material for many bodies; shares all uniforms but the lights and its own. */
 export class BodyMaterial extends ShaderMaterial {
@@ -84,6 +92,12 @@ class Draw extends Mesh<InstancedBufferGeometry, ShaderMaterial> {
 		this.frustumCulled = false;
 	}
 
+	/** Draws the faces of another geometry from now on, and owns what it does not share with the fur's. */
+	wear({ index, attributes }: BufferGeometry): void {
+		this.geometry.setIndex(index);
+		for (const [name, attribute] of Object.entries(attributes)) this.geometry.setAttribute(name, attribute);
+	}
+
 	/** Draws `count` bodies from `drawn[first]` on. */
 	put(drawn: Uint32Array, first: number, count: number, matrices: Float32Array, moved: boolean): void {
 		// Attribute that the vertices may have received since.
@@ -106,8 +120,10 @@ class Draw extends Mesh<InstancedBufferGeometry, ShaderMaterial> {
 	override dispose(): void {
 		super.dispose();
 		this.removeFromParent();
-		this.geometry.setIndex(null);
-		for (const name of Object.keys(this.#source.attributes)) this.geometry.deleteAttribute(name);
+		const { index, attributes } = this.#source;
+		if (this.geometry.index === index) this.geometry.setIndex(null);
+		for (const [name, shared] of Object.entries(attributes))
+			if (this.geometry.getAttribute(name) === shared) this.geometry.deleteAttribute(name);
 		this.geometry.dispose();
 	}
 }
@@ -118,6 +134,7 @@ export class BodyLevel {
 	readonly shells: Draw;
 	readonly fins: Draw | undefined;
 	readonly #fur: Fur;
+	readonly #most: number;
 	readonly #material: BodyMaterial;
 	/** Shells, alpha cut and crispness of each body, in the order of the draw. */
 	readonly #details: InstancedBufferAttribute;
@@ -131,6 +148,7 @@ export class BodyLevel {
 	constructor(fur: Fur, most: number, capacity: number, finMaterial: BodyMaterial | undefined, bounds: Sphere) {
 		const { shells, fins } = fur;
 		this.#fur = fur;
+		this.#most = most;
 		// Equally distant objects are drawn by age: create fins before their shells.
 		this.fins = fins && finMaterial && new Draw(fins.geometry, finMaterial, capacity, 1, bounds);
 		this.#material = new BodyMaterial(shells.material, { shellCount: { value: most } });
@@ -139,6 +157,16 @@ export class BodyLevel {
 		this.shells.geometry.setAttribute('bodyDetail', this.#details);
 		this.shells.name = `fur, up to ${most} shells`;
 		if (this.fins) this.fins.name = `fins of fur, up to ${most} shells`;
+	}
+
+	/** Draws fewer faces from now on, if its bodies are far away. @param simplifier that leaves some out */
+	simplify(surface: FarSurface, simplifier?: MeshSimplifier): void {
+		if (this.#most > FAR) return;
+		const { asset, shells } = this.#fur;
+		const { defines, furLength } = shells.material;
+		const far = surface.geometry(simplifier, (MOVED * furLength) / (SPACING * this.#most));
+		this.shells.wear(far);
+		if (simplifier && !asset.regions && !('MORPHS' in defines)) this.fins?.wear(farFins(this.#fur, far));
 	}
 
 	/** Lets its draws follow the joints of poses. @param units the shells' axes → the body's */

@@ -1,10 +1,10 @@
 import { type Camera, Frustum, Matrix4, Object3D, type OrthographicCamera, Sphere } from 'three';
 import type { Fur } from '../Fur.ts';
-import { tileOf } from '../format.ts';
 import { needFur } from '../needFur.ts';
-import { coarserShare, crispnessFor, cutFor, pixelsPerUnit, shellsFor } from '../shells/lod.ts';
+import { BodyDetails } from './BodyDetails.ts';
 import { BodyHull, BodyLevel, BodyMaterial } from './BodyLevel.ts';
 import { boundAll, cullBodies, cutLevels, type Eye, findEye, levelOf, measurePowers, sortFarFirst } from './bodies.ts';
+import { FarSurface, type MeshSimplifier } from './FarSurface.ts';
 import { HerdPoses, MAX_POSES } from './HerdPoses.ts';
 import { HerdSkin } from './HerdSkin.ts';
 import { placement } from './pieces.ts';
@@ -53,12 +53,8 @@ export class FurInstances extends Object3D {
 	fewestShells: number;
 
 	readonly #fur: Fur;
-	/** Bounding sphere of one body with its fur, in its own axes; radius of its shells. */
+	/** Bounding sphere of one body with its fur, in its own axes. */
 	readonly #sphere = new Sphere();
-	#radius = 0;
-	/** Length of the longest hairs and width of a texel, in the body's axes. */
-	#length = 0;
-	readonly #texel: number;
 	/** Shells' axes → body's. */
 	readonly #furMatrix: Matrix4;
 	readonly #skin: HerdSkin;
@@ -81,8 +77,7 @@ export class FurInstances extends Object3D {
 	readonly #powers: Float64Array;
 	readonly #order: Uint32Array;
 	readonly #seen: Uint8Array;
-	/** Shells, alpha cut and crispness of each body. */
-	readonly #details: Float32Array;
+	readonly #details: BodyDetails;
 	readonly #level: Uint8Array;
 	readonly #drawn: Uint32Array;
 	readonly #ends: Uint32Array;
@@ -104,7 +99,7 @@ export class FurInstances extends Object3D {
 		this.#powers = new Float64Array(capacity);
 		this.#order = Uint32Array.from({ length: capacity }, (_, i) => i);
 		this.#seen = new Uint8Array(capacity);
-		this.#details = new Float32Array(4 * capacity);
+		this.#details = new BodyDetails(fur, capacity, levels[0] as number);
 		this.#level = new Uint8Array(capacity);
 		this.#drawn = new Uint32Array(capacity);
 		this.#ends = new Uint32Array(levels.length);
@@ -117,7 +112,6 @@ export class FurInstances extends Object3D {
 		this.#poses = skeleton && new HerdPoses(skeleton);
 		this.#firstJoints = new Uint32Array(capacity);
 		this.#furMatrix = placement(shells, root);
-		this.#texel = tileOf(fur.asset) / fur.asset.size;
 		this.fewestShells = fur.asset.layers / 2;
 		this.#fit();
 
@@ -145,10 +139,23 @@ export class FurInstances extends Object3D {
 	#fit(): void {
 		const { shells, fins } = this.#fur;
 		const bounds = (fins ?? shells).geometry.boundingSphere ?? new Sphere();
-		this.#length = shells.furLength;
 		this.#sphere.copy(bounds).applyMatrix4(this.#furMatrix);
 		if (this.#poses && !this.#poses.sphere.isEmpty()) this.#sphere.copy(this.#poses.sphere);
-		this.#radius = (shells.geometry.boundingSphere?.radius ?? 0) * (this.#sphere.radius / bounds.radius);
+		this.#details.fit((shells.geometry.boundingSphere?.radius ?? 0) * (this.#sphere.radius / bounds.radius));
+	}
+
+	/**
+	 * Draws bodies of at most 24 shells on fewer faces: those of overlapping patches once, and as few as move their surface by
+	 * a pixel or so.
+	 *
+	 *     await MeshoptSimplifier.ready; // of the package meshoptimizer
+	 *     herd.simplify(MeshoptSimplifier);
+	 *
+	 * @param simplifier undefined: only overlaps are left out
+	 */
+	simplify(simplifier?: MeshSimplifier): void {
+		const far = new FarSurface(this.#fur.shells.geometry);
+		for (const level of this.#levels) level.simplify(far, simplifier);
 	}
 
 	/** Number of bodies drawn, the first of all. */
@@ -230,14 +237,14 @@ export class FurInstances extends Object3D {
 
 	/** Number of shells of body `i` by the last `update`; may be fractional. */
 	getShellsAt(i: number): number {
-		return this.#details[4 * i] as number;
+		return this.#details.shells(i);
 	}
 
 	/** Culls, sorts and picks levels for the next draw by this camera. World matrices have to be up to date. */
 	update(camera: Camera): void {
 		const count = this.#count;
 		if (!this.#captured) this.#capture(0);
-		if (this.#length !== this.#fur.shells.furLength) this.#refit();
+		if (!this.#details.fits) this.#refit();
 		if (this.#moved) boundAll(this.#spheres, count, this.#bounds);
 		matrix.multiplyMatrices(camera.matrixWorldInverse, this.matrixWorld);
 		clip.multiplyMatrices(camera.projectionMatrix, matrix);
@@ -251,8 +258,10 @@ export class FurInstances extends Object3D {
 		sortFarFirst(this.#order, count, this.#powers);
 
 		for (let i = 0; i < count; i++) {
-			this.#detail(i, camera, scale);
-			this.#level[i] = levelOf(this.#details[4 * i] as number, this.levels);
+			const radius = this.#spheres[4 * i + 3] as number;
+			const away = eye[3] ? scale * Math.sqrt((this.#powers[i] as number) + radius * radius) : 1;
+			this.#details.put(i, (scale * radius) / this.#sphere.radius, away, this.fewestShells, camera, this.height);
+			this.#level[i] = levelOf(this.#details.shells(i), this.levels);
 		}
 		cutLevels(this.#order, count, this.#seen, this.#level, this.#drawn, this.#ends);
 
@@ -261,27 +270,11 @@ export class FurInstances extends Object3D {
 		for (let l = 0; l < this.#levels.length; l++) {
 			const first = this.#ends[l + 1] ?? 0;
 			const bodies = (this.#ends[l] as number) - first;
-			this.#levels[l]?.put(this.#drawn, first, bodies, this.#furMatrices, this.#details, this.#moved);
+			this.#levels[l]?.put(this.#drawn, first, bodies, this.#furMatrices, this.#details.values, this.#moved);
 		}
 		this.#finMaterial?.follow();
 		this.#hull.putAll(count, this.#furMatrices, this.#moved);
 		this.#moved = false;
-	}
-
-	/** Number of shells, alpha cut and crispness that the fur by itself would have there. @param scale these axes → the world's */
-	#detail(i: number, camera: Camera, scale: number): void {
-		const radius = this.#spheres[4 * i + 3] as number;
-		const unit = (scale * radius) / this.#sphere.radius;
-		const away = eye[3] ? scale * Math.sqrt((this.#powers[i] as number) + radius * radius) : 1;
-		const near = Math.max(away - this.#radius * unit, 0.1 * away);
-		const { automatic, shellCount, coarseness } = this.#fur.shells;
-		const fewest = this.fewestShells * this.#fur.material.trim;
-		const wanted = shellsFor(this.#length * unit * pixelsPerUnit(camera, this.height, near), fewest) / coarseness;
-		this.#details[4 * i] = Math.min(Math.max(automatic ? wanted : shellCount, 1), this.levels[0] as number);
-		const texel = this.#texel * unit * pixelsPerUnit(camera, this.height, away);
-		this.#details[4 * i + 1] = cutFor(texel);
-		this.#details[4 * i + 2] = crispnessFor(texel);
-		this.#details[4 * i + 3] = coarserShare(texel);
 	}
 
 	/** Frees everything but the fur. */

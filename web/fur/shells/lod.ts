@@ -9,7 +9,7 @@ export const ALPHA_CUT = 0.1;
 const FAR_CUT = 0.2;
 
 /** Largest distance between two shells, pixels: beyond, hairs look like strings of beads. */
-const SPACING = 1.5;
+export const SPACING = 1.5;
 
 /**
  * Number of shells beyond which the picture hardly changes; continuous, without steps.
