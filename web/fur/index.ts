@@ -11,7 +11,7 @@ export { dressFur, type FurDressOptions } from './dressFur.ts';
 export { Fur, type FurStates } from './Fur.ts';
 export { type FurLoaderOptions, FurLoaderPlugin } from './FurLoaderPlugin.ts';
 export { FUR_EXTENSION, FUR_VERSION, type FurAsset } from './format.ts';
-export type { MeshSimplifier } from './herd/FarSurface.ts';
+export type { FurSimplifier } from './herd/FarSurface.ts';
 export { FurInstances } from './herd/FurInstances.ts';
 export { fitFurShadow } from './light/fitFurShadow.ts';
 export { type FurEnvironment, type FurLamp, furEnvironment } from './light/furEnvironment.ts';

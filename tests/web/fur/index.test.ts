@@ -63,6 +63,7 @@ it('exports these names', () => {
 		  "FurMethodName",
 		  "FurMethodOptions",
 		  "FurMotionOptions",
+		  "FurSimplifier",
 		  "FurStates",
 		  "FurTextures",
 		  "FurWeatherOptions",

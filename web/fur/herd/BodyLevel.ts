@@ -22,13 +22,15 @@ import type { Fur } from '../Fur.ts';
 import { beginClip, endClip, type FurColumns } from '../shells/clip.ts';
 import { followHue } from '../shells/hue.ts';
 import { SPACING } from '../shells/lod.ts';
-import type { FarSurface, MeshSimplifier } from './FarSurface.ts';
+import type { FarSurface, FurSimplifier } from './FarSurface.ts';
 import { farFins } from './farFins.ts';
 import type { HerdPoses } from './HerdPoses.ts';
 import { Places } from './Places.ts';
 
 /** Shells per body up to which a level's bodies are far away: hairs of 18 pixels. */
 const FAR = 12;
+/** Shells for which a far body's fins have a strip, from root to tip. */
+const SHELLS_A_STRIP = 4;
 /** Pixels by which the surfaces of far bodies may move where they are simplified. */
 const MOVED = 1;
 
@@ -160,13 +162,14 @@ export class BodyLevel {
 	}
 
 	/** Draws fewer faces from now on, if its bodies are far away. @param simplifier that leaves some out */
-	simplify(surface: FarSurface, simplifier?: MeshSimplifier): void {
+	simplify(surface: FarSurface, simplifier?: FurSimplifier): void {
 		if (this.#most > FAR) return;
 		const { asset, shells } = this.#fur;
 		const { defines, furLength } = shells.material;
 		const far = surface.geometry(simplifier, (MOVED * furLength) / (SPACING * this.#most));
 		this.shells.wear(far);
-		if (simplifier && !asset.regions && !('MORPHS' in defines)) this.fins?.wear(farFins(this.#fur, far));
+		if (!simplifier || asset.regions || 'MORPHS' in defines) return;
+		this.fins?.wear(farFins(this.#fur, far, Math.max(Math.floor(this.#most / SHELLS_A_STRIP), 1)));
 	}
 
 	/** Lets its draws follow the joints of poses. @param units the shells' axes → the body's */

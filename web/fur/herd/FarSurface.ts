@@ -4,7 +4,7 @@ import { Box3, BufferAttribute, BufferGeometry, Vector3 } from 'three';
 import { weld } from '../body/weld.ts';
 
 /** The part of `MeshoptSimplifier` (npm package meshoptimizer) that herds use. */
-export interface MeshSimplifier {
+export interface FurSimplifier {
 	/** Indices of a mesh with fewer faces between the same vertices, and its error. */
 	simplifyWithAttributes(
 		indices: Uint32Array,
@@ -57,7 +57,7 @@ export class FarSurface {
 	 * @param simplifier that leaves out faces
 	 * @param error by which the surface may move, its own units
 	 */
-	geometry(simplifier?: MeshSimplifier, error = 0): BufferGeometry {
+	geometry(simplifier?: FurSimplifier, error = 0): BufferGeometry {
 		const far = new BufferGeometry();
 		for (const [name, attribute] of Object.entries(this.#surface.attributes)) far.setAttribute(name, attribute);
 		far.setAttribute('_fur', this.#fur);
@@ -66,7 +66,7 @@ export class FarSurface {
 		return far;
 	}
 
-	#simplified(simplifier: MeshSimplifier, error: number): Uint32Array {
+	#simplified(simplifier: FurSimplifier, error: number): Uint32Array {
 		const { attributes } = this.#surface;
 		const kept = Object.entries(CHANGES).flatMap(([name, change]) => {
 			const attribute = name === '_fur' ? this.#fur : attributes[name];

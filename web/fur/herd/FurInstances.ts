@@ -4,7 +4,7 @@ import { needFur } from '../needFur.ts';
 import { BodyDetails } from './BodyDetails.ts';
 import { BodyHull, BodyLevel, BodyMaterial } from './BodyLevel.ts';
 import { boundAll, cullBodies, cutLevels, type Eye, findEye, levelOf, measurePowers, sortFarFirst } from './bodies.ts';
-import { FarSurface, type MeshSimplifier } from './FarSurface.ts';
+import { FarSurface, type FurSimplifier } from './FarSurface.ts';
 import { HerdPoses, MAX_POSES } from './HerdPoses.ts';
 import { HerdSkin } from './HerdSkin.ts';
 import { placement } from './pieces.ts';
@@ -148,12 +148,12 @@ export class FurInstances extends Object3D {
 	 * Draws bodies of at most 24 shells on fewer faces: those of overlapping patches once, and as few as move their surface by
 	 * a pixel or so.
 	 *
-	 *     await MeshoptSimplifier.ready; // of the package meshoptimizer
+	 *     await MeshoptSimplifier.ready; // package meshoptimizer
 	 *     herd.simplify(MeshoptSimplifier);
 	 *
 	 * @param simplifier undefined: only overlaps are left out
 	 */
-	simplify(simplifier?: MeshSimplifier): void {
+	simplify(simplifier?: FurSimplifier): void {
 		const far = new FarSurface(this.#fur.shells.geometry);
 		for (const level of this.#levels) level.simplify(far, simplifier);
 	}

@@ -6,13 +6,15 @@ import { FurFollicles } from '../body/FurFollicles.ts';
 import type { Fur } from '../Fur.ts';
 import { finQuads } from '../fins/finQuads.ts';
 import { tileOf } from '../format.ts';
+import { cutFins } from '../shells/FurFins.ts';
 
 /**
- * Fins on all edges of a surface, without strips: far away light need not follow the height.
+ * Fins on all edges of a surface.
  *
  * @param surface some faces of the fur's shells
+ * @param strips per fin, so that light follows the height
  */
-export function farFins({ asset, shells, ground }: Fur, surface: BufferGeometry): BufferGeometry {
+export function farFins({ asset, shells, ground }: Fur, surface: BufferGeometry, strips: number): BufferGeometry {
 	const { drift, tiles = 1 } = asset;
 	const { finHeights, roots } = ground;
 	const width = tileOf(asset) / shells.scale.x;
@@ -20,7 +22,7 @@ export function farFins({ asset, shells, ground }: Fur, surface: BufferGeometry)
 	const tile = (width * tiles) / finHeights;
 	const lean = ((drift.at(-1)?.[1] ?? 0) * width) / tile;
 	const scale = roots && ([roots.scale.x / finHeights, roots.scale.y / finHeights] as const);
-	const fins = finQuads(surface, undefined, { start: 0, tile, lean, tiles: finHeights, roots: scale });
+	const fins = cutFins(finQuads(surface, undefined, { start: 0, tile, lean, tiles: finHeights, roots: scale }), strips);
 	FurFollicles.of(shells.geometry).mark(fins);
 	BodyCurvature.of(shells.geometry).mark(fins, -1);
 	return fins;

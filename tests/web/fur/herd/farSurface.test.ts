@@ -127,7 +127,7 @@ it('has a fin on every edge, in tiles as wide as the shells have them, whatever 
 		[2, 1],
 		[1, 3],
 	] as const) {
-		const { position, uv } = farFins(worn(tiles, finHeights), far).attributes as Record<string, BufferAttribute>;
+		const { position, uv } = farFins(worn(tiles, finHeights), far, 1).attributes as Record<string, BufferAttribute>;
 		expect(uv?.count).toBe(4 * new EdgeFaces(far).count);
 		for (let fin = 0; fin < (uv?.count ?? 0); fin += 4) {
 			const [a, b] = [fin, fin + 1].map((at) => new Vector3().fromBufferAttribute(position as BufferAttribute, at));
