@@ -96,8 +96,9 @@ export class Dressing {
 		this.#dynamics.style(this.#store.get());
 		this.#picture.reportTextureMemory();
 		this.#onShow.changed();
-		if (!wanted || fine) return;
-		const refined = this.#refine(target, late);
+		const refined = wanted && !fine ? this.#refine(target, late) : undefined;
+		// Last of all: while they are compiled, the first use of any other shader waits for them.
+		if (first || refined) void Promise.resolve(refined).then(() => late() || this.#compileMotion());
 		// Planes that were asked for by name belong to the whole picture.
 		if (view.planes === '128') await refined;
 	}
@@ -113,8 +114,6 @@ export class Dressing {
 		if (!first) return;
 		await this.#looks.showFirst(this.#store, () => picture.drawn());
 		performance.mark('furbake:fur');
-		const { renderer, scene, sample } = picture.stage;
-		compileMotion(renderer, scene, picture.camera, sample, this.#looks.furs);
 		// Ready for the first wind or hand.
 		void this.#dynamics.loadMotion();
 	}
@@ -128,6 +127,12 @@ export class Dressing {
 		// A first step wakes hairs that lag behind the body.
 		this.#picture.animate(1 / 60);
 		await compileScene(renderer, scene, camera, sample, this.#looks.furs);
+	}
+
+	/** Compiles aside what the furs on show need once they swing, or rest. */
+	#compileMotion(): void {
+		const { stage, camera } = this.#picture;
+		compileMotion(stage.renderer, stage.scene, camera, stage.sample, this.#looks.furs);
 	}
 
 	/** Fades over to finer planes; the fur stays as it is where they cannot be had. */

@@ -1,7 +1,6 @@
 /** Finer planes: compiled and uploaded first, then faded in. */
 
 import { FurFade, prepareFur } from '../../fur/index.ts';
-import { compileMotion } from '../../scene/compile.ts';
 import type { Picture } from '../stage/picture.ts';
 import type { Store } from '../state/store.ts';
 import type { Looks, Outfit } from './looks.ts';
@@ -21,10 +20,7 @@ export async function refine(
 ): Promise<boolean> {
 	const { stage, camera, still } = picture;
 	const { renderer, scene, sample } = stage;
-	await looks.prepare(outfits, store.get(), async (fur) => {
-		await prepareFur(fur, renderer, scene, camera, sample);
-		compileMotion(renderer, scene, camera, sample, [fur]);
-	});
+	await looks.prepare(outfits, store.get(), (fur) => prepareFur(fur, renderer, scene, camera, sample));
 	const { body } = looks;
 	if (late() || !body || stage.gl.isContextLost()) return false;
 	const view = store.get();

@@ -86,10 +86,11 @@ export class Crowd extends Group {
 			this.#shadows.setMatrixAt(i, matrix.multiply(this.#shadow.matrix));
 		}
 		this.add(this.#shadows, this.#instances);
-		void this.#simplify();
+		// Without the code all faces are drawn.
+		this.#simplify().catch(() => {});
 	}
 
-	/** Draws far bodies on fewer faces, once the code for it is there. */
+	/** Draws far bodies on fewer faces, once the code that leaves them out is there. */
 	async #simplify(): Promise<void> {
 		const { MeshoptSimplifier } = await import('meshoptimizer/simplifier');
 		await MeshoptSimplifier.ready;

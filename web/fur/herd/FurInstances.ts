@@ -145,8 +145,8 @@ export class FurInstances extends Object3D {
 	}
 
 	/**
-	 * Draws bodies of at most 24 shells on fewer faces: those of overlapping patches once, and as few as move their surface by
-	 * a pixel or so.
+	 * Draws bodies of levels of at most 12 shells, with hairs of 18 pixels, on fewer faces: those of overlapping patches once,
+	 * and as few as move their surface by a pixel or so.
 	 *
 	 *     await MeshoptSimplifier.ready; // package meshoptimizer
 	 *     herd.simplify(MeshoptSimplifier);
