@@ -189,6 +189,17 @@ test('without a simplifier only overlaps are left out, and near bodies keep all'
 	expect(compare(before, after).worst).toBe(0);
 });
 
+test('all bodies cast the shadow of fewer faces, and it looks alike', async ({ page }) => {
+	const wanted: Wanted = { places: [[0, 0, 0, 1]], eye: [0, 2, 6], size: 240, shadow: true, shorn: true };
+	const [all, fewer] = [await draw(page, bunny, wanted), await draw(page, bunny, { ...wanted, far: 'fewer' })];
+	expect(all.levels[0]?.[0]).toBeGreaterThan(12);
+	expect(all.triangles - fewer.triangles).toBeGreaterThan(6000);
+	const { brighter, psnr } = alike(all, fewer, 240);
+	test.info().annotations.push({ type: 'alike', description: `${psnr.toFixed(1)} dB, light ${brighter.toFixed(4)}` });
+	expect(Math.abs(brighter - 1)).toBeLessThan(0.002);
+	expect(psnr).toBeGreaterThan(50);
+});
+
 test('only what moves is uploaded', async ({ page }) => {
 	await page.evaluate(() => loaded.blind());
 	const uploads = await page.evaluate(([url, places]) => loaded.frames(url, { places }), [sphere, crowd] as const);

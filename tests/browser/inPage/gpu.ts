@@ -14,6 +14,9 @@ export interface Gpu {
 	parameters: Record<string, number>;
 	/** Milliseconds that every timer query tells, by the width of the canvas; undefined: what it measured. */
 	time: ((width: number) => number) | undefined;
+	/** Fences that were set, and whether they stay as if nothing were drawn. */
+	fences: number;
+	behind: boolean;
 }
 
 declare global {
@@ -37,6 +40,8 @@ export async function watchGpu(page: Page, missing: string[] = []): Promise<void
 			anisotropy: [],
 			parameters: {},
 			time: undefined,
+			fences: 0,
+			behind: false,
 		};
 		window.gpu = gpu;
 		const wrap = (
@@ -80,6 +85,11 @@ export async function watchGpu(page: Page, missing: string[] = []): Promise<void
 				if ((gl as unknown as Record<string, number>)[name] === asked) return value;
 			return call();
 		});
+		wrap('fenceSync', (call) => {
+			gpu.fences++;
+			return call();
+		});
+		wrap('getSyncParameter', (call, _, gl) => (gpu.behind ? gl.UNSIGNALED : call()));
 		wrap('getQueryParameter', (call, [, asked], gl) =>
 			asked === gl.QUERY_RESULT && gpu.time ? gpu.time(gl.canvas.width) * 1e6 : call(),
 		);

@@ -1,6 +1,8 @@
 /** Schedule of frames: one after the other while anything moves, few during slow changes, none at rest. */
 
 export interface FrameHandlers {
+	/** @returns whether a frame can be drawn now; else it is asked again before the next refresh of the display */
+	ready(): boolean;
 	/**
 	 * Draws a frame.
 	 *
@@ -24,6 +26,7 @@ export class Frames {
 	readonly #frame = (now: number) => {
 		this.#requested = false;
 		if (this.#holds > 0) return;
+		if (!this.#handlers.ready()) return this.request();
 		clearTimeout(this.#timer);
 		const interval = now - this.#before;
 		this.#before = now;

@@ -1,5 +1,7 @@
-/** GPU time of frames, where the browser has a timer. */
+/** Frames on the GPU: how long they take, where the browser has a timer, and how many wait there. */
 
+/** Frames handed on and not drawn yet, at most: one is drawn while the next is made. */
+const MAX_WAITING = 2;
 /** Queries in flight at most; frames beyond them are not measured. */
 const MAX_QUERIES = 6;
 
@@ -11,6 +13,8 @@ export class GpuTimer {
 	#first = 0;
 	#count = 0;
 	#running = false;
+	/** Fence behind each frame that was handed on, the oldest first. */
+	readonly #fences: WebGLSync[] = [];
 	/** Milliseconds of the frame measured last; NaN before. */
 	latest = Number.NaN;
 
@@ -24,8 +28,24 @@ export class GpuTimer {
 		return this.#extension !== null;
 	}
 
+	/**
+	 * True while the next frame has to wait. Browsers take frames faster than they draw them: where one takes seconds, the
+	 * picture would come many frames after the hand that moves it, and intervals would not be times of drawing.
+	 */
+	get full(): boolean {
+		const gl = this.#gl;
+		const [oldest] = this.#fences;
+		// A lost context says nothing of its fences.
+		if (oldest && gl.getSyncParameter(oldest, gl.SYNC_STATUS) !== gl.UNSIGNALED) {
+			gl.deleteSync(oldest);
+			this.#fences.shift();
+		}
+		return this.#fences.length >= MAX_WAITING;
+	}
+
 	/** Makes the queries anew after a lost context. */
 	restore(): void {
+		this.#fences.length = 0;
 		this.#extension = this.#gl.getExtension('EXT_disjoint_timer_query_webgl2');
 		this.#count = 0;
 		this.#running = false;
@@ -43,6 +63,8 @@ export class GpuTimer {
 
 	/** Call after a frame's last command. */
 	end(): void {
+		const fence = this.#gl.fenceSync(this.#gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+		if (fence) this.#fences.push(fence);
 		if (!this.#extension || !this.#running) return;
 		this.#gl.endQuery(this.#extension.TIME_ELAPSED_EXT);
 		this.#running = false;

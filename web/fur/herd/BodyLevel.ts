@@ -161,15 +161,21 @@ export class BodyLevel {
 		if (this.fins) this.fins.name = `fins of fur, up to ${most} shells`;
 	}
 
-	/** Draws fewer faces from now on, if its bodies are far away. @param simplifier that leaves some out */
-	simplify(surface: FarSurface, simplifier?: FurSimplifier): void {
-		if (this.#most > FAR) return;
+	/**
+	 * Draws fewer faces from now on, if its bodies are far away.
+	 *
+	 * @param simplifier that leaves some out
+	 * @returns them, if so
+	 */
+	simplify(surface: FarSurface, simplifier?: FurSimplifier): BufferGeometry | undefined {
+		if (this.#most > FAR) return undefined;
 		const { asset, shells } = this.#fur;
 		const { defines, furLength } = shells.material;
 		const far = surface.geometry(simplifier, (MOVED * furLength) / (SPACING * this.#most));
 		this.shells.wear(far);
-		if (!simplifier || asset.regions || 'MORPHS' in defines) return;
-		this.fins?.wear(farFins(this.#fur, far, Math.max(Math.floor(this.#most / SHELLS_A_STRIP), 1)));
+		if (simplifier && !asset.regions && !('MORPHS' in defines))
+			this.fins?.wear(farFins(this.#fur, far, Math.max(Math.floor(this.#most / SHELLS_A_STRIP), 1)));
+		return far;
 	}
 
 	/** Lets its draws follow the joints of poses. @param units the shells' axes → the body's */

@@ -146,7 +146,7 @@ export class FurInstances extends Object3D {
 
 	/**
 	 * Draws bodies of levels of at most 12 shells, with hairs of 18 pixels, on fewer faces: those of overlapping patches once,
-	 * and as few as move their surface by a pixel or so.
+	 * and as few as move their surface by a pixel or so. All bodies cast the shadow of such faces.
 	 *
 	 *     await MeshoptSimplifier.ready; // package meshoptimizer
 	 *     herd.simplify(MeshoptSimplifier);
@@ -155,7 +155,8 @@ export class FurInstances extends Object3D {
 	 */
 	simplify(simplifier?: FurSimplifier): void {
 		const far = new FarSurface(this.#fur.shells.geometry);
-		for (const level of this.#levels) level.simplify(far, simplifier);
+		const [finest] = this.#levels.flatMap((level) => level.simplify(far, simplifier) ?? []);
+		if (finest) this.#hull.wear(finest);
 	}
 
 	/** Number of bodies drawn, the first of all. */
