@@ -1,6 +1,6 @@
 /** Colours of the skin at the roots of the hairs, from the model's own picture. */
 
-import { SRGBColorSpace, type Texture, Vector2 } from 'three';
+import { LinearMipmapNearestFilter, SRGBColorSpace, type Texture, Vector2 } from 'three';
 import type { GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 import { FUR_EXTENSION, type FurAsset } from '../../format.ts';
 
@@ -22,6 +22,8 @@ export async function loadRoots(parser: GLTFParser, { roots, tiles = 1 }: FurAss
 	const loaded: Texture | null = parser.json.textures?.[index] && (await parser.getDependency('texture', index));
 	if (!loaded) throw new Error(`${FUR_EXTENSION}/roots: texture ${index} has no picture that can be read`);
 	loaded.colorSpace = SRGBColorSpace;
+	// Hairs hide where the level changes; between two levels every fragment would decode eight texels.
+	loaded.minFilter = LinearMipmapNearestFilter;
 	return { texture: loaded, scale: new Vector2(...scale).multiplyScalar(tiles) };
 }
 
