@@ -200,6 +200,15 @@ test('all bodies cast the shadow of fewer faces, and it looks alike', async ({ p
 	expect(psnr).toBeGreaterThan(50);
 });
 
+test('where fur has become shorter, far bodies have more faces again', async ({ page }) => {
+	await page.evaluate(() => loaded.blind());
+	const wanted: Wanted = { places: [[0, 0, 0, 1]], eye: [0, 2, 20], levels: [12], far: 'fewer' };
+	const faces = async (shorter: number) => (await draw(page, bunny, { ...wanted, shorter })).triangles;
+	const [whole, little, much] = [await faces(1), await faces(0.8), await faces(0.3)];
+	expect(little).toBe(whole);
+	expect(much).toBeGreaterThan(1.2 * whole);
+});
+
 test('only what moves is uploaded', async ({ page }) => {
 	await page.evaluate(() => loaded.blind());
 	const uploads = await page.evaluate(([url, places]) => loaded.frames(url, { places }), [sphere, crowd] as const);

@@ -72,6 +72,8 @@ export interface Wanted {
 	parallel?: boolean;
 	/** highlights and light from behind, switched on after a first draw */
 	shiny?: boolean;
+	/** length of the fur over what it was, changed after a first draw */
+	shorter?: number;
 	/** on a ground, with a lamp that casts shadows */
 	shadow?: boolean;
 	/** without whiskers, which in a herd are a pixel wide at least */
@@ -140,6 +142,10 @@ class Herd {
 		if (wanted.shiny) {
 			this.draw();
 			Object.assign(fur.shells.material, { gloss: 2, backlight: 6 });
+		}
+		if (wanted.shorter) {
+			this.draw();
+			fur.shells.furLength *= wanted.shorter;
 		}
 	}
 

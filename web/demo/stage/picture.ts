@@ -64,7 +64,7 @@ export class Picture {
 	#nextRoom: Room | undefined;
 	readonly #waiting: (() => void)[] = [];
 	readonly frames = new Frames({
-		ready: () => !this.timer.full,
+		ready: () => !this.#inSight || !this.timer.full,
 		draw: (interval, now) => this.#draw(interval, now),
 		rest: () => this.#rest(),
 	});

@@ -65,6 +65,8 @@ export class GpuTimer {
 	end(): void {
 		const fence = this.#gl.fenceSync(this.#gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
 		if (fence) this.#fences.push(fence);
+		// A fence that waits in the browser is never passed.
+		this.#gl.flush();
 		if (!this.#extension || !this.#running) return;
 		this.#gl.endQuery(this.#extension.TIME_ELAPSED_EXT);
 		this.#running = false;

@@ -34,6 +34,9 @@ const SHELLS_A_STRIP = 4;
 /** Pixels by which the surfaces of far bodies may move where they are simplified. */
 const MOVED = 1;
 
+/** How far the surface of a body of that many shells may move, the shells' own units. */
+const moveOf = ({ shells }: Fur, most: number): number => (MOVED * shells.material.furLength) / (SPACING * most);
+
 /** Copy of a fur's material for many bodies; shares all uniforms but the lights and its own. */
 export class BodyMaterial extends ShaderMaterial {
 	readonly #source: ShaderMaterial;
@@ -161,21 +164,14 @@ export class BodyLevel {
 		if (this.fins) this.fins.name = `fins of fur, up to ${most} shells`;
 	}
 
-	/**
-	 * Draws fewer faces from now on, if its bodies are far away.
-	 *
-	 * @param simplifier that leaves some out
-	 * @returns them, if so
-	 */
-	simplify(surface: FarSurface, simplifier?: FurSimplifier): BufferGeometry | undefined {
-		if (this.#most > FAR) return undefined;
+	/** Draws fewer faces from now on, if its bodies are far away. @param simplifier that leaves some out */
+	simplify(surface: FarSurface, simplifier?: FurSimplifier): void {
+		if (this.#most > FAR) return;
 		const { asset, shells } = this.#fur;
-		const { defines, furLength } = shells.material;
-		const far = surface.geometry(simplifier, (MOVED * furLength) / (SPACING * this.#most));
+		const far = surface.geometry(simplifier, moveOf(this.#fur, this.#most));
 		this.shells.wear(far);
-		if (simplifier && !asset.regions && !('MORPHS' in defines))
-			this.fins?.wear(farFins(this.#fur, far, Math.max(Math.floor(this.#most / SHELLS_A_STRIP), 1)));
-		return far;
+		if (!simplifier || asset.regions || 'MORPHS' in shells.material.defines) return;
+		this.fins?.wear(farFins(this.#fur, far, Math.max(Math.floor(this.#most / SHELLS_A_STRIP), 1)));
 	}
 
 	/** Lets its draws follow the joints of poses. @param units the shells' axes → the body's */
@@ -238,6 +234,11 @@ export class BodyHull extends Draw {
 		this.customDepthMaterial = new BodyMaterial(fur.shells.customDepthMaterial);
 		this.#all = Uint32Array.from({ length: capacity }, (_, i) => i);
 		this.name = 'hull';
+	}
+
+	/** Casts the shadow of fewer faces, as bodies that are just far away have them. @param simplifier that leaves some out */
+	simplify(surface: FarSurface, simplifier?: FurSimplifier): void {
+		this.wear(surface.geometry(simplifier, moveOf(this.#fur, FAR)));
 	}
 
 	putAll(count: number, matrices: Float32Array, moved: boolean): void {

@@ -12,6 +12,9 @@ import { placement } from './pieces.ts';
 /** Default number of shells per body of each level. */
 const LEVELS = [96, 48, 24, 12, 8] as const;
 
+/** Length over that of the fur when far bodies were simplified, below which they are so anew. */
+const SHORTER = 0.7;
+
 const clip = new Matrix4();
 const matrix = new Matrix4();
 const own = new Matrix4();
@@ -66,6 +69,8 @@ export class FurInstances extends Object3D {
 	readonly #levels: BodyLevel[];
 	readonly #finMaterial: BodyMaterial | undefined;
 	readonly #hull: BodyHull;
+	/** Argument of `simplify`, its surface, and the length of the fur then. */
+	#far: { surface: FarSurface; simplifier: FurSimplifier | undefined; length: number } | undefined;
 	/** Bounding sphere of all bodies. Shared by all draws, so that the renderer takes them for equally distant. */
 	readonly #bounds = new Sphere();
 
@@ -146,7 +151,8 @@ export class FurInstances extends Object3D {
 
 	/**
 	 * Draws bodies of levels of at most 12 shells, with hairs of 18 pixels, on fewer faces: those of overlapping patches once,
-	 * and as few as move their surface by a pixel or so. All bodies cast the shadow of such faces.
+	 * and as few as move their surface by a pixel or so. All bodies cast the shadow of such
+	 * faces. It is done anew where the fur has become much shorter.
 	 *
 	 *     await MeshoptSimplifier.ready; // package meshoptimizer
 	 *     herd.simplify(MeshoptSimplifier);
@@ -154,9 +160,10 @@ export class FurInstances extends Object3D {
 	 * @param simplifier undefined: only overlaps are left out
 	 */
 	simplify(simplifier?: FurSimplifier): void {
-		const far = new FarSurface(this.#fur.shells.geometry);
-		const [finest] = this.#levels.flatMap((level) => level.simplify(far, simplifier) ?? []);
-		if (finest) this.#hull.wear(finest);
+		const { geometry, furLength: length } = this.#fur.shells;
+		const surface = this.#far?.surface ?? new FarSurface(geometry);
+		this.#far = { surface, simplifier, length };
+		for (const part of [...this.#levels, this.#hull]) part.simplify(surface, simplifier);
 	}
 
 	/** Number of bodies drawn, the first of all. */
@@ -189,6 +196,8 @@ export class FurInstances extends Object3D {
 
 	#refit(): void {
 		this.#fit();
+		// Bodies with hairs of as many pixels are larger in the picture where hairs are shorter.
+		if (this.#far && this.#fur.shells.furLength < SHORTER * this.#far.length) this.simplify(this.#far.simplifier);
 		for (let i = 0; i < this.capacity; i++) this.#place(i, this.getMatrixAt(i, matrix));
 	}
 

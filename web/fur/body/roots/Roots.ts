@@ -21,10 +21,12 @@ export async function loadRoots(parser: GLTFParser, { roots, tiles = 1 }: FurAss
 	const { texture: index, scale } = roots;
 	const loaded: Texture | null = parser.json.textures?.[index] && (await parser.getDependency('texture', index));
 	if (!loaded) throw new Error(`${FUR_EXTENSION}/roots: texture ${index} has no picture that can be read`);
-	loaded.colorSpace = SRGBColorSpace;
+	// The skin may show the same picture.
+	const texture = loaded.clone();
+	texture.colorSpace = SRGBColorSpace;
 	// Hairs hide where the level changes; between two levels every fragment would decode eight texels.
-	loaded.minFilter = LinearMipmapNearestFilter;
-	return { texture: loaded, scale: new Vector2(...scale).multiplyScalar(tiles) };
+	texture.minFilter = LinearMipmapNearestFilter;
+	return { texture, scale: new Vector2(...scale).multiplyScalar(tiles) };
 }
 
 /** @param asset the fur's, whose tiles may be another's than the body's */
