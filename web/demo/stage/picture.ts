@@ -64,7 +64,7 @@ export class Picture {
 	#nextRoom: Room | undefined;
 	readonly #waiting: (() => void)[] = [];
 	readonly frames = new Frames({
-		ready: () => !this.#inSight || !this.timer.full,
+		ready: () => !(this.timer.full && this.stage.crowd && this.#inSight),
 		draw: (interval, now) => this.#draw(interval, now),
 		rest: () => this.#rest(),
 	});
