@@ -22,6 +22,8 @@ import type { Fur } from '../Fur.ts';
 import { beginClip, endClip, type FurColumns } from '../shells/clip.ts';
 import { followHue } from '../shells/hue.ts';
 import { SPACING } from '../shells/lod.ts';
+import { parts } from '../shells/parts/parts.ts';
+import type { BodyDetails } from './BodyDetails.ts';
 import type { FarSurface, FurSimplifier } from './FarSurface.ts';
 import { farFins } from './farFins.ts';
 import type { HerdPoses } from './HerdPoses.ts';
@@ -156,7 +158,7 @@ export class BodyLevel {
 		this.#most = most;
 		// Equally distant objects are drawn by age: create fins before their shells.
 		this.fins = fins && finMaterial && new Draw(fins.geometry, finMaterial, capacity, 1, bounds);
-		this.#material = new BodyMaterial(shells.material, { shellCount: { value: most } });
+		this.#material = new BodyMaterial(shells.material, { shellCount: { value: most }, hardness: { value: 1 } });
 		this.shells = new Draw(shells.geometry, this.#material, capacity, most, bounds);
 		this.#details = new InstancedBufferAttribute(new Float32Array(4 * capacity), 4, false, most);
 		this.shells.geometry.setAttribute('bodyDetail', this.#details);
@@ -183,7 +185,7 @@ export class BodyLevel {
 	 * Draws `count` bodies from `drawn[first]` on.
 	 *
 	 * @param matrices matrices of all bodies
-	 * @param details shells, alpha cut and crispness of all bodies
+	 * @param details of all bodies
 	 * @param moved whether the matrices have changed
 	 */
 	put(
@@ -191,7 +193,7 @@ export class BodyLevel {
 		first: number,
 		count: number,
 		matrices: Float32Array,
-		details: Float32Array,
+		{ values, tiles }: BodyDetails,
 		moved: boolean,
 	): void {
 		const fur = this.#fur;
@@ -201,11 +203,13 @@ export class BodyLevel {
 		this.shells.put(drawn, first, count, matrices, moved);
 		const { array } = this.#details;
 		for (let i = 0; i < 4 * count; i++) {
-			const detail = details[4 * (drawn[first + (i >> 2)] as number) + (i & 3)] as number;
+			const detail = values[4 * (drawn[first + (i >> 2)] as number) + (i & 3)] as number;
 			if (array[i] === detail) continue;
 			array[i] = detail;
 			this.#details.needsUpdate = true;
 		}
+		// Bodies of a level are of about one size.
+		parts.regions?.hardenBorders(this.#material.uniforms, tiles[drawn[first] as number] as number);
 		if (!this.fins || !fur.fins) return;
 		this.fins.receiveShadow = fur.fins.receiveShadow;
 		this.fins.clip = fur.clip;

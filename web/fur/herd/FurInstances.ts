@@ -280,7 +280,7 @@ export class FurInstances extends Object3D {
 		for (let l = 0; l < this.#levels.length; l++) {
 			const first = this.#ends[l + 1] ?? 0;
 			const bodies = (this.#ends[l] as number) - first;
-			this.#levels[l]?.put(this.#drawn, first, bodies, this.#furMatrices, this.#details.values, this.#moved);
+			this.#levels[l]?.put(this.#drawn, first, bodies, this.#furMatrices, this.#details, this.#moved);
 		}
 		this.#finMaterial?.follow();
 		this.#hull.putAll(count, this.#furMatrices, this.#moved);

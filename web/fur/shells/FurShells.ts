@@ -21,6 +21,7 @@ import { beginClip, endClip, type FurColumns } from './clip.ts';
 import type { FurMaterial } from './FurMaterial.ts';
 import { HullMaterial } from './HullMaterial.ts';
 import { coarserShare, crispnessFor, cutFor, pixelsPerUnit, shellsFor } from './lod.ts';
+import { parts } from './parts/parts.ts';
 import { followComb } from './switches.ts';
 
 /** Largest number of shells. */
@@ -50,8 +51,10 @@ export class FurShells extends PosedMesh<InstancedBufferGeometry, FurMaterial> {
 	merging = 0;
 	/** Columns of the picture to draw; undefined: all. */
 	clip: FurColumns | undefined;
-	/** Width of a texel, model units. */
-	readonly #texel: number;
+	/** Width of a tile, model units. */
+	readonly #tile: number;
+	/** Texels along it. */
+	readonly #size: number;
 	readonly #layers: number;
 	/** Lamps at the body's vertices, for all shells; format 2.x. */
 	readonly #light: BodyLight | undefined;
@@ -94,7 +97,8 @@ export class FurShells extends PosedMesh<InstancedBufferGeometry, FurMaterial> {
 		geometry.boundingSphere = sphere;
 		const { size, layers, length } = asset;
 		this.#layers = layers;
-		this.#texel = tileOf(asset) / size;
+		this.#tile = tileOf(asset);
+		this.#size = size;
 		if (material.means) {
 			BodyCurvature.of(surface).mark(geometry);
 			this.#light = new BodyLight(this, pose);
@@ -183,9 +187,11 @@ export class FurShells extends PosedMesh<InstancedBufferGeometry, FurMaterial> {
 					this.coarseness,
 			);
 		this.#merge();
-		const texel = this.#texel * unit * pixelsPerUnit(camera, height, away);
+		const tile = this.#tile * unit * pixelsPerUnit(camera, height, away);
+		const texel = tile / this.#size;
 		this.material.alphaCut = cutFor(texel);
 		this.material.crispness.set(crispnessFor(texel), coarserShare(texel));
+		parts.regions?.hardenBorders(this.material.uniforms, tile);
 		this.material.uniformsNeedUpdate = true;
 		beginClip(renderer, this.clip);
 	}

@@ -3,7 +3,7 @@
 centroid out vec3 vColour; // linear; a factor where there is a colour plane, or a picture of the roots
 #ifdef COLOUR_PLANE
 centroid out float vTip2; // mix of the texel's colour and tip2
-centroid out float vRamp; // place on the ramp
+centroid out vec3 vTips; // tip2 at this height
 #endif
 
 #ifdef ROOTS
@@ -23,7 +23,7 @@ void passColour(ShellPoint shell) {
 #endif
 #ifdef COLOUR_PLANE
 	vTip2 = tipShare * _fur.w;
-	vRamp = rampPlace(shell.s);
+	vTips = rampAt(1.0, rampPlace(shell.s));
 #else
 	vColour *= furRamp(tipShare * _fur.w, shell.s);
 #endif

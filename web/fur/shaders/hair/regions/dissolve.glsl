@@ -9,6 +9,7 @@ centroid in float vLowest;
 centroid in float vHighest;
 #endif
 in vec2 vRoot; // root of the hairs, cells
+uniform float hardness; // see regionUniforms.ts
 
 // Number of a cell, 0..1: PCG (M. E. O'Neill 2014) of its two places.
 float numberOf(ivec2 cell) {
@@ -19,20 +20,18 @@ float numberOf(ivec2 cell) {
 	return float(h >> 8) / 16777216.0;
 }
 
-// Share of this fur in the hairs of a fragment: 0 or 1, and where cells are smaller than pixels their mean.
+// Share of the fur below a bound in hairs of this number: 1 below it, 0 above, and where cells are smaller than pixels the bound.
+float shareBelow(float bound, float number) {
+	return clamp((bound - number) * hardness + number, 0.0, 1.0);
+}
+
+// Share of this fur in the hairs of a fragment. Branches would save nothing: their both sides run on CPUs.
 float furShare() {
-	vec2 apart = fwidth(vRoot);
-#if REGIONS == 2
-	if (vBound >= 1.0) return 1.0;
-#else
-	if (vLowest <= 0.0 && vHighest >= 1.0) return 1.0;
-#endif
 	float number = numberOf(ivec2(floor(vRoot)));
 #if REGIONS == 2
-	float one = step(mix(number, 1.0 - number, furSecond), vBound), mean = clamp(vBound, 0.0, 1.0);
+	return shareBelow(vBound, abs(furSecond - number));
 #else
-	float one = step(vLowest, number) * step(number, vHighest), mean = clamp(vHighest, 0.0, 1.0) - clamp(vLowest, 0.0, 1.0);
+	return shareBelow(vHighest, number) - shareBelow(vLowest, number);
 #endif
-	return mix(one, mean, smoothstep(0.5, 1.5, max(apart.x, apart.y)));
 }
 #endif
