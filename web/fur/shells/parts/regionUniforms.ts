@@ -14,7 +14,7 @@ const HARDEST = 256;
  * @param pixels width of a tile of the coat on screen
  */
 export function hardenBorders({ furCells, hardness }: Record<string, IUniform>, pixels: number): void {
-	if (hardness) hardness.value = 1 / Math.min(Math.max(furCells?.value / pixels - 0.5, 1 / HARDEST), 1);
+	if (furCells && hardness) hardness.value = 1 / Math.min(Math.max(furCells.value / pixels - 0.5, 1 / HARDEST), 1);
 }
 
 /**

@@ -3,6 +3,7 @@
 
 #ifdef REGIONS // number of furs
 #if REGIONS == 2 // a mix of two is cheaper than a branch or a place in a list
+#define VERTEX_TIPS // fragments need not mix the furs' colours; three furs leave no room for it in the varyings
 #define byFur(list, stride, i) mix(list[i], list[(stride) + (i)], furSecond)
 #else
 #define byFur(list, stride, i) list[(stride) * furRegion + (i)]
