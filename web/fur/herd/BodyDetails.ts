@@ -9,20 +9,22 @@ import { coarserShare, crispnessFor, cutFor, pixelsPerUnit, shellsFor } from '..
 export class BodyDetails {
 	/** Four numbers per body. */
 	readonly values: Float32Array;
-	/** Width of a tile of each body on screen, pixels. */
-	readonly tiles: Float32Array;
+	/** Width of a texel of each body on screen, pixels. */
+	readonly texels: Float32Array;
 	readonly #fur: Fur;
 	readonly #most: number;
-	/** Length of the longest hairs and radius of the shells, in the body's axes. */
+	/** Length of the longest hairs, width of a texel and radius of the shells, in the body's axes. */
 	#length = 0;
+	readonly #texel: number;
 	#radius = 0;
 
 	/** @param most largest number of shells of a body */
 	constructor(fur: Fur, capacity: number, most: number) {
 		this.values = new Float32Array(4 * capacity);
-		this.tiles = new Float32Array(capacity);
+		this.texels = new Float32Array(capacity);
 		this.#fur = fur;
 		this.#most = most;
+		this.#texel = tileOf(fur.asset) / fur.asset.size;
 	}
 
 	/** Takes the fur's present length. @param radius of the shells, in the body's axes */
@@ -50,14 +52,13 @@ export class BodyDetails {
 	 * @param height of the picture, pixels
 	 */
 	put(body: number, unit: number, away: number, fewest: number, camera: Camera, height: number): void {
-		const { asset, material, shells } = this.#fur;
+		const { material, shells } = this.#fur;
 		const { automatic, shellCount, coarseness } = shells;
 		const near = Math.max(away - this.#radius * unit, 0.1 * away);
 		const hair = this.#length * unit * pixelsPerUnit(camera, height, near);
 		const wanted = automatic ? shellsFor(hair, fewest * material.trim) / coarseness : shellCount;
-		const tile = tileOf(asset) * unit * pixelsPerUnit(camera, height, away);
-		const texel = tile / asset.size;
-		this.tiles[body] = tile;
+		const texel = this.#texel * unit * pixelsPerUnit(camera, height, away);
+		this.texels[body] = texel;
 		this.values[4 * body] = Math.min(Math.max(wanted, 1), this.#most);
 		this.values[4 * body + 1] = cutFor(texel);
 		this.values[4 * body + 2] = crispnessFor(texel);

@@ -193,7 +193,7 @@ export class BodyLevel {
 		first: number,
 		count: number,
 		matrices: Float32Array,
-		{ values, tiles }: BodyDetails,
+		{ values, texels }: BodyDetails,
 		moved: boolean,
 	): void {
 		const fur = this.#fur;
@@ -209,7 +209,7 @@ export class BodyLevel {
 			this.#details.needsUpdate = true;
 		}
 		// Bodies of a level are of about one size.
-		parts.regions?.hardenBorders(this.#material.uniforms, tiles[drawn[first] as number] as number);
+		parts.regions?.harden(this.#material, texels[drawn[first] as number] as number);
 		if (!this.fins || !fur.fins) return;
 		this.fins.receiveShadow = fur.fins.receiveShadow;
 		this.fins.clip = fur.clip;

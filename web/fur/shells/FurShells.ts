@@ -51,10 +51,8 @@ export class FurShells extends PosedMesh<InstancedBufferGeometry, FurMaterial> {
 	merging = 0;
 	/** Columns of the picture to draw; undefined: all. */
 	clip: FurColumns | undefined;
-	/** Width of a tile, model units. */
-	readonly #tile: number;
-	/** Texels along it. */
-	readonly #size: number;
+	/** Width of a texel, model units. */
+	readonly #texel: number;
 	readonly #layers: number;
 	/** Lamps at the body's vertices, for all shells; format 2.x. */
 	readonly #light: BodyLight | undefined;
@@ -97,8 +95,7 @@ export class FurShells extends PosedMesh<InstancedBufferGeometry, FurMaterial> {
 		geometry.boundingSphere = sphere;
 		const { size, layers, length } = asset;
 		this.#layers = layers;
-		this.#tile = tileOf(asset);
-		this.#size = size;
+		this.#texel = tileOf(asset) / size;
 		if (material.means) {
 			BodyCurvature.of(surface).mark(geometry);
 			this.#light = new BodyLight(this, pose);
@@ -187,11 +184,10 @@ export class FurShells extends PosedMesh<InstancedBufferGeometry, FurMaterial> {
 					this.coarseness,
 			);
 		this.#merge();
-		const tile = this.#tile * unit * pixelsPerUnit(camera, height, away);
-		const texel = tile / this.#size;
+		const texel = this.#texel * unit * pixelsPerUnit(camera, height, away);
 		this.material.alphaCut = cutFor(texel);
 		this.material.crispness.set(crispnessFor(texel), coarserShare(texel));
-		parts.regions?.hardenBorders(this.material.uniforms, tile);
+		parts.regions?.harden(this.material, texel);
 		this.material.uniformsNeedUpdate = true;
 		beginClip(renderer, this.clip);
 	}

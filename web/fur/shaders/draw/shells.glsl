@@ -3,7 +3,7 @@
 #ifdef MULTIPLE
 vec3 slabColour(FurPoint point, float tint) {
 #ifdef COLOUR_PLANE
-	return baseColour * mix(ofSlab(point, HAIRS).rgb, secondTips * tint, vTip2);
+	return baseColour * mix(ofSlab(point, HAIRS).rgb, rampAt(1.0, vRamp) * tint, vTip2);
 #else
 	return baseColour * tint;
 #endif

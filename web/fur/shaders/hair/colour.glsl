@@ -35,6 +35,12 @@ vec3 rampAt(float tipShare, float place) {
 #endif
 }
 
+// Varying vRamp: the place on the ramp; of two furs the colour of tip2 there, see furs.glsl.
+#ifndef Ramp
+#define Ramp float
+#define rampOf
+#endif
+
 vec3 furRamp(float tipShare, float s) {
 	return rampAt(tipShare, rampPlace(s));
 }

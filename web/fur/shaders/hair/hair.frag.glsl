@@ -16,13 +16,7 @@ vec3 rootColour; // colour at the roots of this fragment's hairs
 centroid in vec3 vColour;
 #ifdef COLOUR_PLANE
 centroid in float vTip2;
-#ifdef VERTEX_TIPS
-centroid in vec3 vTips;
-#define secondTips vTips
-#else
-centroid in float vRamp;
-#define secondTips rampAt(1.0, vRamp)
-#endif
+centroid in Ramp vRamp;
 #endif
 
 vec3 hairColour(vec3 at, float tint) {
@@ -31,7 +25,7 @@ vec3 hairColour(vec3 at, float tint) {
 	rootColour = texture(roots, rootTiles(at) * furWidth * rootsUnit).rgb;
 #endif
 #ifdef COLOUR_PLANE
-	return soiled(baseColour * mix(furBytes(colourPlane, at).rgb, secondTips * tint, vTip2));
+	return soiled(baseColour * mix(furBytes(colourPlane, at).rgb, rampAt(1.0, vRamp) * tint, vTip2));
 #else
 	return soiled(baseColour * tint);
 #endif

@@ -3,13 +3,7 @@
 centroid out vec3 vColour; // linear; a factor where there is a colour plane, or a picture of the roots
 #ifdef COLOUR_PLANE
 centroid out float vTip2; // mix of the texel's colour and tip2
-#ifdef VERTEX_TIPS
-centroid out vec3 vTips; // tip2 at this height
-#define secondTips vTips
-#else
-centroid out float vRamp; // place on the ramp
-#define secondTips rampAt(1.0, vRamp)
-#endif
+centroid out Ramp vRamp;
 #endif
 
 #ifdef ROOTS
@@ -29,12 +23,7 @@ void passColour(ShellPoint shell) {
 #endif
 #ifdef COLOUR_PLANE
 	vTip2 = tipShare * _fur.w;
-	float place = rampPlace(shell.s);
-#ifdef VERTEX_TIPS
-	vTips = rampAt(1.0, place);
-#else
-	vRamp = place;
-#endif
+	vRamp = rampOf(rampPlace(shell.s));
 #else
 	vColour *= furRamp(tipShare * _fur.w, shell.s);
 #endif

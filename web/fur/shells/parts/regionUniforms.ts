@@ -1,6 +1,6 @@
 /** Numbers of several furs on one body, as uniforms. See shaders/hair/regions/region.glsl. */
 
-import { Color, type IUniform } from 'three';
+import { Color, type IUniform, type ShaderMaterial } from 'three';
 import type { FurAsset } from '../../format.ts';
 import { leanOf } from '../../light/bent.ts';
 
@@ -10,11 +10,12 @@ const HARDEST = 256;
 /**
  * Sets how hard borders are: 1, a mix, where cells are smaller than pixels.
  *
- * @param uniforms of a material of shells
- * @param pixels width of a tile of the coat on screen
+ * @param material of shells
+ * @param texel width of a texel of the coat on screen, pixels
  */
-export function hardenBorders({ furCells, hardness }: Record<string, IUniform>, pixels: number): void {
-	if (furCells && hardness) hardness.value = 1 / Math.min(Math.max(furCells.value / pixels - 0.5, 1 / HARDEST), 1);
+export function harden({ uniforms: { cellTexels, hardness } }: ShaderMaterial, texel: number): void {
+	if (cellTexels && hardness)
+		hardness.value = 1 / Math.min(Math.max(1 / (cellTexels.value * texel) - 0.5, 1 / HARDEST), 1);
 }
 
 /**
@@ -29,6 +30,7 @@ export function regionUniforms(
 ): Record<string, IUniform> {
 	return {
 		furCells: { value: cells },
+		cellTexels: { value: (hairs[0] as FurAsset).size / cells }, // for `harden`
 		hardness: { value: HARDEST },
 		tileWidths: { value: [1, ...regions.map(({ tile }) => tile)] },
 		leans: { value: hairs.map(leanOf) },

@@ -3,7 +3,12 @@
 
 #ifdef REGIONS // number of furs
 #if REGIONS == 2 // a mix of two is cheaper than a branch or a place in a list
-#define VERTEX_TIPS // fragments need not mix the furs' colours; three furs leave no room for it in the varyings
+// Fragments need not mix the furs' colours. Three furs leave no room for it in the varyings.
+#define Ramp vec3
+#define rampOf(place) rampAt(1.0, place)
+vec3 rampAt(float tipShare, vec3 colour) {
+	return colour;
+}
 #define byFur(list, stride, i) mix(list[i], list[(stride) + (i)], furSecond)
 #else
 #define byFur(list, stride, i) list[(stride) * furRegion + (i)]
