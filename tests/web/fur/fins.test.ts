@@ -132,12 +132,15 @@ describe('varyings', () => {
 	/** Rows of the packing that GLSL ES fixes: a vec4, a vec3 and each column of a matrix take a row, the rest fits beside. */
 	function rows(material: PeltMaterial): number {
 		const all = [...compiled(material).matchAll(/^(?:flat |centroid )?out (\w+) (\w+);/gm)];
+		const ofDefines: Record<string, string> = {
+			Strength: 'ONE_HUE' in material.defines ? 'float' : 'vec3',
+			Ramp: material.defines.REGIONS === 2 ? 'vec3' : 'float', // see regions/furs.glsl
+			uint: 'float',
+		};
 		const either = EITHER.every((wanted) => all.some(([, , name]) => name === wanted));
 		const found = all
 			.filter(([, , name]) => !(either && name === EITHER[0]))
-			.map(([, type = '']) =>
-				type === 'Strength' ? ('ONE_HUE' in material.defines ? 'float' : 'vec3') : type === 'uint' ? 'float' : type,
-			);
+			.map(([, type = '']) => ofDefines[type] ?? type);
 		const count = (type: string) => found.filter((name) => name === type).length;
 		const three = 3 * count('mat3') + count('vec3');
 		const four = count('vec4');
