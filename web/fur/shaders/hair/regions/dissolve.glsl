@@ -25,7 +25,7 @@ float shareBelow(float bound, float number) {
 	return clamp((bound - number) * hardness + number, 0.0, 1.0);
 }
 
-// Share of this fur in the hairs of a fragment. Branches would save nothing: their both sides run on CPUs.
+// Share of this fur in the hairs of a fragment. A branch would save nothing: software runs both sides.
 float furShare() {
 	float number = numberOf(ivec2(floor(vRoot)));
 #if REGIONS == 2
