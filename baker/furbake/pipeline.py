@@ -95,8 +95,8 @@ def bake(
     with atomic_folder(out, force) as folder, archive_file as archive, Beside(apart=helped) as beside:
         with clock.stage("mesh"):
             body = prepare(model, options)
-        notices = (*body.skin.notices, *body.notices)
         given, options = options, body.dressed(options)
+        notices = (*body.skin.notices, *body.notices, *_hues(body, options))
         for notice in notices:
             notify(notice)
         make = partial(Pelts, clock.stage, beside, cache, spread)
@@ -156,11 +156,22 @@ def _furry(
     )
 
 
-def _roots(body: Body, options: BakeOptions, dry: Pelt) -> Roots | None:
-    """The picture of the roots; None where hairs have the colours of the vertices, or those of an artist's groom."""
+def _pictured(body: Body, options: BakeOptions) -> bool:
+    """True where hairs have the colours of the model's picture, not those of an artist's groom or a photograph."""
     by_skin = body.fur.colour is not None and body.fur.own is None
-    coloured = by_skin and textured(body.skin) and dry.curves is not None
-    if options.colour == "vertex" or options.swatch is not None or not coloured:
+    return by_skin and textured(body.skin) and options.swatch is None
+
+
+def _hues(body: Body, options: BakeOptions) -> tuple[str, ...]:
+    """A notice where a preset's hues come over those of the model's picture."""
+    if not (_pictured(body, options) and options.ramp.hued):
+        return ()
+    return (f"colours: the picture's times those of {options.preset}; --own-colours leaves its hues out",)
+
+
+def _roots(body: Body, options: BakeOptions, dry: Pelt) -> Roots | None:
+    """The picture of the roots; None where hairs have the colours of the vertices, or none of the model's picture."""
+    if options.colour == "vertex" or not _pictured(body, options) or dry.curves is None:
         return None
     return picture_of_roots(body.skin, body.ground, body.charts, dry.drift[-1], options.size)
 

@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
+from PIL import Image
 
 from furbake import BakeOptions, bake, validate
 from furbake.asset.extension import STATE
@@ -15,7 +17,8 @@ from furbake.asset.inspect import summary
 from furbake.asset.planes import Planes, read_png, unpack
 from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt
-from furbake.options import OptionError
+from furbake.groom.strands import groom
+from furbake.options import OptionError, preset
 from furbake.pelt.hairs.states import WETNESS
 from furbake.pelt.hairs.states import chosen as states_of
 from furbake.pelt.light.transport import hemisphere
@@ -151,6 +154,26 @@ def test_fins_can_be_left_out(tmp_path: Path) -> None:
     assert "fins" not in plain.record["asset"]
     assert not list(plain.folder.glob("fin*"))
     assert validate(plain.folder) == []
+
+
+@pytest.mark.parametrize("own", [False, True])
+def test_hairs_of_a_body_with_a_picture_have_its_hue_or_the_preset_s_besides(tmp_path: Path, own: bool) -> None:
+    paint = np.array([[[40, 200, 90], [27, 145, 64]]], dtype=np.uint8)  # the second is half as bright
+    ball = trimesh.creation.icosphere(subdivisions=2)
+    material = trimesh.visual.material.PBRMaterial(baseColorTexture=Image.fromarray(paint))
+    ball.visual = trimesh.visual.TextureVisuals(uv=0.5 + 0.4 * ball.vertices[:, :2], material=material)
+    ball.export(tmp_path / "ball.glb")
+    options = preset("fox", own_colours=own)
+    options = replace(options, layers=4, size=16, lights=8, length=0.2)
+    baked = bake(str(tmp_path / "ball.glb"), tmp_path / "out", options)
+    told = "colours: the picture's times those of fox; --own-colours leaves its hues out"
+    assert (told in baked.notices) is not own
+    hairs = groom(baked.folder).colour
+    tips = hairs[:, -1].reshape(-1, 3)
+    tips = tips / tips.sum(axis=1, keepdims=True)
+    skin = ((paint[0, 0] / 255 + 0.055) / 1.055) ** 2.4  # sRGB decoded
+    off = np.abs(tips - skin / skin.sum()).max(axis=1)
+    assert np.quantile(off, 0.9) < 0.01 if own else np.median(off) > 0.05
 
 
 def test_a_body_of_creases_has_fins_beside_them(tmp_path: Path, write_obj: Any, cube: Any) -> None:

@@ -73,6 +73,9 @@ BAKE = [
         "--colour", metavar="texture|vertex",
         help="each hair in the colour of the model's picture at its root (default), or one colour per vertex",
     ),
+    unset_switch(
+        "--own-colours", "hairs in the model's own colours, from dark to light as the preset's are, without their hues"
+    ),
     option(
         "--max-faces", metavar="F", type=WHOLE,
         help=f"simplify larger models, {MAX_FACES.range} (default: 60000)",

@@ -22,7 +22,7 @@ GIVEN = (
 
 def chosen(args: SimpleNamespace) -> BakeOptions:
     """The preset's options, overridden by every `--set`, then by the options of the command."""
-    options = preset(args.preset)
+    options = preset(args.preset, bool(getattr(args, "own_colours", None)))
     try:
         options = override(options, dict(args.set))
     except OptionError as error:

@@ -9,15 +9,13 @@ import numpy as np
 from furbake.imported.bind import Bound
 from furbake.imported.curves import Floats
 from furbake.imported.fields import Fields, Standing
-from furbake.pelt.hairs.ramp import Ramp
+from furbake.pelt.hairs.ramp import LUMINANCE, Ramp
 
 BRIGHT = 0.95
 """Share of places, and of hairs, that are no brighter than the ramp."""
 
 EVEN = 0.02
 """Spread of brightness from hair to hair below which there is none."""
-
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
 @dataclass(frozen=True)

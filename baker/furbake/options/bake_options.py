@@ -34,13 +34,14 @@ THIN: dict[str, Any] = {"layers": 1, "height_share": 0.05}
 
 LATER = (
     "directions", "states", "dirt", "auto_length", "pose", "swatch", "colour", "regions", "rig", "groom", "follow",
+    "own_colours",
 )  # fmt: skip
 """Options that early records do not have."""
 
 OF_BODY = (
     "preset", "length", "tile", "height", "guide", "sweep", "uv", "length_by_thickness", "auto_length", "length_noise",
     "tip_noise", "belly", "max_faces", "pose", "length_map", "mask", "comb", "features", "rig", "fins",
-    "tile_share", "height_share", "meshopt", "colour", "regions", "groom", "follow",
+    "tile_share", "height_share", "meshopt", "colour", "own_colours", "regions", "groom", "follow",
 )  # fmt: skip
 """Options of the body that wears a tile, or by which the tile's height is found; all others are the tile's own."""
 
@@ -84,6 +85,8 @@ class BakeOptions:
     """Lapped patches along the fur, or the model's own texture coordinates."""
     colour: ColourKind = "texture"
     """Colour of hairs on a model with a picture: the picture's at their roots, or one per vertex."""
+    own_colours: bool = False
+    """Hairs in the model's own colours: `ramp`, here and in regions, is without the hues of its preset."""
     length_by_thickness: bool = False
     """Shorter fur where the body is thin (ears, feet)."""
     auto_length: bool = False
@@ -150,7 +153,7 @@ class BakeOptions:
         if self.colour not in COLOURS:
             raise OptionError(f"colour: got {knobs.show(self.colour)}, expected {' or '.join(COLOURS)}")
         if self.pose is not None:
-            clip_at(self.pose)
+            knobs.clip_at(self.pose)
         for name, length in (("length", self.length), ("tile", self.tile)):
             if length is not None and not LENGTH.low <= length <= LENGTH.high:
                 raise OptionError(
@@ -265,18 +268,6 @@ def named_files(options: BakeOptions) -> dict[str, str]:
     """Files that the options name, by option."""
     named = {name: getattr(options, name) for name in FILES} | {"regions": options.region_file}
     return {name: file for name, file in named.items() if file is not None and not file.startswith(OF_VERTICES)}
-
-
-def clip_at(pose: str) -> tuple[str, float]:
-    """Clip and seconds of `pose`. Raises OptionError."""
-    clip, at, seconds = pose.rpartition("@")
-    try:
-        number = float(seconds)
-    except ValueError:
-        number = -1.0
-    if not clip or not at or not 0.0 <= number < float("inf"):
-        raise OptionError(f"pose: got {pose!r}, expected CLIP@SECONDS with seconds from 0, such as Walk@0.4")
-    return clip, number
 
 
 def values_of(options: BakeOptions) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import difflib
 import json
+import re
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -18,6 +19,9 @@ from typing import Any, Literal
 Kind = Literal["switch", "whole number", "number", "pair", "colour", "word"]
 
 ELEMENTS = {"pair": 2, "colour": 3}
+
+BARE_POINT = re.compile(r"(?<![\w.])\.(?=\d)")
+"""Point at which a number begins, which TOML does not have."""
 
 
 class OptionError(ValueError):
@@ -230,14 +234,30 @@ def read(table: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def parse(name: str, text: str) -> Any:
-    """The value of a knob from the text after `=` on a command line: TOML, quotes and outer brackets optional."""
+    """The value of a knob from the text after `=` on a command line: TOML.
+
+    Quotes, outer brackets and a zero before a point are optional.
+    """
     knob = find(name)
-    bracketed = f"[{text}]" if knob.kind in ELEMENTS and not text.lstrip().startswith("[") else text
+    plain = BARE_POINT.sub("0.", text)
+    bracketed = f"[{plain}]" if knob.kind in ELEMENTS and not plain.lstrip().startswith("[") else plain
     try:
         (value,) = [text] if knob.kind == "word" else tomllib.loads(f"value = {bracketed}").values()
     except (ValueError, RecursionError):
         raise OptionError(f"{name}: got {show(text)}, expected {knob.expected}") from None
     return knob.take(name, value)
+
+
+def clip_at(pose: str) -> tuple[str, float]:
+    """Clip and seconds of `pose`. Raises OptionError."""
+    clip, at, seconds = pose.rpartition("@")
+    try:
+        number = float(seconds)
+    except ValueError:
+        number = -1.0
+    if not clip or not at or not 0.0 <= number < float("inf"):
+        raise OptionError(f"pose: got {pose!r}, expected CLIP@SECONDS with seconds from 0, such as Walk@0.4")
+    return clip, number
 
 
 def write(values: Mapping[str, Any], comments: bool = True) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -23,16 +23,18 @@ def preset_names() -> list[str]:
     return sorted(entry.name.removesuffix(".toml") for entry in entries if entry.name.endswith(".toml"))
 
 
-def preset(name: str | Path) -> BakeOptions:
+def preset(name: str | Path, own_colours: bool = False) -> BakeOptions:
     """The options that a preset sets, the rest at their defaults.
 
     name : of one that comes with furbake, or a path that ends in `.toml`: a file of knobs like theirs, which may begin
         with `extends = NAME` (or another file's path, seen from its own folder)
+    own_colours : hairs are in the model's colours, so the preset's are without their hues
 
     Raises OptionError for an unknown preset, and for a knob that is unknown, of another type or out of range.
     """
     values, label = _load(str(name), ())
-    return with_knobs(BakeOptions(preset=label), values)
+    options = with_knobs(BakeOptions(preset=label), values)
+    return replace(options, own_colours=True, ramp=options.ramp.grey) if own_colours else options
 
 
 def override(options: BakeOptions, texts: Mapping[str, str]) -> BakeOptions:

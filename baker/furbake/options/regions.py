@@ -138,7 +138,7 @@ def _options(name: str, entry: Mapping[str, Any], folder: Path, coat: BakeOption
     options = coat
     try:
         if (worn := _text("preset", entry)) is not None:
-            found = preset(str(folder / worn) if worn.endswith(".toml") else worn)
+            found = preset(str(folder / worn) if worn.endswith(".toml") else worn, coat.own_colours)
             options = replace(coat, **{key: getattr(found, key) for key in ("preset", "coat", "ramp", *OWN)})
             options = replace(options, length=None, tile=None, height=None, height_share=found.height_share)
         table = entry.get("set", {})

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from furbake.options import BakeOptions, OptionError, as_toml, override, preset, preset_names, preset_summary
@@ -185,7 +186,7 @@ def test_override() -> None:
         "coat.guard.count": "7",
         "coat.lean": "0.1, -0.2",
         "coat.under.fade": "[0.5, 1]",
-        "ramp.tip": "0.5,0.4,0.3",
+        "ramp.tip": ".5,0.4,.3",
         "basis": "eigen",
         "colour_plane": "false",
         "height": "0.4",
@@ -202,6 +203,26 @@ def test_override() -> None:
     assert override(fox, {}) == fox
 
 
+@pytest.mark.parametrize("name", preset_names())
+def test_own_colours_leave_the_light_and_dark_of_a_preset(name: str) -> None:
+    dyed, grey = preset(name), preset(name, own_colours=True)
+    assert replace(grey, ramp=dyed.ramp, own_colours=False) == dyed
+    colours = np.array([[getattr(ramp, part) for part in ("root", "tip", "tip2")] for ramp in (dyed.ramp, grey.ramp)])
+    assert (colours[1] == colours[1, :, :1]).all()
+    assert colours[1].max() == 1
+    light = colours @ [0.2126, 0.7152, 0.0722]
+    np.testing.assert_allclose(light[1] / light[1].max(), light[0] / light[0, 1:].max(), atol=1e-12)
+    assert grey.ramp.power == dyed.ramp.power
+    assert not grey.ramp.hued
+
+
+def test_which_ramps_have_a_hue() -> None:
+    assert preset("fox").ramp.hued
+    assert not Ramp(root=(0.5, 0.2, 0.1), tip=(1, 1, 1), tip2=(0.9, 0.8, 0.75)).hued
+    assert not Ramp(tip=(0, 0, 0), tip2=(0, 0, 0)).hued
+    assert Ramp(tip=(0, 0, 0), tip2=(0, 0, 0)).grey.tip == (0, 0, 0)
+
+
 @pytest.mark.parametrize(
     ("name", "text", "message"),
     [
@@ -213,6 +234,7 @@ def test_override() -> None:
         ("layers", "65", "layers: got 65, expected 1 to 64"),
         ("coat.lean", "1", "coat.lean: got [1], expected two numbers, each -2 to 2"),
         ("coat.bend", "inf", "coat.bend: got inf, expected 1 to 4"),
+        ("coat.bend", "2..5", "coat.bend: got '2..5', expected a number, 1 to 4"),
         ("basis", "fft", "basis: got 'fft', expected ptm or eigen"),
     ],
 )

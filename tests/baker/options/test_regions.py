@@ -39,6 +39,15 @@ def test_without_a_preset_all_is_as_in_the_coat(tmp_path: Path) -> None:
     assert mane.options == coat
 
 
+def test_own_colours_leave_the_hues_of_a_region_s_preset_out_but_not_its_own_tip(tmp_path: Path) -> None:
+    coat = preset("fox", own_colours=True)
+    ear, mane = read(
+        tmp_path, f'[ear]\n{BALL}\npreset = "teddy"\n[mane]\n{BALL}\npreset = "teddy"\ntip = [1, 0, 0]', coat
+    )
+    assert ear.options.ramp == preset("teddy").ramp.grey
+    assert mane.options.ramp.tip == (1, 0, 0)
+
+
 def test_files_are_seen_from_the_toml_file(tmp_path: Path) -> None:
     (tmp_path / "own.toml").write_text('extends = "mole"\n')
     path = tmp_path / "lion.toml"
