@@ -63,6 +63,23 @@ export async function settled(page: Page, name: string): Promise<string | null> 
 	return new URL(page.url()).searchParams.get(name);
 }
 
+/** Waits for frames of the page, each drawn to its end: else the next would wait for it. @param count of them */
+export const frames = (page: Page, count: number) =>
+	page.evaluate(
+		(count) =>
+			new Promise<void>((resolve) => {
+				const gl = document.querySelector<HTMLCanvasElement>('canvas#picture')?.getContext('webgl2');
+				const next = (left: number) => {
+					// Browsers do not wait in finish().
+					gl?.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+					if (left > 0) requestAnimationFrame(() => next(left - 1));
+					else resolve();
+				};
+				next(count);
+			}),
+		count,
+	);
+
 export interface Picture {
 	width: number;
 	height: number;
@@ -72,6 +89,7 @@ export interface Picture {
 
 /** What a page, or an element of it, looks like. */
 export async function picture(shown: Page | Locator): Promise<Picture> {
+	await frames('page' in shown ? shown.page() : shown, 2);
 	const { width, height, data, channels } = decode(await shown.screenshot());
 	const brightness = new Float32Array(width * height);
 	for (let i = 0; i < brightness.length; i++) {

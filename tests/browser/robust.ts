@@ -2,12 +2,16 @@
 
 import type { Page } from '@playwright/test';
 import { decode } from 'fast-png';
-import { expect, state } from './harness.ts';
+import { expect, frames, state } from './harness.ts';
 
 /** A light model, lit from the side. */
 export const calm = '?model=sphere&shells=6&still=1&ui=0&light=-.8,.5,.3';
 
-export const shot = (page: Page) => page.screenshot();
+/** A picture of the page, with what was asked for before. */
+export async function shot(page: Page): Promise<Buffer> {
+	await frames(page, 2);
+	return page.screenshot();
+}
 
 /** Decibels between two pictures of one size; Infinity for the same. */
 export function psnr(a: Buffer, b: Buffer): number {
@@ -31,17 +35,6 @@ export function middle(png: Buffer): { mean: number; spread: number } {
 }
 
 export const canvasWidth = (page: Page) => page.evaluate(() => document.querySelector('canvas')?.width);
-
-/** @param count of the page's own frames */
-export const frames = (page: Page, count: number) =>
-	page.evaluate(
-		(count) =>
-			new Promise<void>((resolve) => {
-				const next = (left: number) => (left > 0 ? requestAnimationFrame(() => next(left - 1)) : resolve());
-				next(count);
-			}),
-		count,
-	);
 
 /** Takes the context away and gives it back. */
 export async function loseContext(page: Page): Promise<void> {

@@ -135,7 +135,7 @@ function followContext(picture: Picture, exhibit: Exhibit): void {
 		if (picture.stage.model) setState('loading');
 	});
 	picture.canvas.addEventListener('webglcontextrestored', () => {
-		picture.timer.restore();
+		picture.gpu.restore();
 		void exhibit.style();
 		void exhibit.settle();
 	});

@@ -1,8 +1,8 @@
 /** A lost context comes back, and what is disposed of is gone. */
 
-import { expect, open, state, test } from '../harness.ts';
+import { expect, frames, open, state, test } from '../harness.ts';
 import { drawNothing, shrinkPicture, watchGpu } from '../inPage/gpu.ts';
-import { calm, canvasWidth, frames, loseContext, middle, psnr, restyle, shot } from '../robust.ts';
+import { calm, canvasWidth, loseContext, middle, psnr, restyle, shot } from '../robust.ts';
 
 /** Of two models each. Counts must be equal to the object: what a round leaves, every round leaves. */
 const ROUNDS = 50;

@@ -1,9 +1,9 @@
 /** Fewer pixels where frames take long; how long they take is told to it, so none is drawn. */
 
 import type { Page } from '@playwright/test';
-import { expect, open, test } from '../harness.ts';
+import { expect, frames, open, test } from '../harness.ts';
 import { drawNothing, shrinkPicture, watchGpu } from '../inPage/gpu.ts';
-import { calm, canvasWidth, frames } from '../robust.ts';
+import { calm, canvasWidth } from '../robust.ts';
 
 test.use({ viewport: { width: 100, height: 80 } });
 
@@ -49,10 +49,10 @@ test('leaves pictures alone with still=1', async ({ page }) => {
 	expect(await canvasWidth(page)).toBe(100);
 });
 
-test('with a crowd, waits for a GPU that is behind, and goes on from where the hand is then', async ({ page }) => {
+test('waits for a GPU that is behind, and goes on from where the hand is then', async ({ page }) => {
 	await drawNothing(page);
 	await watchGpu(page);
-	await open(page, '?model=sphere&crowd=2&light=-.8,.5,.3');
+	await open(page, '?model=sphere&shells=2&light=-.8,.5,.3');
 	const light = () => new URL(page.url()).searchParams.get('light');
 	await page.evaluate(() => {
 		window.gpu.behind = true;

@@ -2,7 +2,7 @@
 
 import type { Page } from '@playwright/test';
 import { decode } from 'fast-png';
-import { expect, open, state, test } from '../harness.ts';
+import { expect, frames, open, state, test } from '../harness.ts';
 import { shrinkPicture } from '../inPage/gpu.ts';
 import { psnr } from '../robust.ts';
 
@@ -17,7 +17,10 @@ const model = '?model=sphere&preset=bunny&shells=6&light=-.5,.5,.7&camera=0,0,.9
 const makeSmall = (page: Page) =>
 	shrinkPicture(page, width, height, [left, top], '#hint, #loading, #notices, #overlay');
 
-const shot = (page: Page) => page.locator('#picture').screenshot();
+async function shot(page: Page): Promise<Buffer> {
+	await frame(page);
+	return page.locator('#picture').screenshot();
+}
 const tool = (page: Page, name: string) => page.getByRole('radio', { name });
 const ready = (page: Page) => expect.poll(() => state(page), { intervals: [50] }).toBe('ready');
 /** Where no ring follows. */
@@ -36,8 +39,7 @@ async function drag(page: Page, ...way: [x: number, y: number][]): Promise<void>
 	await frame(page);
 }
 
-const frame = (page: Page) =>
-	page.evaluate(() => new Promise<void>((done) => requestAnimationFrame(() => requestAnimationFrame(() => done()))));
+const frame = (page: Page) => frames(page, 2);
 
 interface Region {
 	/** mean brightness of the first and the second picture, 0..255 */

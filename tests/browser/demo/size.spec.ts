@@ -1,8 +1,8 @@
 /** The picture's size: as the window, the layout and the screen have it. */
 
-import { expect, open, state, test } from '../harness.ts';
+import { expect, frames, open, state, test } from '../harness.ts';
 import { shrinkPicture } from '../inPage/gpu.ts';
-import { calm, canvasWidth, frames, middle, psnr, restyle, shot } from '../robust.ts';
+import { calm, canvasWidth, middle, psnr, restyle, shot } from '../robust.ts';
 
 test.use({ viewport: { width: 200, height: 160 } });
 

@@ -2,10 +2,10 @@
 
 import type { Page } from '@playwright/test';
 import { openModule } from '../../../web/tools/browser.mjs';
-import { expect, open, site, test } from '../harness.ts';
+import { expect, frames, open, site, test } from '../harness.ts';
 import { drawNothing, watchGpu } from '../inPage/gpu.ts';
 import { served } from '../library.ts';
-import { calm, frames, hasten, psnr, shot } from '../robust.ts';
+import { calm, hasten, psnr, shot } from '../robust.ts';
 
 declare const loaded: typeof import('../inPage/breeze.ts');
 

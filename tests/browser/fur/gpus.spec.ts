@@ -1,8 +1,8 @@
 /** Poorer GPUs: what they lack is done without, what they cannot hold is told. */
 
-import { expect, open, state, test } from '../harness.ts';
+import { expect, frames, open, state, test } from '../harness.ts';
 import { shrinkPicture, watchGpu } from '../inPage/gpu.ts';
-import { calm, frames, loseContext, middle, psnr, shot } from '../robust.ts';
+import { calm, loseContext, middle, psnr, shot } from '../robust.ts';
 
 test.use({ viewport: { width: 120, height: 96 } });
 

@@ -2,8 +2,8 @@
 
 import type { Graph } from '../say/graphs.ts';
 import type { Words } from '../words/index.ts';
+import type { GpuFrames } from './gpuFrames.ts';
 import type { Stage } from './stage.ts';
-import type { GpuTimer } from './timer.ts';
 
 const READING_INTERVAL = 250; // milliseconds between two readings
 
@@ -13,7 +13,7 @@ export class Overlay {
 	shells: { shellCount: number } | undefined;
 	#textures = 0;
 	readonly #stage: Stage;
-	readonly #timer: GpuTimer;
+	readonly #gpuFrames: GpuFrames;
 	readonly #words: Words;
 	readonly #speed = document.createElement('span');
 	readonly #shellCount = document.createElement('span');
@@ -32,18 +32,18 @@ export class Overlay {
 	#busy = 0;
 
 	/**
-	 * @param timer shows its latest time; the picture reads it
+	 * @param gpu shows its latest time; the picture reads it
 	 * @param switched called when a visitor wants details, or no more of them
 	 */
 	constructor(
 		parent: HTMLElement,
-		{ stage, timer }: { stage: Stage; timer: GpuTimer },
+		{ stage, gpu }: { stage: Stage; gpu: GpuFrames },
 		words: Words,
 		language: string,
 		switched: (details: boolean) => void,
 	) {
 		this.#stage = stage;
-		this.#timer = timer;
+		this.#gpuFrames = gpu;
 		this.#words = words;
 		this.#whole = new Intl.NumberFormat(language, { maximumFractionDigits: 0 });
 		this.#graphs.className = 'graphs';
@@ -76,7 +76,7 @@ export class Overlay {
 		const time = (name: string) => (value: number) => `${name} ${milliseconds(value.toFixed(1))}`;
 		this.#fps = new Graph(this.#graphs, '#0ff', '#002', (value) => perSecond(this.#whole.format(value)));
 		this.#cpu = new Graph(this.#graphs, '#0f0', '#020', time('CPU'));
-		if (this.#timer.works) this.#gpu = new Graph(this.#graphs, '#ff0', '#220', time('GPU'));
+		if (this.#gpuFrames.timed) this.#gpu = new Graph(this.#graphs, '#ff0', '#220', time('GPU'));
 	}
 
 	/** Bytes of all textures of the scene. */
@@ -107,7 +107,7 @@ export class Overlay {
 		const time = (now - this.#read) / this.#frames;
 		this.#fps?.show(1000 / time);
 		this.#cpu?.show(this.#busy / this.#frames);
-		this.#gpu?.show(this.#timer.latest);
+		this.#gpu?.show(this.#gpuFrames.latest);
 		this.#read = now;
 		this.#frames = 0;
 		this.#busy = 0;

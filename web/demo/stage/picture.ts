@@ -8,12 +8,12 @@ import type { Room } from '../../page/room.ts';
 import type { Triple } from '../state/view.ts';
 import { OrbitCamera } from './camera.ts';
 import { Frames } from './frames.ts';
+import { GpuFrames } from './gpuFrames.ts';
 import { textureBytes } from './memory.ts';
 import type { Overlay } from './overlay.ts';
 import { watchSight, watchSize } from './size.ts';
 import { type ShellSpacing, Spacing } from './spacing.ts';
 import { Stage } from './stage.ts';
-import { GpuTimer } from './timer.ts';
 
 /** Milliseconds after the last move in which the governor restores the full resolution. */
 const SETTLING_TIME = 1200;
@@ -46,7 +46,7 @@ export class Picture {
 	readonly lamp = new Lamp();
 	/** Lamp and ring of the brush, left out of saved pictures. */
 	readonly guides = new Group();
-	readonly timer: GpuTimer;
+	readonly gpu: GpuFrames;
 	/** Overlay of figures, if any. */
 	overlay: Overlay | undefined;
 	/**
@@ -64,7 +64,7 @@ export class Picture {
 	#nextRoom: Room | undefined;
 	readonly #waiting: (() => void)[] = [];
 	readonly frames = new Frames({
-		ready: () => !(this.timer.full && this.stage.crowd && this.#inSight),
+		ready: () => this.gpu.hasRoom() || !this.#inSight,
 		draw: (interval, now) => this.#draw(interval, now),
 		rest: () => this.#rest(),
 	});
@@ -81,9 +81,9 @@ export class Picture {
 	/** Milliseconds that this frame has waited for. */
 	#wait = 0;
 	readonly #render = () => {
-		this.timer.begin();
+		this.gpu.begin();
 		this.stage.render(this.camera);
-		this.timer.end();
+		this.gpu.end();
 	};
 
 	constructor(canvas: HTMLCanvasElement, options: PictureOptions) {
@@ -98,11 +98,11 @@ export class Picture {
 		this.light = new MovingLight(!options.calm);
 		this.lamp.visible = false;
 		this.stage.scene.add(this.guides.add(this.lamp));
-		this.timer = new GpuTimer(this.stage.gl);
+		this.gpu = new GpuFrames(this.stage.gl);
 		// In time at 60 Hz, with room for the browser's own work; intervals are 17 ms there at best.
 		this.#governor = new FurGovernor({
 			merges: true,
-			...(this.timer.works ? { target: 14 } : { target: 20, capped: true }),
+			...(this.gpu.timed ? { target: 14 } : { target: 20, capped: true }),
 		});
 		watchSize(canvas, () => {
 			this.#stale = true;
@@ -231,7 +231,7 @@ export class Picture {
 			this.#answer();
 			return Number.POSITIVE_INFINITY;
 		}
-		const { stage, camera, light, lamp, timer } = this;
+		const { stage, camera, light, lamp, gpu } = this;
 		const { still, calm } = this.#options;
 		const awake = !Number.isNaN(interval);
 		const elapsed = awake ? Math.min(interval / 1000, 0.1) : 1 / 60;
@@ -250,9 +250,9 @@ export class Picture {
 		if (wait === 0) this.#moving = true;
 		const glowing = lamp.glide(camera, calm ? Number.POSITIVE_INFINITY : elapsed);
 		if (this.#moving || turning || entering) this.#moved = now;
-		const time = timer.read();
+		const time = gpu.read();
 		// The interval of a frame that waited is not its duration.
-		const taken = timer.works ? time : this.#wait === 0 ? interval : Number.NaN;
+		const taken = gpu.timed ? time : this.#wait === 0 ? interval : Number.NaN;
 		if (!still) stage.scale = this.#governor.frame(alive ? ALIVE * taken : taken, now, this.#moving);
 		this.#moving = false;
 		const merging = this.#spacing.glide(this.#governor, elapsed);

@@ -51,7 +51,7 @@ export class Stage {
 	model: Model | undefined;
 	/** True once centre and radius have changed by themselves; who frames them sets it back. */
 	reframed = false;
-	crowd: Crowd | undefined;
+	#crowd: Crowd | undefined;
 	readonly #edges = new FurEdgeEffect();
 	/** True where the renderer can smooth edges. */
 	readonly #smooth: boolean;
@@ -111,8 +111,8 @@ export class Stage {
 	}
 
 	#clearCrowd(): void {
-		this.crowd?.dispose();
-		this.crowd = undefined;
+		this.#crowd?.dispose();
+		this.#crowd = undefined;
 	}
 
 	/**
@@ -126,13 +126,13 @@ export class Stage {
 		if (!model) return;
 		if (fur) this.#smoothOutlines(model.object, fur);
 		const many = fur && Made && count > 1;
-		if (!many || this.crowd?.fur !== fur) this.#clearCrowd();
-		if (many && !this.crowd) {
-			this.crowd = new Made(model, fur);
-			this.crowd.pictureHeight = this.renderer.domElement.height;
-			this.scene.add(this.crowd);
+		if (!many || this.#crowd?.fur !== fur) this.#clearCrowd();
+		if (many && !this.#crowd) {
+			this.#crowd = new Made(model, fur);
+			this.#crowd.pictureHeight = this.renderer.domElement.height;
+			this.scene.add(this.#crowd);
 		}
-		if (this.crowd) this.crowd.count = count;
+		if (this.#crowd) this.#crowd.count = count;
 		model.object.visible = this.#shadow.visible = !many;
 		this.#fur = fur;
 		this.#frame(model);
@@ -143,11 +143,11 @@ export class Stage {
 	#frame(model: Model): void {
 		this.bodyRadius = model.radius;
 		this.furLength = this.#fur?.asset.length ?? 0;
-		this.radius = this.crowd?.radius ?? model.radius;
+		this.radius = this.#crowd?.radius ?? model.radius;
 		model.box.getCenter(this.centre);
 		const length = this.#fur?.shells.furLength ?? 0.05 * model.radius;
 		this.setLight(this.toLamp);
-		fitFurShadow(this.key, new Sphere(this.centre, (this.crowd?.reach ?? this.radius) + length), length);
+		fitFurShadow(this.key, new Sphere(this.centre, (this.#crowd?.reach ?? this.radius) + length), length);
 	}
 
 	/** Fits the ground, and the soft shadow on it, to the pose of the body; call after a step of its clip. */
@@ -161,12 +161,12 @@ export class Stage {
 			this.reframed = true;
 		}
 		const ground = footing({ ...model, fur });
-		if (model.clips) this.crowd?.pose(model.clips);
+		if (model.clips) this.#crowd?.pose(model.clips);
 		if (model.clips) model.clips.poseBox(this.#pose);
 		else this.#pose.copy(model.box);
 		this.#shadow.fit(this.#pose, fur?.shells.furLength ?? 0, ground);
 		this.#followBody();
-		const reach = this.crowd ? this.crowd.reach * ROOM.crowd : model.radius * ROOM.body;
+		const reach = this.#crowd ? this.#crowd.reach * ROOM.crowd : model.radius * ROOM.body;
 		this.#ground.fit(model.box, ground, reach);
 	}
 
@@ -205,7 +205,7 @@ export class Stage {
 
 	/** Radius around which the lamp goes. */
 	get lampRadius(): number {
-		return this.crowd?.lampRadius ?? this.radius;
+		return this.#crowd?.lampRadius ?? this.radius;
 	}
 
 	/** Direction to the lamp, world axes, unit; it stays while the lamp's target moves. */
@@ -280,7 +280,7 @@ export class Stage {
 		// At least one pixel of the narrowest window.
 		this.renderer.setPixelRatio(Math.max(ratio, 1 / Math.min(this.#width, this.#height)));
 		this.renderer.setSize(this.#width, this.#height, false);
-		if (this.crowd) this.crowd.pictureHeight = this.renderer.domElement.height;
+		if (this.#crowd) this.#crowd.pictureHeight = this.renderer.domElement.height;
 	}
 
 	/** Call while the context is lost: three would ask the next one to delete objects of this one. */

@@ -5,7 +5,7 @@ const MAX_WAITING = 2;
 /** Queries in flight at most; frames beyond them are not measured. */
 const MAX_QUERIES = 6;
 
-export class GpuTimer {
+export class GpuFrames {
 	readonly #gl: WebGL2RenderingContext;
 	readonly #queries: (WebGLQuery | null)[] = [];
 	#extension: { TIME_ELAPSED_EXT: number; GPU_DISJOINT_EXT: number } | null = null;
@@ -23,16 +23,16 @@ export class GpuTimer {
 		this.restore();
 	}
 
-	/** False where there is no such timer. */
-	get works(): boolean {
+	/** False where they cannot be timed. */
+	get timed(): boolean {
 		return this.#extension !== null;
 	}
 
 	/**
-	 * True while the next frame has to wait. Browsers take frames faster than they draw them: where one takes seconds, the
-	 * picture would come many frames after the hand that moves it, and intervals would not be times of drawing.
+	 * @returns whether the next frame can be made. Browsers take frames faster than they draw them: where one takes a
+	 * second, dozens wait, the page stands still meanwhile, and intervals are not times of drawing.
 	 */
-	get full(): boolean {
+	hasRoom(): boolean {
 		const gl = this.#gl;
 		const [oldest] = this.#fences;
 		// A lost context says nothing of its fences.
@@ -40,7 +40,7 @@ export class GpuTimer {
 			gl.deleteSync(oldest);
 			this.#fences.shift();
 		}
-		return this.#fences.length >= MAX_WAITING;
+		return this.#fences.length < MAX_WAITING;
 	}
 
 	/** Makes the queries anew after a lost context. */
