@@ -1,7 +1,11 @@
 /** Frames on the GPU: how long they take, where the browser has a timer, and how many wait there. */
 
-/** Frames handed on and not drawn yet, at most: one is drawn while the next is made. */
+/** Frames handed on and not drawn yet, at most, where they take long: one is drawn while the next is made. */
 const MAX_WAITING = 2;
+/** The same where they do not: browsers tell some refreshes of the display later that a frame is drawn. */
+const MAX_IN_PASSING = 4;
+/** Milliseconds from handing a frame on to seeing that it is drawn, up to which it has not taken long. */
+const SOON = 100;
 /** Queries in flight at most; frames beyond them are not measured. */
 const MAX_QUERIES = 6;
 
@@ -13,8 +17,9 @@ export class GpuFrames {
 	#first = 0;
 	#count = 0;
 	#running = false;
-	/** Fence behind each frame that was handed on, the oldest first. */
-	readonly #fences: WebGLSync[] = [];
+	/** Frames that were handed on, the oldest first: the fence behind each, and when that was. */
+	readonly #waiting: { fence: WebGLSync; since: number }[] = [];
+	#soon = false;
 	/** Milliseconds of the frame measured last; NaN before. */
 	latest = Number.NaN;
 
@@ -34,18 +39,19 @@ export class GpuFrames {
 	 */
 	hasRoom(): boolean {
 		const gl = this.#gl;
-		const [oldest] = this.#fences;
+		const [oldest] = this.#waiting;
 		// A lost context says nothing of its fences.
-		if (oldest && gl.getSyncParameter(oldest, gl.SYNC_STATUS) !== gl.UNSIGNALED) {
-			gl.deleteSync(oldest);
-			this.#fences.shift();
+		if (oldest && gl.getSyncParameter(oldest.fence, gl.SYNC_STATUS) !== gl.UNSIGNALED) {
+			gl.deleteSync(oldest.fence);
+			this.#waiting.shift();
+			this.#soon = performance.now() - oldest.since < SOON;
 		}
-		return this.#fences.length < MAX_WAITING;
+		return this.#waiting.length < (this.#soon ? MAX_IN_PASSING : MAX_WAITING);
 	}
 
 	/** Makes the queries anew after a lost context. */
 	restore(): void {
-		this.#fences.length = 0;
+		this.#waiting.length = 0;
 		this.#extension = this.#gl.getExtension('EXT_disjoint_timer_query_webgl2');
 		this.#count = 0;
 		this.#running = false;
@@ -64,7 +70,7 @@ export class GpuFrames {
 	/** Call after a frame's last command. */
 	end(): void {
 		const fence = this.#gl.fenceSync(this.#gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
-		if (fence) this.#fences.push(fence);
+		if (fence) this.#waiting.push({ fence, since: performance.now() });
 		// A fence that waits in the browser is never passed.
 		this.#gl.flush();
 		if (!this.#extension || !this.#running) return;

@@ -15,7 +15,7 @@ export const teaching = {
 			`Yours: L = ${square}·lᵥ² + ${linear}·lᵥ + ${constant}, off by ${own} (root of the mean squared error)`.replaceAll(
 				'+ −',
 				'− ',
-			) + `${best ? `; the best is off by ${best}.` : '.'}`,
+			) + (best ? `; the best is off by ${best}.` : '.'),
 	},
 	mean: {
 		measured: (high: string) => `measured, by a lamp ${high}° high that no fit saw`,
