@@ -55,6 +55,7 @@ export async function open(page: Page, query: string, address = site): Promise<v
 export async function settled(page: Page, name: string): Promise<string | null> {
 	let before: string | undefined;
 	await expect(async () => {
+		await frames(page, 2); // it writes what its frames have found
 		const now = page.url();
 		const same = now === before;
 		before = now;
