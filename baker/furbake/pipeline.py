@@ -164,7 +164,7 @@ def _pictured(body: Body, options: BakeOptions) -> bool:
 
 def _hues(body: Body, options: BakeOptions) -> tuple[str, ...]:
     """A notice where a preset's hues come over those of the model's picture."""
-    if not (_pictured(body, options) and options.ramp.hued):
+    if options.own_colours or not (_pictured(body, options) and options.ramp.hued):
         return ()
     return (f"colours: the picture's times those of {options.preset}; --own-colours leaves its hues out",)
 

@@ -55,7 +55,7 @@ export async function open(page: Page, query: string, address = site): Promise<v
 export async function settled(page: Page, name: string): Promise<string | null> {
 	let before: string | undefined;
 	await expect(async () => {
-		await frames(page, 2); // it writes what its frames have found
+		await frames(page); // it writes what its frames have found
 		const now = page.url();
 		const same = now === before;
 		before = now;
@@ -64,8 +64,12 @@ export async function settled(page: Page, name: string): Promise<string | null> 
 	return new URL(page.url()).searchParams.get(name);
 }
 
-/** Waits for frames of the page, each drawn to its end: else the next would wait for it. @param count of them */
-export const frames = (page: Page, count: number) =>
+/**
+ * Waits for frames of the page, each drawn to its end: else the next would wait for it.
+ *
+ * @param count of them; two show all that was asked for before
+ */
+export const frames = (page: Page, count = 2) =>
 	page.evaluate(
 		(count) =>
 			new Promise<void>((resolve) => {
@@ -90,7 +94,7 @@ export interface Picture {
 
 /** What a page, or an element of it, looks like. */
 export async function picture(shown: Page | Locator): Promise<Picture> {
-	await frames('page' in shown ? shown.page() : shown, 2);
+	await frames('page' in shown ? shown.page() : shown);
 	const { width, height, data, channels } = decode(await shown.screenshot());
 	const brightness = new Float32Array(width * height);
 	for (let i = 0; i < brightness.length; i++) {

@@ -9,7 +9,7 @@ export const calm = '?model=sphere&shells=6&still=1&ui=0&light=-.8,.5,.3';
 
 /** A picture of the page, with what was asked for before. */
 export async function shot(page: Page): Promise<Buffer> {
-	await frames(page, 2);
+	await frames(page);
 	return page.screenshot();
 }
 

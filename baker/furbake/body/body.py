@@ -15,7 +15,7 @@ from furbake.body.painted import painted
 from furbake.body.size import Size, questions, sized
 from furbake.body.strokes import strokes_on
 from furbake.options import BakeOptions
-from furbake.options.knobs import clip_at
+from furbake.options.pose import clip_at
 from furbake.pelt.hairs.strands import Strands
 from furbake.surface.charts import Charts, laid
 from furbake.surface.divide import divide

@@ -8,6 +8,7 @@ from typing import Any, Literal
 
 from furbake.options import knobs
 from furbake.options.knobs import BITS, FOLLOW, KNOBS, LENGTH, MAX_FACES, OptionError
+from furbake.options.pose import clip_at
 from furbake.pelt.hairs.ramp import Ramp
 from furbake.pelt.hairs.states import WETNESS
 from furbake.pelt.hairs.strands import Coat
@@ -86,7 +87,7 @@ class BakeOptions:
     colour: ColourKind = "texture"
     """Colour of hairs on a model with a picture: the picture's at their roots, or one per vertex."""
     own_colours: bool = False
-    """Hairs in the model's own colours: `ramp`, here and in regions, is without the hues of its preset."""
+    """Hairs in the model's own colours: `preset` has left the hues of `ramp` out, and regions do."""
     length_by_thickness: bool = False
     """Shorter fur where the body is thin (ears, feet)."""
     auto_length: bool = False
@@ -153,7 +154,7 @@ class BakeOptions:
         if self.colour not in COLOURS:
             raise OptionError(f"colour: got {knobs.show(self.colour)}, expected {' or '.join(COLOURS)}")
         if self.pose is not None:
-            knobs.clip_at(self.pose)
+            clip_at(self.pose)
         for name, length in (("length", self.length), ("tile", self.tile)):
             if length is not None and not LENGTH.low <= length <= LENGTH.high:
                 raise OptionError(

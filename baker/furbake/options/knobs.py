@@ -248,18 +248,6 @@ def parse(name: str, text: str) -> Any:
     return knob.take(name, value)
 
 
-def clip_at(pose: str) -> tuple[str, float]:
-    """Clip and seconds of `pose`. Raises OptionError."""
-    clip, at, seconds = pose.rpartition("@")
-    try:
-        number = float(seconds)
-    except ValueError:
-        number = -1.0
-    if not clip or not at or not 0.0 <= number < float("inf"):
-        raise OptionError(f"pose: got {pose!r}, expected CLIP@SECONDS with seconds from 0, such as Walk@0.4")
-    return clip, number
-
-
 def write(values: Mapping[str, Any], comments: bool = True) -> str:
     """TOML of the knobs in `values` (by dotted name), with the accepted values of each as a comment."""
     lines: list[str] = []

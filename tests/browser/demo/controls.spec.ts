@@ -12,7 +12,7 @@ test.use({ viewport: { width: 900, height: 760 }, permissions: ['clipboard-read'
 const makeSmall = (page: Page) => shrinkPicture(page, 120, 90, [400, 280], '#split, #loading, #notices');
 
 async function shot(page: Page): Promise<Picture & { data: ArrayLike<number> }> {
-	await frames(page, 2);
+	await frames(page);
 	const { width, height, data, channels } = decode(await page.locator('#picture').screenshot());
 	const brightness = Float32Array.from({ length: width * height }, (_, i) => {
 		const [r = 0, g = 0, b = 0] = data.subarray(i * channels, i * channels + 3);

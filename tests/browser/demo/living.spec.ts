@@ -39,7 +39,7 @@ async function drag(page: Page, ...way: [x: number, y: number][]): Promise<void>
 	await frame(page);
 }
 
-const frame = (page: Page) => frames(page, 2);
+const frame = (page: Page) => frames(page);
 
 interface Region {
 	/** mean brightness of the first and the second picture, 0..255 */

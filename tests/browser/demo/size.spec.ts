@@ -13,7 +13,7 @@ test('the picture follows the window, the layout and the pixels of the screen', 
 	await expect.poll(() => canvasWidth(page)).toBe(240);
 	await restyle(page, '#picture { width: 50% !important }');
 	await expect.poll(() => canvasWidth(page)).toBe(120);
-	await frames(page, 2);
+	await frames(page);
 	expect(middle(await page.locator('#picture').screenshot()).spread).toBeGreaterThan(2);
 
 	const devtools = await page.context().newCDPSession(page);

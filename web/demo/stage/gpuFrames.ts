@@ -1,11 +1,12 @@
 /** Frames on the GPU: how long they take, where the browser has a timer, and how many wait there. */
 
-/** Frames handed on and not drawn yet, at most, where they take long: one is drawn while the next is made. */
-const MAX_WAITING = 2;
-/** The same where they do not: browsers tell some refreshes of the display later that a frame is drawn. */
-const MAX_IN_PASSING = 4;
-/** Milliseconds from handing a frame on to seeing that it is drawn, up to which it has not taken long. */
-const SOON = 100;
+/** Milliseconds up to which a frame is quick, from handing it on to seeing that it is drawn. */
+const QUICK = 100;
+/**
+ * Frames handed on and not drawn yet, at most. Of slow ones one is drawn while the next is made; that a quick one is drawn
+ * browsers tell some refreshes of the display later.
+ */
+const MAX_WAITING = { slow: 2, quick: 4 };
 /** Queries in flight at most; frames beyond them are not measured. */
 const MAX_QUERIES = 6;
 
@@ -19,7 +20,8 @@ export class GpuFrames {
 	#running = false;
 	/** Frames that were handed on, the oldest first: the fence behind each, and when that was. */
 	readonly #waiting: { fence: WebGLSync; since: number }[] = [];
-	#soon = false;
+	/** Whether the one drawn last was quick. */
+	#quick = false;
 	/** Milliseconds of the frame measured last; NaN before. */
 	latest = Number.NaN;
 
@@ -44,9 +46,9 @@ export class GpuFrames {
 		if (oldest && gl.getSyncParameter(oldest.fence, gl.SYNC_STATUS) !== gl.UNSIGNALED) {
 			gl.deleteSync(oldest.fence);
 			this.#waiting.shift();
-			this.#soon = performance.now() - oldest.since < SOON;
+			this.#quick = performance.now() - oldest.since <= QUICK;
 		}
-		return this.#waiting.length < (this.#soon ? MAX_IN_PASSING : MAX_WAITING);
+		return this.#waiting.length < MAX_WAITING[this.#quick ? 'quick' : 'slow'];
 	}
 
 	/** Makes the queries anew after a lost context. */
