@@ -15,11 +15,12 @@ MODULES = sorted(ROOT.rglob("*.py"))
 FLOORS: dict[str, set[str]] = {
     "byte_units": set(),
     "cores": set(),
+    "device": set(),
     "apart": set(),
     "beside": {"apart", "cores"},
     "usd": {"apart"},
     "pelt/hairs": set(),
-    "pelt/light": {"pelt/hairs", "cores"},
+    "pelt/light": {"pelt/hairs", "cores", "device"},
     "pelt/texels": {"pelt/hairs"},
     "pelt": {"pelt/hairs", "pelt/light", "pelt/texels", "cores"},
     "surface/soup": set(),
@@ -51,7 +52,7 @@ FLOORS: dict[str, set[str]] = {
     "imported": {"asset", "pelt", "surface", "usd"},
     "body": {"asset", "surface", "options", "imported", "pelt"},
     "cache": set(),
-    "tile": {"pelt", "options", "cache", "rti", "beside"},
+    "tile": {"pelt", "options", "cache", "rti", "beside", "device"},
     "lazy": set(),
     "page": set(),
     "daylight": set(),
@@ -90,6 +91,7 @@ FLOORS: dict[str, set[str]] = {
         "page",
         "byte_units",
         "cores",
+        "device",
         "freshness",
         "batch",
         "cluster",
@@ -111,6 +113,7 @@ MAX_FILES = 15
 
 ONLY_IN: dict[str, str | tuple[str, ...]] = {
     "OpenImageIO": "asset/planes.py",
+    "cupy": "device.py",
     "embreex": "surface/place/thickness.py",
     "DracoPy": "surface/read/gltf_data.py",
     "PIL": ("surface/colours.py", "show/sheet.py"),

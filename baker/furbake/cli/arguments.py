@@ -119,6 +119,7 @@ BAKE = [
     option("--cache", metavar="DIR", type=PLACE, help="where finished pelts are kept (default: the user's cache)"),
     switch("--no-cache", "neither take a finished pelt nor keep this one"),
     option("--scheduler", metavar="local|tcp://HOST:PORT", help=SCHEDULER),
+    option("--device", metavar="cpu|cuda", help="where light is sampled: the processor (default), or an NVIDIA card"),
     switch("--force", "replace DIR if it is a bake"),
     switch("--if-stale", "only if DIR differs in options, input or versions; implies --force"),
     switch("--json", "print one JSON object with the record and the seconds of every stage"),

@@ -18,6 +18,7 @@ from furbake.cli.output import complain, say
 from furbake.cli.parsing import UsageError
 from furbake.cli.progress import shown
 from furbake.cores import cores
+from furbake.device import on_device
 from furbake.freshness import fresh_record
 from furbake.options import OptionError
 from furbake.pipeline import STAGES, bake
@@ -62,7 +63,7 @@ def run_bake(args: SimpleNamespace) -> int:
         return 0
     samples, cache = Path(args.samples) if args.samples else None, pelt_cache(args)
     start = time.perf_counter()
-    with _spread(args) as spread, shown(STAGES, args.quiet, args.percent) as progress:
+    with on_device(args.device), _spread(args) as spread, shown(STAGES, args.quiet, args.percent) as progress:
         result = bake(
             args.model, out, options, force=args.force or args.if_stale, samples=samples, progress=progress,
             cache=cache, spread=spread,

@@ -5,6 +5,7 @@ from furbake.asset.read import AssetError
 from furbake.asset.store import StoreError
 from furbake.batch.crew import MemoryShortError
 from furbake.cluster.versions import ClusterError
+from furbake.device import DeviceError
 from furbake.imported.curves import GroomError
 from furbake.options import OptionError
 from furbake.page import PageError
@@ -15,6 +16,6 @@ from furbake.usd.stage import UsdError
 
 TOLD = (
     OptionError, MeshError, StoreError, AssetError, PlaneError, VerifyError, GroomError, PageError, ClusterError,
-    MemoryShortError, RtiError, UsdError,
+    DeviceError, MemoryShortError, RtiError, UsdError,
 )  # fmt: skip
 """Errors whose message is a sentence for the user."""

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.cache.entries import Cache
+from furbake.device import device
 from furbake.options import BakeOptions
 from furbake.pelt.curves import Curves
 from furbake.pelt.hairs.ramp import Ramp
@@ -68,14 +69,14 @@ class KeptPelts:
 
 
 def pelt_key(options: BakeOptions, height: float, strands: Strands | None = None) -> str:
-    """SHA-256 of all that decides a pelt: options and height of the tile, code, libraries, kind of machine.
+    """SHA-256 of all that decides a pelt: options and height of the tile, code, libraries, kind of machine, device.
 
     strands : that are not grown of the options
     """
     parts: dict[str, Any] = {
         "code": code_hash(ROOMS),
         "libraries": {name: version(name) for name in ("furbake", *LIBRARIES)},
-        "machine": platform.machine(),
+        "machine": (platform.machine(), device()),
         "options": options.as_record(),
         "height": height,
     }

@@ -7,8 +7,10 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from furbake.device import device
 from furbake.pelt.hairs.drawn import through_own
 from furbake.pelt.hairs.volume import Volume, doubled, joined, parted, pool, slab_means
+from furbake.pelt.light.card import CardDepth
 from furbake.pelt.light.depth import Depth
 from furbake.pelt.light.fibre import shown
 from furbake.pelt.light.paths import spread, thinned
@@ -59,7 +61,8 @@ def transmitted(
     """
     caught = sigma * width
     slabs = len(caught) // merged
-    depth = Depth(joined(caught, merged), slab * merged, beta, None if aside is None else slab_means(aside, slabs))
+    kind = Depth if device() == "cpu" else CardDepth
+    depth = kind(joined(caught, merged), slab * merged, beta, None if aside is None else slab_means(aside, slabs))
     own = through_own(radius, caught.shape[-1], slab * merged / 2, mean_share(caught, sigma))
     del caught
     clear, floor = depth.through(light)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 import scipy.fft
@@ -18,10 +19,6 @@ from furbake.pelt.light.paths import FLAT, Rays, thinned
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
-Spectrum = NDArray[np.complexfloating]
-
-OWN_POINTS, OWN_POINTS_PER_TEXEL = 8, 8
-"""Points of a ray through a voxel's own slab, at least, and per texel that it moves aside there."""
 
 POINTS_PER_TEXEL, MIN_POINTS = 2, 2
 """Points of a bent ray per texel that it moves aside, and in a slab at least."""
@@ -55,11 +52,11 @@ class Depth:
         """
         self.layers, self.size, _ = sigma.shape
         self.height, self.beta = slab * self.layers, FLAT if beta is None else beta
-        self.spectrum = scipy.fft.rfft2(np.asarray(sigma, np.float32))
-        self.back = None if aside is None else _moved(-aside, self.size)
+        self.spectrum = self._spectrum(sigma)
+        self.back = None if aside is None else self._there(_moved(-aside, self.size))
         if self.back is not None:
             self.spectrum *= self.back.conj()
-        self.turns = _turns(self.size)
+        self.turns, self.together = self._there(_turns(self.size)), STRIP
 
     def through(self, light: Array) -> tuple[Single, Single]:
         """Transmittance between the light and the voxels, (K, N, N), and the skin, (N, N). 0 behind the body."""
@@ -70,48 +67,33 @@ class Depth:
         starts = np.append(0.0, np.full(self.layers, 0.5 / self.layers))
         rays = Rays(heights, lz, self.beta)
         points = Points.along(rays, starts, self.layers, self.height, self.size)
-        for top in range(self.layers, 0, -STRIP):
-            strip = slice(max(top - STRIP, 0), top)
+        for top in range(self.layers, 0, -self.together):
+            strip = slice(max(top - self.together, 0), top)
             with_skin = strip.start == 0 and lz > 0
             of = slice(0 if with_skin else strip.start + 1, top + 1)
-            spectrum = self._depths(points.strip(of), of.stop - of.start, light)
+            spectrum = self._depths(points, of, light)
             if self.back is not None:
                 spectrum[int(with_skin) :] *= self.back[strip]
-            depths = self._in_space(spectrum)
-            np.exp(-depths[int(with_skin) :], out=clear[strip])
+            left = self._left(spectrum)
+            clear[strip] = left[int(with_skin) :]
             clear[strip][rays.blocked[1:][strip]] = 0
             if with_skin:
-                floor = np.exp(-depths[0])
+                floor = left[0]
             elif clear[strip].mean() < DARK:
                 break
         return clear, floor
 
-    def own(self, light: Array) -> Single:
-        """τ along the ray up to half a slab's thickness on both sides of the voxel's middle, (K, N, N)."""
-        slab = self.height / self.layers
-        kernel = scipy.fft.rfft2(self._crossed(light[:2] * slab * self.size))
-        share = thinned((np.arange(self.layers) + 0.5) / self.layers, self.beta).astype(np.float32)
-        spectrum = self.spectrum * kernel * share[:, None, None]
-        return self._in_space(spectrum if self.back is None else spectrum * self.back) * np.float32(slab)
+    def _there(self, values: NDArray[Any]) -> Any:
+        """An array where the others are."""
+        return values
 
-    def _crossed(self, way: Array) -> Single:
-        """Weights, (N, N), of the piece of a ray around a voxel's middle that moves `way` voxels aside."""
-        count = max(OWN_POINTS, int(np.ceil(np.hypot(*way) * OWN_POINTS_PER_TEXEL)))
-        t = (np.arange(count) + 0.5) / count - 0.5
-        # Reading σ at x + way·t is a convolution with a point at −way·t.
-        x, y = -way[0] * t, -way[1] * t
-        column, row = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
-        fx, fy = x - column, y - row
-        n = self.size
-        weights = np.zeros(n * n)
-        for down, wy in ((0, 1 - fy), (1, fy)):
-            for right, wx in ((0, 1 - fx), (1, fx)):
-                weights += np.bincount((row + down) % n * n + (column + right) % n, wx * wy, n * n)
-        return (weights / count).reshape(n, n).astype(np.float32)
+    def _spectrum(self, fields: NDArray[np.floating]) -> Any:
+        return scipy.fft.rfft2(np.asarray(fields, np.float32))
 
-    def _depths(self, strip: Strip, count: int, light: Array) -> Spectrum:
-        """Spectrum of τ at these points on `count` rays to the light, (count, N, N / 2 + 1)."""
-        total = np.zeros((count, *self.spectrum.shape[1:]), np.complex64)
+    def _depths(self, points: Points, of: slice, light: Array) -> Any:
+        """Spectrum of τ along `of` the rays, n of them, to the light, (n, N, N / 2 + 1)."""
+        strip = points.strip(of)
+        total = np.zeros((of.stop - of.start, *self.spectrum.shape[1:]), np.complex64)
         way = light[:2] / max(float(np.hypot(*light[:2])), 1e-9)
         rows = self._look(strip.feet * way[1], self.size)
         wide = total.shape[2]
@@ -143,18 +125,20 @@ class Depth:
                 np.add(here, kernels, out=here)
         return total
 
-    def _look(self, at: Array, frequencies: int) -> NDArray[np.complex64]:
-        """Spectra of linear look-up `at` texels (P,) from the voxel, (P, `frequencies`)."""
+    def _look(self, at: Any, frequencies: int) -> Any:
+        """Spectra of linear look-up `at` texels (...) from the voxel, (..., `frequencies`)."""
         whole = np.floor(at)
         found = self.turns[whole.astype(np.intp) % self.size, :frequencies]
-        part = np.multiply.outer((at - whole).astype(np.float32), self.turns[1, :frequencies] - 1)
+        part = (at - whole).astype(np.float32)[..., None] * (self.turns[1, :frequencies] - 1)
         part += 1
         found *= part
-        return np.asarray(found, np.complex64)
+        return found
 
-    def _in_space(self, spectrum: Spectrum) -> Single:
+    def _left(self, spectrum: Any) -> Single:
+        """e^−τ by the spectra of τ, (n, N, N)."""
         depths = scipy.fft.irfft2(spectrum, s=(self.size, self.size), overwrite_x=True)
-        return np.asarray(np.maximum(depths, 0, out=depths), np.float32)
+        np.maximum(depths, 0, out=depths)
+        return np.asarray(np.exp(-depths), np.float32)
 
 
 @dataclass(frozen=True)
@@ -185,6 +169,15 @@ class Points:
         # A ray below the horizon meets slabs twice: the points of both times stand one after the other.
         order = np.argsort(of * layers + slab[piece], kind="stable")
         return cls(counts, (rays.feet(t, of) * texel)[order], weight.astype(np.float32)[order])
+
+    def padded(self, some: slice) -> tuple[Array, Single]:
+        """Feet and weights of some rays, (n, K, M) for the most points of a ray in a slab; the rest have no weight."""
+        counts, before = self.counts[some], int(self.counts[: some.start].sum())
+        there = np.arange(counts.max()) < counts[..., None]
+        feet, weights = np.zeros(there.shape), np.zeros(there.shape, np.float32)
+        own = slice(before, before + int(counts.sum()))
+        feet[there], weights[there] = self.feet[own], self.weights[own]
+        return feet, weights
 
     def strip(self, some: slice) -> Strip:
         """Those of some rays."""

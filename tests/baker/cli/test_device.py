@@ -1,0 +1,63 @@
+"""`furbake bake --device`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from furbake.cli import main
+from furbake.device import VARIABLE, card_arrays, device, on_device
+
+
+@pytest.fixture(autouse=True)
+def _anew() -> None:
+    card_arrays.cache_clear()
+
+
+def said(capsys: pytest.CaptureFixture[str], tmp_path: Path, *options: str) -> str:
+    assert main(["bake", "sphere", "-o", str(tmp_path / "ball"), "--quiet", *options]) == 2
+    assert not (tmp_path / "ball").exists()
+    return capsys.readouterr().err.strip()
+
+
+def test_a_device_that_there_is_not_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert said(capsys, tmp_path, "--device", "tpu") == "furbake: error: device: got 'tpu', expected cpu or cuda"
+    monkeypatch.setenv(VARIABLE, "gpu")
+    assert said(capsys, tmp_path) == "furbake: error: device: got 'gpu', expected cpu or cuda"
+
+
+def test_a_card_without_cupy_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "cupy", None)
+    text = "furbake: error: device: got cuda without CuPy, expected pip install 'furbake[cuda]'"
+    assert said(capsys, tmp_path, "--device", "cuda") == text
+
+
+def test_cupy_without_a_card_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def zeros(count: int) -> Any:
+        raise RuntimeError("cudaErrorNoDevice: no CUDA-capable device is detected\nmore")
+
+    monkeypatch.setitem(sys.modules, "cupy", SimpleNamespace(zeros=zeros))
+    assert said(capsys, tmp_path, "--device", "cuda") == (
+        "furbake: error: device: got cuda (cudaErrorNoDevice: no CUDA-capable device is detected), "
+        "expected an NVIDIA card and its driver"
+    )
+
+
+def test_the_environment_is_as_before(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv(VARIABLE, raising=False)
+    with on_device("cpu"):
+        assert device() == "cpu"
+    monkeypatch.setenv(VARIABLE, "cpu")
+    with on_device(None), on_device("cpu"):
+        pass
+    assert device() == "cpu"
