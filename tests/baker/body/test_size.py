@@ -15,8 +15,8 @@ import trimesh
 from furbake.body.size import Size, questions, sized
 from furbake.options import BakeOptions
 from furbake.surface.mesh import Surface, clean
-from furbake.surface.place.thickness import march
 from helpers.command import TINY
+from helpers.rays import march
 
 MOST = 0.4
 """Length over the local thickness that no fur may exceed."""

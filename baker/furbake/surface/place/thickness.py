@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from furbake.surface.mesh import Floats, Surface
+from furbake.surface.place.rays import nearest_hits
 from furbake.surface.repair.topology import smoother
 
 try:
@@ -26,9 +27,6 @@ CONE = 0.35
 
 ROUNDS = 4
 """Rounds of smoothing over the mesh."""
-
-EDGE = 1e-9
-"""How far outside of a triangle a ray still hits it, so that none slips through between two."""
 
 
 def length_by_thickness(surface: Surface) -> Floats:
@@ -66,30 +64,9 @@ def distances(surface: Surface, origins: Floats, directions: Floats) -> Floats:
     vertices = (surface.vertices - centre) / scale
     starts = (origins - centre) / scale
     if EmbreeScene is None:
-        return scale * march(vertices[surface.faces], starts, directions)
+        return scale * nearest_hits(vertices[surface.faces], starts, directions)
     scene = EmbreeScene()
     TriangleMesh(scene, vertices.astype(np.float32), surface.faces.astype(np.int32))
     found = scene.run(starts.astype(np.float32), directions.astype(np.float32), query="DISTANCE")
     far = np.asarray(found, dtype=np.float64)
     return scale * np.where(far < 1e3, far, np.inf)
-
-
-def march(triangles: Floats, origins: Floats, directions: Floats, block: int = 64) -> Floats:
-    """(n,) distance of each ray to the nearest of (F, 3, 3) triangles (Möller and Trumbore 1997), in blocks of rays."""
-    corner = triangles[:, 0]
-    one, two = triangles[:, 1] - corner, triangles[:, 2] - corner
-    nearest = np.full(len(origins), np.inf)
-    for start in range(0, len(origins), block):
-        rays = slice(start, start + block)
-        way = directions[rays, None]
-        p = np.cross(way, two)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            inverse = 1.0 / np.einsum("rfi,fi->rf", p, one)
-            offset = origins[rays, None] - corner
-            u = np.einsum("rfi,rfi->rf", offset, p) * inverse
-            q = np.cross(offset, one)
-            v = np.einsum("rfi,rfi->rf", np.broadcast_to(way, q.shape), q) * inverse
-            t = np.einsum("rfi,fi->rf", q, two) * inverse
-            hit = (u >= -EDGE) & (v >= -EDGE) & (u + v <= 1.0 + EDGE) & (t > 0.0)
-        nearest[rays] = np.where(hit, t, np.inf).min(axis=1)
-    return nearest

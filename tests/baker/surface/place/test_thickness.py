@@ -10,8 +10,10 @@ import trimesh
 
 from furbake.surface.mesh import Surface, clean
 from furbake.surface.place import thickness
-from furbake.surface.place.thickness import SHORTEST, cone, distances, length_by_thickness, march
+from furbake.surface.place.rays import nearest_hits
+from furbake.surface.place.thickness import SHORTEST, cone, distances, length_by_thickness
 from furbake.surface.shapes import builtin
+from helpers.rays import march
 
 
 def slab(thick: float) -> Surface:
@@ -58,6 +60,24 @@ def test_embree_agrees_with_numpy(monkeypatch: pytest.MonkeyPatch) -> None:
     np.testing.assert_allclose(fast[near], plain[near], rtol=1e-3)
     monkeypatch.setattr(thickness, "EmbreeScene", None)
     np.testing.assert_allclose(distances(surface, start, inward.reshape(-1, 3)), plain)
+
+
+@pytest.mark.parametrize("count", [1, 4, 5, 300])
+def test_a_tree_of_boxes_finds_what_brute_force_finds(count: int) -> None:
+    """Triangles anyhow, rays from among them and from outside, some along the axes and so along faces of boxes."""
+    chance = np.random.default_rng(count)
+    triangles = chance.uniform(-0.5, 0.5, (count, 1, 3)) + chance.normal(0, 0.1, (count, 3, 3))
+    triangles[0] = [[0, 0, 0], [0.3, 0, 0], [0, 0.3, 0]]  # flat: a box without a height
+    starts = chance.uniform(-1, 1, (5000, 3))
+    ways = chance.normal(size=(5000, 3))
+    ways[:600] = np.repeat([[0, 0, 1], [0, 0, -1], [1, 0, 0]], 200, axis=0)
+    starts[:400, :2] = np.abs(starts[:400, :2]) / 6
+    ways /= np.linalg.norm(ways, axis=1, keepdims=True)
+    found, expected = nearest_hits(triangles, starts, ways), march(triangles, starts, ways)
+    assert np.isfinite(expected).sum() > 100
+    np.testing.assert_array_equal(np.isfinite(found), np.isfinite(expected))
+    hit = np.isfinite(expected)
+    np.testing.assert_allclose(found[hit], expected[hit])
 
 
 def test_cone() -> None:
