@@ -75,6 +75,21 @@ test('no crack opens between patches of a body that moves', async ({ page }) => 
 	expect(error).toBe(0);
 });
 
+test('of a body that moves only the fins that are seen are drawn, and no hair is missing', async ({ page }) => {
+	const moments = [0.2, 0.5, 0.8];
+	const { answers, error } = await page.evaluate(([url, at]) => loaded.seenFins(url, 'hop', at), [
+		bunny,
+		moments,
+	] as const);
+	for (const { share, alike, without } of answers) {
+		expect(share).toBeGreaterThan(0.1);
+		expect(share).toBeLessThan(0.4);
+		expect(alike).toBeGreaterThan(90);
+		expect(without, 'fins are seen at all').toBeLessThan(60);
+	}
+	expect(error).toBe(0);
+});
+
 // The bunny has patches, and no fins here; the ring has fins.
 for (const [name, body, shadows] of [
 	['bunny', 'public/models/bunny', false],

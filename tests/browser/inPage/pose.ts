@@ -144,6 +144,37 @@ export async function cracks(url: string, moments: [clip: string | undefined, se
 	return { counts, error: gl.getError() };
 }
 
+/** Pictures of a clip with the fins that are seen and with all of them: in decibels, and the share that is drawn. */
+export async function seenFins(url: string, clip: string, moments: number[]) {
+	const stand = await Character.load(url);
+	const { fins } = stand.fur;
+	if (!fins) throw new Error('no fins');
+	const answers = moments.map((seconds) => {
+		stand.pose(clip, seconds);
+		stand.look(stand.fur.bounds(new Sphere()));
+		stand.draw();
+		let share = 1;
+		const restore = fins.onAfterRender;
+		fins.onAfterRender = (...given) => {
+			const { index, drawRange } = fins.geometry;
+			share = drawRange.count / (index?.count ?? 0);
+			restore.apply(fins, given);
+		};
+		// The second time the body stands still.
+		const some = stand.draw();
+		fins.onAfterRender = restore;
+		const before = fins.onBeforeRender;
+		fins.onBeforeRender = () => {};
+		const all = stand.draw();
+		fins.visible = false;
+		const none = stand.draw();
+		Object.assign(fins, { visible: true, onBeforeRender: before });
+		return { share, alike: psnr(some, all), without: psnr(none, all) };
+	});
+	stand.dispose();
+	return { answers, error: gl.getError() };
+}
+
 /** Turns an object about the world's origin. */
 function turn(object: Object3D, angle: number): void {
 	const by = new Quaternion().setFromAxisAngle(new Vector3(0.5, 1, 0.3).normalize(), angle);

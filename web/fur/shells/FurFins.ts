@@ -84,8 +84,9 @@ export class FurFins extends PosedMesh<BufferGeometry, FurFinMaterial> {
 	override onBeforeRender(renderer: WebGLRenderer, _scene: Scene, camera: Camera): void {
 		beginClip(renderer, this.clip);
 		const { geometry, material } = this;
-		// A pose turns normals on the GPU alone.
-		const seen = this.pose ? undefined : this.#seen.choose(this, camera, STRIPS, Number(material.defines.FADE_TO));
+		// Targets turn normals on the GPU alone.
+		const turned = this.pose?.influences.some(Boolean);
+		const seen = turned ? undefined : this.#seen.choose(this, camera, STRIPS, Number(material.defines.FADE_TO));
 		if (!seen) return;
 		this.#all = geometry.index;
 		geometry.setIndex(seen.index).setDrawRange(0, seen.count);

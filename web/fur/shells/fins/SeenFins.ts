@@ -1,21 +1,20 @@
-import {
-	BufferAttribute,
-	type BufferGeometry,
-	type Camera,
-	DynamicDrawUsage,
-	Matrix4,
-	type Object3D,
-	Vector3,
-	Vector4,
-} from 'three';
+import { BufferAttribute, type BufferGeometry, type Camera, DynamicDrawUsage, Matrix4, Vector3, Vector4 } from 'three';
+import type { Jointed } from '../../body/FurPose.ts';
 
 /** Numbers of an end of an edge: root, normals of the two faces, axis across the edge. */
 const NUMBERS = 12;
 /** As in fins.vert.glsl, with a tolerance for its rounding. */
 const BROADSIDE = 0.15;
-const TOLERANCE = 1e-3;
+/** Its rounding; and how far several joints may turn a fin otherwise than the two between which it would be. */
+const TOLERANCE = { rounding: 1e-3, joints: 0.03 };
+/** Joints of a vertex, and the weight below which one of them turns nothing. */
+const JOINTS = 4;
+const LEAST = 0.02;
+/** Share of the time between two frames that a choice for a body that moves may take, and of a fin until it is measured. */
+const SHARE = 0.05;
+const PER_FIN = 4e-4;
 
-const ATTRIBUTES = ['position', 'normal', 'tangent', '_edge'] as const;
+const ATTRIBUTES = ['position', 'normal', 'tangent', '_edge', 'skinIndex', 'skinWeight'] as const;
 
 const inverse = new Matrix4();
 const place = new Vector3();
@@ -23,21 +22,32 @@ const n = new Vector3();
 const edge = new Vector3();
 const across = new Vector3();
 const upright = new Vector3();
+const eye = new Vector4();
+const joint = new Matrix4();
 
 /**
  * Fins that an eye sees at all, a tenth to a fifth of them: near the silhouette and not from their ends. The others have no
- * fragments, but each of their vertices would be lit. For bodies without a pose.
+ * fragments, but each of their vertices would be posed and lit.
+ *
+ * Of a body with joints each joint has an eye, where it would be if that joint alone had moved the body from its rest. A fin
+ * of several joints is seen as by an eye between theirs.
  */
 export class SeenFins {
 	/** Numbers of all ends, four an edge. */
 	#ends: Float32Array | undefined;
+	/** Joints of all ends, four each, -1 for none; undefined without a skeleton. */
+	#joints: Int16Array | undefined;
 	/** Attributes that they were read from. */
 	#read: unknown[] = [];
 	#index: BufferAttribute | undefined;
 	#count = 0;
-	/** Eye of the last choice, the mesh's own axes: a point, or with W = 0 a direction. */
-	readonly #eye = new Vector4(Number.NaN);
-	readonly #now = new Vector4();
+	/** Eyes of the joints, or of the body, in the mesh's own axes at rest: points, or with W = 0 directions. */
+	#eyes = new Float32Array(4);
+	/** Whether they are those of the last choice. */
+	#fresh = false;
+	/** When a body that moves was drawn last, and what a choice takes, milliseconds. */
+	#drawn = Number.NEGATIVE_INFINITY;
+	#cost = 0;
 
 	/** Indices of the last choice. */
 	get index(): BufferAttribute | undefined {
@@ -47,14 +57,16 @@ export class SeenFins {
 	/**
 	 * @param fins of `strips` quads each, root to tip
 	 * @param fade |n·v| of a face beyond which a fin is invisible
-	 * @returns indices of the fins seen, in their order, and how many; undefined where the vertices are laid out otherwise
+	 * @returns indices of the fins seen, in their order, and how many; undefined where the vertices are laid out otherwise,
+	 * and where a body moves and choosing would take longer than it saves
 	 */
 	choose(
-		{ geometry, matrixWorld }: Object3D & { geometry: BufferGeometry },
+		fins: Jointed & { geometry: BufferGeometry },
 		camera: Camera,
 		strips: number,
 		fade: number,
 	): { index: BufferAttribute; count: number } | undefined {
+		const { geometry } = fins;
 		const { index: all } = geometry;
 		const { count = 0 } = geometry.getAttribute('position') ?? {};
 		const edges = count / (2 * (strips + 1));
@@ -64,25 +76,57 @@ export class SeenFins {
 			ATTRIBUTES.some((name, i) => geometry.attributes[name] !== this.#read[i])
 		)
 			this.#measure(geometry, edges, strips);
-		inverse.copy(matrixWorld).invert();
-		const flat = (camera as Camera & { isOrthographicCamera?: boolean }).isOrthographicCamera === true;
-		const from = this.#now.set(0, 0, flat ? 1 : 0, flat ? 0 : 1);
-		from.applyMatrix4(camera.matrixWorld).applyMatrix4(inverse);
+		const still = this.#look(fins, camera);
 		const own = this.#index as BufferAttribute;
-		if (!from.equals(this.#eye)) {
-			this.#eye.copy(from);
-			this.#select(all.array, own, edges, 6 * strips, fade);
-		}
+		if (this.#fresh && still) return { index: own, count: this.#count };
+		this.#fresh = false;
+		const now = performance.now();
+		const patient = !this.#joints || still || this.#cost < SHARE * (now - this.#drawn);
+		this.#drawn = now;
+		if (!patient) return undefined;
+		this.#select(all.array, own, edges, 6 * strips, fade);
+		this.#fresh = true;
+		this.#cost = performance.now() - now;
 		return { index: own, count: this.#count };
+	}
+
+	/** Finds the eyes. @returns whether they are where they were */
+	#look(fins: Jointed, camera: Camera): boolean {
+		const flat = (camera as Camera & { isOrthographicCamera?: boolean }).isOrthographicCamera === true;
+		const { skeleton, bindMatrix, bindMatrixInverse, matrixWorld } = fins;
+		const bones = (this.#joints && skeleton?.boneMatrices) || undefined;
+		const count = bones ? bones.length / 16 : 1;
+		let still = this.#eyes.length === 4 * count;
+		if (!still) this.#eyes = new Float32Array(4 * count);
+		for (let j = 0; j < count; j++) {
+			inverse.copy(matrixWorld);
+			if (bones && bindMatrix && bindMatrixInverse)
+				inverse
+					.multiply(bindMatrixInverse)
+					.multiply(joint.fromArray(bones, 16 * j))
+					.multiply(bindMatrix);
+			eye
+				.set(0, 0, flat ? 1 : 0, flat ? 0 : 1)
+				.applyMatrix4(camera.matrixWorld)
+				.applyMatrix4(inverse.invert());
+			for (let c = 0; c < 4; c++) {
+				const number = Math.fround(eye.getComponent(c));
+				still &&= this.#eyes[4 * j + c] === number;
+				this.#eyes[4 * j + c] = number;
+			}
+		}
+		return still;
 	}
 
 	#measure(geometry: BufferGeometry, edges: number, strips: number): void {
 		this.#read = ATTRIBUTES.map((name) => geometry.attributes[name]);
 		const all = geometry.index as BufferAttribute;
 		this.#index = new BufferAttribute(all.array.slice(), 1).setUsage(DynamicDrawUsage);
-		this.#eye.set(Number.NaN, 0, 0, 0);
-		const [position, normal, tangent, turned] = ATTRIBUTES.map((name) => geometry.getAttribute(name));
+		this.#fresh = false;
+		this.#cost = PER_FIN * edges;
+		const [position, normal, tangent, turned, joints, weights] = ATTRIBUTES.map((name) => geometry.getAttribute(name));
 		this.#ends = new Float32Array(4 * edges * NUMBERS);
+		this.#joints = joints && weights && new Int16Array(4 * edges * JOINTS).fill(-1);
 		if (!position || !normal || !tangent || !turned) return;
 		const rows = strips + 1;
 		for (let end = 0; end < 4 * edges; end++) {
@@ -99,6 +143,9 @@ export class SeenFins {
 				n.toArray(this.#ends, NUMBERS * end + 3 + 3 * face);
 			}
 			across.toArray(this.#ends, NUMBERS * end + 9);
+			for (let j = 0, free = JOINTS * end; this.#joints && j < JOINTS; j++)
+				if ((weights?.getComponent(vertex, j) ?? 0) >= LEAST)
+					this.#joints[free++] = joints?.getComponent(vertex, j) ?? -1;
 		}
 	}
 
@@ -121,21 +168,42 @@ export class SeenFins {
 		own.needsUpdate = true;
 	}
 
-	/** Whether finFade of fins.vert.glsl is above 0 at an end. */
+	/** Whether finFade of fins.vert.glsl may be above 0 at an end. */
 	#seen(end: number, fade: number): boolean {
-		const numbers = this.#ends as Float32Array;
-		const { x, y, z, w } = this.#eye;
+		const joints = this.#joints;
+		const ends = this.#ends as Float32Array;
+		const eyes = this.#eyes;
 		const at = NUMBERS * end;
-		const vx = x - w * (numbers[at] as number);
-		const vy = y - w * (numbers[at + 1] as number);
-		const vz = z - w * (numbers[at + 2] as number);
-		const far = Math.hypot(vx, vy, vz);
-		const towards = (first: number) =>
-			((numbers[first] as number) * vx + (numbers[first + 1] as number) * vy + (numbers[first + 2] as number) * vz) /
-			far;
-		if (Math.abs(towards(at + 9)) < BROADSIDE - TOLERANCE) return false;
-		const one = towards(at + 3);
-		const other = towards(at + 6);
-		return one * other <= 0 || Math.min(Math.abs(one), Math.abs(other)) < fade + TOLERANCE;
+		let count = 0;
+		let broadside = 0;
+		let leastOne = 2;
+		let mostOne = -2;
+		let leastOther = 2;
+		let mostOther = -2;
+		for (; count < (joints ? JOINTS : 1); count++) {
+			const joint = joints ? (joints[JOINTS * end + count] as number) : 0;
+			if (joint < 0) break;
+			const w = eyes[4 * joint + 3] as number;
+			const x = (eyes[4 * joint] as number) - w * (ends[at] as number);
+			const y = (eyes[4 * joint + 1] as number) - w * (ends[at + 1] as number);
+			const z = (eyes[4 * joint + 2] as number) - w * (ends[at + 2] as number);
+			const far = Math.sqrt(x * x + y * y + z * z);
+			const one = dot(ends, at + 3, x, y, z) / far;
+			const other = dot(ends, at + 6, x, y, z) / far;
+			broadside = Math.max(broadside, Math.abs(dot(ends, at + 9, x, y, z)) / far);
+			leastOne = Math.min(leastOne, one);
+			mostOne = Math.max(mostOne, one);
+			leastOther = Math.min(leastOther, other);
+			mostOther = Math.max(mostOther, other);
+		}
+		const tolerance = count > 1 ? TOLERANCE.joints : TOLERANCE.rounding;
+		if (broadside < BROADSIDE - tolerance) return false;
+		// Both faces look to the viewer, or both away, by more than the fade.
+		const least = fade + tolerance;
+		return !((leastOne >= least && leastOther >= least) || (mostOne <= -least && mostOther <= -least));
 	}
+}
+
+function dot(numbers: Float32Array, first: number, x: number, y: number, z: number): number {
+	return (numbers[first] as number) * x + (numbers[first + 1] as number) * y + (numbers[first + 2] as number) * z;
 }
