@@ -3,10 +3,12 @@ import type { Jointed } from '../../body/FurPose.ts';
 
 /** Numbers of an end of an edge: root, normals of the two faces, axis across the edge. */
 const NUMBERS = 12;
-/** As in fins.vert.glsl, with a tolerance for its rounding. */
+/** As in fins.vert.glsl. */
 const BROADSIDE = 0.15;
-/** Its rounding; and how far several joints may turn a fin otherwise than the two between which it would be. */
-const TOLERANCE = { rounding: 1e-3, joints: 0.03 };
+/** Its rounding. */
+const TOLERANCE = 1e-3;
+/** How far several joints may turn a fin otherwise than the two between which it would be. */
+const BETWEEN = 0.03;
 /** Joints of a vertex, and the weight below which one of them turns nothing. */
 const JOINTS = 4;
 const LEAST = 0.02;
@@ -42,7 +44,7 @@ export class SeenFins {
 	#index: BufferAttribute | undefined;
 	#count = 0;
 	/** Eyes of the joints, or of the body, in the mesh's own axes at rest: points, or with W = 0 directions. */
-	#eyes = new Float32Array(4);
+	readonly #eyes: number[] = [];
 	/** Whether they are those of the last choice. */
 	#fresh = false;
 	/** When a body that moves was drawn last, and what a choice takes, milliseconds. */
@@ -96,23 +98,21 @@ export class SeenFins {
 		const { skeleton, bindMatrix, bindMatrixInverse, matrixWorld } = fins;
 		const bones = (this.#joints && skeleton?.boneMatrices) || undefined;
 		const count = bones ? bones.length / 16 : 1;
-		let still = this.#eyes.length === 4 * count;
-		if (!still) this.#eyes = new Float32Array(4 * count);
+		let still = true;
 		for (let j = 0; j < count; j++) {
 			inverse.copy(matrixWorld);
-			if (bones && bindMatrix && bindMatrixInverse)
+			if (bones)
 				inverse
-					.multiply(bindMatrixInverse)
+					.multiply(bindMatrixInverse as Matrix4)
 					.multiply(joint.fromArray(bones, 16 * j))
-					.multiply(bindMatrix);
+					.multiply(bindMatrix as Matrix4);
 			eye
 				.set(0, 0, flat ? 1 : 0, flat ? 0 : 1)
 				.applyMatrix4(camera.matrixWorld)
 				.applyMatrix4(inverse.invert());
 			for (let c = 0; c < 4; c++) {
-				const number = Math.fround(eye.getComponent(c));
-				still &&= this.#eyes[4 * j + c] === number;
-				this.#eyes[4 * j + c] = number;
+				still &&= this.#eyes[4 * j + c] === eye.getComponent(c);
+				this.#eyes[4 * j + c] = eye.getComponent(c);
 			}
 		}
 		return still;
@@ -196,7 +196,7 @@ export class SeenFins {
 			leastOther = Math.min(leastOther, other);
 			mostOther = Math.max(mostOther, other);
 		}
-		const tolerance = count > 1 ? TOLERANCE.joints : TOLERANCE.rounding;
+		const tolerance = count > 1 ? BETWEEN : TOLERANCE;
 		if (broadside < BROADSIDE - tolerance) return false;
 		// Both faces look to the viewer, or both away, by more than the fade.
 		const least = fade + tolerance;
