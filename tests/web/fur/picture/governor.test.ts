@@ -111,6 +111,13 @@ describe.each([
 		}
 	});
 
+	it('lets nobody wait where frames take seconds: four of them are enough', () => {
+		const one = machine({ merges: true });
+		for (let frames = 0; one.scale === 1 && frames < 20; frames++) one.frame(pixels(3000));
+		expect(one.frames).toBe(4);
+		expect(one.scale).toBe(0.5);
+	});
+
 	it('ignores the gap of a hidden tab and single hiccups', () => {
 		const one = machine();
 		one.run(2, pixels(9));
