@@ -36,7 +36,7 @@ const SKIPPED_FRAMES = 4;
 /** Shares of the target: two windows in a row above the first step down, one above the second. */
 const LATE = 1.15;
 const FAR_LATE = 1.5;
-/** Share of the target beyond which frames crawl: nobody waits for more than two of them. */
+/** Share of the target beyond which frames crawl: two in a row decide. */
 const CRAWLING = 24;
 /** Share of the target that the time expected by the pixels may fill after a step. */
 const ROOM = 0.9;

@@ -7,7 +7,7 @@ const NUMBERS = 12;
 const BROADSIDE = 0.15;
 /** Its rounding. */
 const TOLERANCE = 1e-3;
-/** How far several joints may turn a fin otherwise than the two between which it would be. */
+/** How far joints that stretch, or several of them, may turn a fin otherwise than to where an eye of theirs sees it. */
 const BETWEEN = 0.03;
 /** Joints of a vertex, and the weight below which one of them turns nothing. */
 const JOINTS = 4;
@@ -174,14 +174,13 @@ export class SeenFins {
 		const ends = this.#ends as Float32Array;
 		const eyes = this.#eyes;
 		const at = NUMBERS * end;
-		let count = 0;
 		let broadside = 0;
 		let leastOne = 2;
 		let mostOne = -2;
 		let leastOther = 2;
 		let mostOther = -2;
-		for (; count < (joints ? JOINTS : 1); count++) {
-			const joint = joints ? (joints[JOINTS * end + count] as number) : 0;
+		for (let j = 0; j < (joints ? JOINTS : 1); j++) {
+			const joint = joints ? (joints[JOINTS * end + j] as number) : 0;
 			if (joint < 0) break;
 			const w = eyes[4 * joint + 3] as number;
 			const x = (eyes[4 * joint] as number) - w * (ends[at] as number);
@@ -196,7 +195,7 @@ export class SeenFins {
 			leastOther = Math.min(leastOther, other);
 			mostOther = Math.max(mostOther, other);
 		}
-		const tolerance = count > 1 ? BETWEEN : TOLERANCE;
+		const tolerance = joints ? BETWEEN : TOLERANCE;
 		if (broadside < BROADSIDE - tolerance) return false;
 		// Both faces look to the viewer, or both away, by more than the fade.
 		const least = fade + tolerance;
