@@ -19,6 +19,7 @@ from furbake.asset.rig.motion import Motion
 from furbake.asset.store import atomic_file, atomic_folder
 from furbake.beside import Beside
 from furbake.body.body import Body, prepare
+from furbake.device import device
 from furbake.identity import bake_key, describe_input, library_versions
 from furbake.imported.stored import write_strands
 from furbake.options import BakeOptions, OptionError
@@ -237,6 +238,8 @@ def _record(model: str, given: BakeOptions, options: BakeOptions, body: Body, fi
         "key": bake_key(model, given),
         "fit": fitted[0][1],
     }
+    if device() != "cpu":
+        record["device"] = device()
     if body.groom is not None:
         record["groom"] = body.groom.record
     if len(fitted) > 1:

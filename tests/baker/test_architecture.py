@@ -56,7 +56,7 @@ FLOORS: dict[str, set[str]] = {
     "lazy": set(),
     "page": set(),
     "daylight": set(),
-    "pipeline": {"imported", "asset", "pelt", "surface", "options", "identity", "body", "tile", "beside"},
+    "pipeline": {"imported", "asset", "pelt", "surface", "options", "identity", "body", "tile", "beside", "device"},
     "freshness": {"asset", "identity", "options"},
     "batch": {"asset", "pelt", "surface", "options", "cores", "apart", "freshness", "identity", "pipeline", "show"},
     "cluster": {"asset", "identity", "options", "tile", "apart", "batch", "pelt", "surface", "cores", "rti"},

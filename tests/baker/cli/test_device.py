@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import json
 import sys
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
+import furbake.device
+import furbake.pelt.light.card
 from furbake.cli import main
 from furbake.device import VARIABLE, card_arrays, device, on_device
+from furbake.options import BakeOptions
+from furbake.tile.kept import pelt_key
+from helpers.command import TINY
 
 
 @pytest.fixture(autouse=True)
@@ -51,6 +58,31 @@ def test_cupy_without_a_card_is_refused(
         "furbake: error: device: got cuda (cudaErrorNoDevice: no CUDA-capable device is detected), "
         "expected an NVIDIA card and its driver"
     )
+
+
+def test_a_bake_with_a_card(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """NumPy stands in for CuPy."""
+    for module in (furbake.device, furbake.pelt.light.card):
+        monkeypatch.setattr(module, "card_arrays", lambda: np)
+    found = {}
+    for name in ("cpu", "cuda"):
+        folder = tmp_path / name
+        assert main(["bake", "sphere", "-o", str(folder), "--quiet", *TINY, "--device", name]) == 0
+        assert main(["validate", str(folder)]) == 0
+        found[name] = json.loads((folder / "bake.json").read_text("utf-8"))
+    assert "device" not in found["cpu"]
+    assert found["cuda"]["device"] == "cuda"
+    assert found["cuda"]["key"] == found["cpu"]["key"], "neither is stale"
+    assert found["cuda"]["fit"]["psnr"] == pytest.approx(found["cpu"]["fit"]["psnr"], abs=0.01)
+
+
+def test_pelts_of_card_and_processor_are_kept_apart() -> None:
+    keys = set()
+    for name in ("cpu", "cuda"):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setenv(VARIABLE, name)
+            keys.add(pelt_key(BakeOptions(), 0.5))
+    assert len(keys) == 2
 
 
 def test_the_environment_is_as_before(monkeypatch: pytest.MonkeyPatch) -> None:
