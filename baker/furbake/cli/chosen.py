@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -31,6 +32,8 @@ def chosen(args: SimpleNamespace) -> BakeOptions:
     if given["states"] == ("dry..wet",):
         given["states"] = tuple(WETNESS)
     if given["swatch"] is not None:
+        beside = {name: given[name] for name in ("seed", "lights") if given[name] is not None}
+        _refuse_grown({**dict(args.set), **beside})
         if (info := Path(given["swatch"], INFO)).is_file():  # in a folder of relight
             given["swatch"] = str(info)
         options = replace(options, **THIN)
@@ -41,6 +44,13 @@ def chosen(args: SimpleNamespace) -> BakeOptions:
         options = replace(options, guide=BakeOptions.guide, comb=options.guide)
     options.check()
     return options
+
+
+def _refuse_grown(given: Mapping[str, object]) -> None:
+    """Raise OptionError for what says how hairs are grown and lit, beside photographs of them; given : knobs."""
+    for name, value in given.items():
+        if name in {"seed", "lights"} or name.startswith(("coat.", "ramp.")):
+            raise OptionError(f"{name}: got {value} beside a swatch, expected it of fur that is grown and lit here")
 
 
 def options_for(model: str, args: SimpleNamespace) -> BakeOptions:

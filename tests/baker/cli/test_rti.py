@@ -235,6 +235,8 @@ BAD = {
     ("swatch", "none.lp", "-o", "a.ptm", "--light", "0,0,1"): "swatch: got a.ptm and --light, expected a .png to be",
     ("bake", "plane", "-o", "out", "--swatch", "none.lp"): "none.lp: 0 photographs of one size",
     ("bake", "plane", "-o", "out", "--swatch", "good.ptm", "--dirt"): "swatch: got good.ptm beside wet or dirty states",
+    ("bake", "plane", "-o", "out", "--swatch", "good.ptm", "--lights", "32"): "lights: got 32 beside a swatch",
+    ("bake", "plane", "-o", "out", "--swatch", "good.ptm", "--set", "coat.bend=1"): "coat.bend: got 1 beside a swatch",
     ("bake", "plane", "-o", "out", "--swatch", "good.ptm", "--samples", "a.npz"): "samples: got a.npz beside a swatch",
 }
 
