@@ -238,7 +238,7 @@ def _record(model: str, given: BakeOptions, options: BakeOptions, body: Body, fi
         "key": bake_key(model, given),
         "fit": fitted[0][1],
     }
-    if device() != "cpu":
+    if device() != "cpu" and options.swatch is None:
         record["device"] = device()
     if body.groom is not None:
         record["groom"] = body.groom.record

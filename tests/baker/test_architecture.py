@@ -59,7 +59,7 @@ FLOORS: dict[str, set[str]] = {
     "pipeline": {"imported", "asset", "pelt", "surface", "options", "identity", "body", "tile", "beside", "device"},
     "freshness": {"asset", "identity", "options"},
     "batch": {"asset", "pelt", "surface", "options", "cores", "apart", "freshness", "identity", "pipeline", "show"},
-    "cluster": {"asset", "identity", "options", "tile", "apart", "batch", "pelt", "surface", "cores", "rti"},
+    "cluster": {"asset", "identity", "options", "tile", "apart", "batch", "pelt", "surface", "cores", "rti", "device"},
     "groom": {"imported", "asset", "pelt", "options", "usd"},
     "show": {"imported", "asset", "pelt", "options", "identity", "tile", "page", "daylight", "rti"},
     "study": {

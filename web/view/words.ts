@@ -21,14 +21,14 @@ export type Words = typeof en;
 
 const zh: Words = {
 	lang: 'zh-Hans',
-	label: '灯下的毛皮',
-	hint: '拖动或按方向键移动灯光；按住 Shift 则转动视角；+ 和 - 拉近或拉远。',
-	controls: '灯光与视角',
+	label: '灯下的毛发',
+	hint: '拖动或按方向键移动光源；按住 Shift 则转动视角；+ 和 - 拉近或拉远。',
+	controls: '光源与视角',
 	turn: '拖动以转动视角',
 	play: '播放',
 	pause: '暂停',
-	reset: '恢复灯光与视角',
-	loading: '正在长毛 …',
+	reset: '恢复光源与视角',
+	loading: '毛发生长中……',
 	noWebGL2: '这幅画面需要实时绘制，而此浏览器不支持 WebGL2。',
 	notShown: '无法显示这幅画面。',
 };

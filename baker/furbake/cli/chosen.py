@@ -32,7 +32,7 @@ def chosen(args: SimpleNamespace) -> BakeOptions:
     if given["states"] == ("dry..wet",):
         given["states"] = tuple(WETNESS)
     if given["swatch"] is not None:
-        beside = {name: given[name] for name in ("seed", "lights") if given[name] is not None}
+        beside = {name: getattr(args, name, None) for name in ("lights", "device")}
         _refuse_grown({**dict(args.set), **beside})
         if (info := Path(given["swatch"], INFO)).is_file():  # in a folder of relight
             given["swatch"] = str(info)
@@ -49,7 +49,7 @@ def chosen(args: SimpleNamespace) -> BakeOptions:
 def _refuse_grown(given: Mapping[str, object]) -> None:
     """Raise OptionError for what says how hairs are grown and lit, beside photographs of them; given : knobs."""
     for name, value in given.items():
-        if name in {"seed", "lights"} or name.startswith(("coat.", "ramp.")):
+        if value is not None and name.startswith(("lights", "device", "coat.", "ramp.")):
             raise OptionError(f"{name}: got {value} beside a swatch, expected it of fur that is grown and lit here")
 
 

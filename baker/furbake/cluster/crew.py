@@ -19,6 +19,7 @@ from furbake.cluster.client import check_shared, connected, dask
 from furbake.cluster.parcel import keep, packed
 from furbake.cluster.versions import ClusterError, versions
 from furbake.cluster.work import Order, bake_there, let_go, lit_there
+from furbake.device import device
 from furbake.options import BakeOptions
 from furbake.pelt.light.beam import Beam, Fields
 from furbake.pelt.light.transport import Array, Beams
@@ -147,7 +148,7 @@ class _Spread:
         try:
             order = {
                 self.client.submit(
-                    lit_there, options, height, state, some, self.versions,
+                    lit_there, options, height, state, some, self.versions, device(),
                     pure=False, retries=RETRIES, priority=-number,
                 ): number
                 for number, (state, some) in enumerate(units)

@@ -14,6 +14,7 @@ from furbake.cluster.client import dask
 from furbake.cluster.parcel import Parcel, unpacked, written
 from furbake.cluster.versions import ClusterError, compare, versions
 from furbake.cores import shared_cores
+from furbake.device import VARIABLE
 from furbake.options import BakeOptions
 from furbake.pelt.light.beam import Fields
 from furbake.tile.tile import lit
@@ -51,13 +52,15 @@ _held: dict[int, Apart] = {}
 """Processes that keep the voxels of a fur, by the thread of the worker that uses each."""
 
 
-def lit_there(options: BakeOptions, height: float, state: int, some: range, ours: Mapping[str, str]) -> list[Fields]:
-    """Fields of some lights, as of `lit`. Raises CrashError and ClusterError."""
+def lit_there(
+    options: BakeOptions, height: float, state: int, some: range, ours: Mapping[str, str], device: str
+) -> list[Fields]:
+    """Fields of some lights, as of `lit`, on the bake's device. Raises CrashError, ClusterError, DeviceError."""
     where, environment = _worker()
     compare(where, versions(), ours)
     process = _held.get(get_ident())
     if process is None:
-        process = _held[get_ident()] = Apart(environment)
+        process = _held[get_ident()] = Apart({**environment, VARIABLE: device})
     try:
         found: list[Fields] = process.call(lit, options, height, state, some.start, some.stop)
     except CrashError:

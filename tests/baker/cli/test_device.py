@@ -14,6 +14,8 @@ import pytest
 import furbake.device
 import furbake.pelt.light.card
 from furbake.cli import main
+from furbake.cluster import work
+from furbake.cluster.versions import versions
 from furbake.device import VARIABLE, card_arrays, device, on_device
 from furbake.options import BakeOptions
 from furbake.tile.kept import pelt_key
@@ -50,10 +52,10 @@ def test_a_card_without_cupy_is_refused(
 def test_cupy_without_a_card_is_refused(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def zeros(count: int) -> Any:
+    def zeros(*shape: Any) -> Any:
         raise RuntimeError("cudaErrorNoDevice: no CUDA-capable device is detected\nmore")
 
-    monkeypatch.setitem(sys.modules, "cupy", SimpleNamespace(zeros=zeros))
+    monkeypatch.setitem(sys.modules, "cupy", SimpleNamespace(zeros=zeros, fft=SimpleNamespace(rfft2=abs)))
     assert said(capsys, tmp_path, "--device", "cuda") == (
         "furbake: error: device: got cuda (cudaErrorNoDevice: no CUDA-capable device is detected), "
         "expected an NVIDIA card and its driver"
@@ -83,6 +85,22 @@ def test_pelts_of_card_and_processor_are_kept_apart() -> None:
             patch.setenv(VARIABLE, name)
             keys.add(pelt_key(BakeOptions(), 0.5))
     assert len(keys) == 2
+
+
+def test_workers_use_the_device_of_the_bake(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever their own environment says."""
+    seen = []
+
+    def apart(environment: dict[str, str]) -> SimpleNamespace:
+        seen.append(environment[VARIABLE])
+        return SimpleNamespace(call=lambda *given: [], end=lambda: None)
+
+    monkeypatch.setattr(work, "_worker", lambda: ("a worker", {VARIABLE: "cuda"}))
+    monkeypatch.setattr(work, "Apart", apart)
+    for name in ("cpu", "cuda"):
+        assert work.lit_there(BakeOptions(), 0.5, 0, range(2), versions(), name) == []
+        work.let_go()
+    assert seen == ["cpu", "cuda"]
 
 
 def test_the_environment_is_as_before(monkeypatch: pytest.MonkeyPatch) -> None:

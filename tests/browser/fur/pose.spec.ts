@@ -77,7 +77,7 @@ test('no crack opens between patches of a body that moves', async ({ page }) => 
 
 test('of a body that moves only the fins that are seen are drawn, and no hair is missing', async ({ page }) => {
 	const moments = [0.2, 0.5, 0.8];
-	const { answers, error } = await page.evaluate(([url, at]) => loaded.seenFins(url, 'hop', at), [
+	const { answers, both, left, error } = await page.evaluate(([url, at]) => loaded.seenFins(url, 'hop', at), [
 		bunny,
 		moments,
 	] as const);
@@ -87,6 +87,7 @@ test('of a body that moves only the fins that are seen are drawn, and no hair is
 		expect(alike).toBeGreaterThan(90);
 		expect(without, 'fins are seen at all').toBeLessThan(60);
 	}
+	expect({ both, left }, 'indices on the GPU').toEqual({ both: 2, left: 0 });
 	expect(error).toBe(0);
 });
 

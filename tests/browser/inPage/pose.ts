@@ -149,6 +149,22 @@ export async function seenFins(url: string, clip: string, moments: number[]) {
 	const stand = await Character.load(url);
 	const { fins } = stand.fur;
 	if (!fins) throw new Error('no fins');
+	/** Bytes of the indices on the GPU. */
+	const indices = new Map<WebGLBuffer, number>();
+	const { deleteBuffer } = gl;
+	const bufferData = gl.bufferData as (...given: unknown[]) => void;
+	gl.bufferData = (...given: unknown[]) => {
+		const [target, data] = given;
+		if (target === gl.ELEMENT_ARRAY_BUFFER)
+			indices.set(gl.getParameter(gl.ELEMENT_ARRAY_BUFFER_BINDING), (data as ArrayBufferView).byteLength);
+		bufferData.apply(gl, given);
+	};
+	gl.deleteBuffer = (buffer) => {
+		if (buffer) indices.delete(buffer);
+		deleteBuffer.call(gl, buffer);
+	};
+	const bytes = fins.geometry.index?.array.byteLength;
+	const kept = () => [...indices.values()].filter((one) => one === bytes).length;
 	const answers = moments.map((seconds) => {
 		stand.pose(clip, seconds);
 		stand.look(stand.fur.bounds(new Sphere()));
@@ -171,8 +187,11 @@ export async function seenFins(url: string, clip: string, moments: number[]) {
 		Object.assign(fins, { visible: true, onBeforeRender: before });
 		return { share, alike: psnr(some, all), without: psnr(none, all) };
 	});
+	const both = kept();
 	stand.dispose();
-	return { answers, error: gl.getError() };
+	const left = kept();
+	Object.assign(gl, { bufferData, deleteBuffer });
+	return { answers, both, left, error: gl.getError() };
 }
 
 /** Turns an object about the world's origin. */

@@ -36,7 +36,7 @@ const SKIPPED_FRAMES = 4;
 /** Shares of the target: two windows in a row above the first step down, one above the second. */
 const LATE = 1.15;
 const FAR_LATE = 1.5;
-/** Share of the target beyond which frames crawl: two in a row decide. */
+/** Share of the target beyond which frames crawl: the first two after a change decide. */
 const CRAWLING = 24;
 /** Share of the target that the time expected by the pixels may fill after a step. */
 const ROOM = 0.9;
@@ -89,6 +89,8 @@ export class FurGovernor {
 	readonly #times = new Float64Array(WINDOW);
 	#count = 0;
 	#skip = SKIPPED_FRAMES;
+	/** Whether a window has been judged since the last change. */
+	#judged = false;
 	#level = 0;
 	#resting = false;
 	#moved = Number.NEGATIVE_INFINITY;
@@ -164,6 +166,7 @@ export class FurGovernor {
 	#restart(): void {
 		this.#count = 0;
 		this.#skip = SKIPPED_FRAMES;
+		this.#judged = false;
 		this.#late = 0;
 		this.#calm = 0;
 	}
@@ -174,10 +177,12 @@ export class FurGovernor {
 			return;
 		}
 		this.#times[this.#count++] = time;
-		const decided = (this.#count === 2 && this.#all(CRAWLING)) || (this.#count === 3 && this.#all(FAR_LATE));
+		const crawls = this.#count === 2 && !this.#judged && this.#all(CRAWLING);
+		const decided = crawls || (this.#count === 3 && this.#all(FAR_LATE));
 		if (this.#count < WINDOW && !decided) return;
 		const median = this.#median();
 		this.#count = 0;
+		this.#judged = true;
 		this.#since++;
 		if (!this.#resting) this.#whole = median / this.#step.time;
 		if (this.#resting) this.#learn(median);

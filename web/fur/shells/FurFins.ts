@@ -102,8 +102,8 @@ export class FurFins extends PosedMesh<BufferGeometry, FurFinMaterial> {
 	/** Frees the geometry; material and textures belong to the fur. */
 	override dispose(): void {
 		super.dispose();
-		// The indices on the GPU are those of the fins seen.
-		if (this.#seen.index) this.geometry.setIndex(this.#seen.index);
+		// On the GPU the indices of the fins seen end with the attributes.
+		if (this.#seen.index) this.geometry.setAttribute('seen', this.#seen.index);
 		this.geometry.dispose();
 	}
 }

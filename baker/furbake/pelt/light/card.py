@@ -13,20 +13,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.device import card_arrays
-from furbake.pelt.light.depth import Depth, Points
+from furbake.pelt.light.depth import STRIP, Depth, Points
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
 
-ROOM = 2**28
-"""Bytes of the kernels that are made together; about thrice as many are in use."""
+LARGEST = 2**28
+"""Bytes of the largest array, where `STRIP` slabs take no more; each process uses some four of them on the card."""
 
-ONE = Lock()
-"""Held by the light that uses the card, so that its memory does not depend on the number of cores."""
+BYTES = 8
+"""Size of a complex number of single precision."""
+
+IN_USE = Lock()
+"""Held by the light of this process that uses the card: others keep their slabs there, and wait."""
 
 
 class CardDepth(Depth):
-    """As `Depth`, by the functions of NumPy for arrays elsewhere."""
+    """As `Depth`, with arrays on the card."""
 
     def __init__(
         self,
@@ -38,20 +41,23 @@ class CardDepth(Depth):
     ) -> None:
         """arrays : a module like NumPy, by default CuPy; the others as of `Depth`."""
         self.arrays = card_arrays() if arrays is None else arrays
-        with ONE:
+        with IN_USE:
             super().__init__(sigma, slab, beta, aside)
-        kernel = self.spectrum[0].size * self.spectrum.itemsize
-        self.together = max(ROOM // (self.layers * kernel), 1)
 
     def through(self, light: Array) -> tuple[Single, Single]:
-        with ONE:
+        with IN_USE:
             return super().through(light)
 
-    def _there(self, values: NDArray[Any]) -> Any:
+    def _on_device(self, values: NDArray[Any]) -> Any:
         return self.arrays.asarray(values)
 
+    def _together(self, points: Points) -> int:
+        most = max(int(points.counts.max()), self.size // 2 + 1)
+        together: int = LARGEST // (self.layers * self.size * most * BYTES)
+        return max(together, STRIP)
+
     def _spectrum(self, fields: NDArray[np.floating]) -> Any:
-        return self.arrays.fft.rfft2(self._there(np.asarray(fields, np.float32)))
+        return self.arrays.fft.rfft2(self._on_device(np.asarray(fields, np.float32)))
 
     def _left(self, spectrum: Any) -> Single:
         depths = self.arrays.fft.irfft2(spectrum, s=(self.size, self.size))
@@ -61,9 +67,9 @@ class CardDepth(Depth):
     def _depths(self, points: Points, of: slice, light: Array) -> Any:
         feet, weights = points.padded(of)
         way = light[:2] / max(float(np.hypot(*light[:2])), 1e-9)
-        rows = self._look(self._there(feet * way[1]), self.size)
-        columns = self._look(self._there(feet * way[0]), self.size // 2 + 1)
-        columns *= self._there(weights)[..., None]
+        rows = self._look(self._on_device(feet * way[1]), self.size)
+        columns = self._look(self._on_device(feet * way[0]), self.size // 2 + 1)
+        columns *= self._on_device(weights)[..., None]
         kernels = self.arrays.matmul(rows.swapaxes(-1, -2), columns)
         kernels *= self.spectrum
         return kernels.sum(1)

@@ -24,7 +24,7 @@ POINTS_PER_TEXEL, MIN_POINTS = 2, 2
 """Points of a bent ray per texel that it moves aside, and in a slab at least."""
 
 STRIP, DARK = 4, 1e-4
-"""Slabs whose rays are followed together, from the tips down, and the mean T below which all deeper ones are black."""
+"""Slabs whose rays a processor follows together, and the mean T below which all deeper ones are black."""
 
 BLOCK = 2**16
 """Numbers of the kernels that are made together: they stay in the cache until they have been used."""
@@ -53,10 +53,10 @@ class Depth:
         self.layers, self.size, _ = sigma.shape
         self.height, self.beta = slab * self.layers, FLAT if beta is None else beta
         self.spectrum = self._spectrum(sigma)
-        self.back = None if aside is None else self._there(_moved(-aside, self.size))
+        self.back = None if aside is None else self._on_device(_moved(-aside, self.size))
         if self.back is not None:
             self.spectrum *= self.back.conj()
-        self.turns, self.together = self._there(_turns(self.size)), STRIP
+        self.turns = self._on_device(_turns(self.size))
 
     def through(self, light: Array) -> tuple[Single, Single]:
         """Transmittance between the light and the voxels, (K, N, N), and the skin, (N, N). 0 behind the body."""
@@ -67,8 +67,9 @@ class Depth:
         starts = np.append(0.0, np.full(self.layers, 0.5 / self.layers))
         rays = Rays(heights, lz, self.beta)
         points = Points.along(rays, starts, self.layers, self.height, self.size)
-        for top in range(self.layers, 0, -self.together):
-            strip = slice(max(top - self.together, 0), top)
+        together = self._together(points)
+        for top in range(self.layers, 0, -together):
+            strip = slice(max(top - together, 0), top)
             with_skin = strip.start == 0 and lz > 0
             of = slice(0 if with_skin else strip.start + 1, top + 1)
             spectrum = self._depths(points, of, light)
@@ -83,9 +84,13 @@ class Depth:
                 break
         return clear, floor
 
-    def _there(self, values: NDArray[Any]) -> Any:
+    def _on_device(self, values: NDArray[Any]) -> Any:
         """An array where the others are."""
         return values
+
+    def _together(self, points: Points) -> int:  # noqa: ARG002 — what is best here does not depend on them
+        """Slabs whose rays are followed together, from the tips down."""
+        return STRIP
 
     def _spectrum(self, fields: NDArray[np.floating]) -> Any:
         return scipy.fft.rfft2(np.asarray(fields, np.float32))

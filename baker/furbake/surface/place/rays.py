@@ -12,8 +12,8 @@ Indices = NDArray[np.int64]
 LEAF = 4
 """Triangles in the smallest boxes."""
 
-TOGETHER = 4096
-"""Rays that go down the tree together."""
+TOGETHER, MOST = 4096, 2**20
+"""Rays that go down the tree together, and boxes that they meet at a level, beyond which they are parted."""
 
 EDGE = 1e-9
 """How far outside of a triangle a ray still hits it, so that none slips through between two."""
@@ -25,10 +25,14 @@ def nearest_hits(triangles: Floats, origins: Floats, directions: Floats) -> Floa
     levels = boxes(triangles[order])
     nearest = np.full(len(origins), np.inf)
     with np.errstate(divide="ignore", invalid="ignore"):
-        for first in range(0, len(origins), TOGETHER):
-            some = slice(first, first + TOGETHER)
+        parts = np.array_split(np.arange(len(origins)), max(-(-len(origins) // TOGETHER), 1))
+        while parts:
+            some = parts.pop()
             start, way = origins[some], directions[some]
             ray, leaf = _down(levels, start, 1 / way)
+            if len(ray) > MOST and len(some) > 1:
+                parts += np.array_split(some, 2)
+                continue
             found = np.full(len(start), np.inf)
             for triangle in order.T:
                 np.minimum.at(found, ray, crossed(triangles[triangle[leaf]], start[ray], way[ray]))
@@ -63,7 +67,9 @@ def boxes(leaves: Floats) -> list[Floats]:
 
 
 def _down(levels: list[Floats], origins: Floats, inverse: Floats) -> tuple[Indices, Indices]:
-    """Rays and the leaves that they meet, two arrays of one length; inverse : 1 over the rays' directions."""
+    """Rays and the leaves that they meet, two arrays of one length, or more than `MOST` boxes of a level before them;
+    inverse : 1 over the rays' directions
+    """
     ray, box = np.arange(len(origins)), np.zeros(len(origins), np.int64)
     for level, corners in enumerate(levels):
         if level:
@@ -74,6 +80,8 @@ def _down(levels: list[Floats], origins: Floats, inverse: Floats) -> tuple[Indic
         # A ray along a face of a box has no number here, and meets it.
         met = ~(leaves < np.maximum(enters, 0))
         ray, box = ray[met], box[met]
+        if len(ray) > MOST and len(origins) > 1:
+            break
     return ray, box
 
 

@@ -39,7 +39,7 @@ def test_the_card_finds_what_the_processor_finds(
     volume = voxelise(grow(Coat(), 0.6, 0), 0.6, 12, 32, 2.2)
     aside = np.random.default_rng(0).normal(0, 0.1, (12, 2))
     light = np.array([*(np.sqrt(1 - lz * lz) * np.array([0.8, -0.6])), lz])
-    monkeypatch.setattr(card, "ROOM", 5 * 12 * 32 * 17 * 8)  # five rays at a time, the last time fewer
+    monkeypatch.setattr(card, "LARGEST", 5 * 12 * 32 * 17 * 8)  # five slabs at a time, or the fewest
     for moved in (None, aside):
         for found, expected in zip(
             kind(volume.sigma, volume.slab, beta, moved).through(light),

@@ -9,7 +9,7 @@ import pytest
 import trimesh
 
 from furbake.surface.mesh import Surface, clean
-from furbake.surface.place import thickness
+from furbake.surface.place import rays, thickness
 from furbake.surface.place.rays import nearest_hits
 from furbake.surface.place.thickness import SHORTEST, cone, distances, length_by_thickness
 from furbake.surface.shapes import builtin
@@ -63,7 +63,7 @@ def test_embree_agrees_with_numpy(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize("count", [1, 4, 5, 300])
-def test_a_tree_of_boxes_finds_what_brute_force_finds(count: int) -> None:
+def test_a_tree_of_boxes_finds_what_brute_force_finds(count: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Triangles anyhow, rays from among them and from outside, some along the axes and so along faces of boxes."""
     chance = np.random.default_rng(count)
     triangles = chance.uniform(-0.5, 0.5, (count, 1, 3)) + chance.normal(0, 0.1, (count, 3, 3))
@@ -73,8 +73,10 @@ def test_a_tree_of_boxes_finds_what_brute_force_finds(count: int) -> None:
     ways[:600] = np.repeat([[0, 0, 1], [0, 0, -1], [1, 0, 0]], 200, axis=0)
     starts[:400, :2] = np.abs(starts[:400, :2]) / 6
     ways /= np.linalg.norm(ways, axis=1, keepdims=True)
+    triangles[-1, 2] = triangles[-1, 1]  # no area
+    monkeypatch.setattr(rays, "MOST", 3000)
     found, expected = nearest_hits(triangles, starts, ways), march(triangles, starts, ways)
-    assert np.isfinite(expected).sum() > 100
+    assert np.isfinite(expected).sum() > (100 if count > 1 else -1)
     np.testing.assert_array_equal(np.isfinite(found), np.isfinite(expected))
     hit = np.isfinite(expected)
     np.testing.assert_allclose(found[hit], expected[hit])

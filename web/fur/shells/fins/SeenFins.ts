@@ -7,14 +7,23 @@ const NUMBERS = 12;
 const BROADSIDE = 0.15;
 /** Its rounding. */
 const TOLERANCE = 1e-3;
-/** How far joints that stretch, or several of them, may turn a fin otherwise than to where an eye of theirs sees it. */
-const BETWEEN = 0.03;
+/**
+ * With joints cosines differ besides: by up to EVEN times where one stretches, beyond which all its fins are drawn, and by up
+ * to √½ between two that are 90° apart.
+ */
+const STRETCHED = 0.03;
+const BETWEEN = 0.065;
+const EVEN = 1.2;
 /** Joints of a vertex, and the weight below which one of them turns nothing. */
 const JOINTS = 4;
-const LEAST = 0.02;
-/** Share of the time between two frames that a choice for a body that moves may take, and of a fin until it is measured. */
+const MIN_WEIGHT = 0.02;
+/**
+ * Share of the time between two frames that a choice for a body that moves may take, thrice as much once it is made, as frames
+ * are short then; milliseconds of a fin until it is measured; and what is left of a measurement after a frame without a choice.
+ */
 const SHARE = 0.05;
 const PER_FIN = 4e-4;
+const FADING = 0.95;
 
 const ATTRIBUTES = ['position', 'normal', 'tangent', '_edge', 'skinIndex', 'skinWeight'] as const;
 
@@ -25,14 +34,16 @@ const edge = new Vector3();
 const across = new Vector3();
 const upright = new Vector3();
 const eye = new Vector4();
-const joint = new Matrix4();
+const jointMatrix = new Matrix4();
+const stretch = new Vector3();
 
 /**
  * Fins that an eye sees at all, a tenth to a fifth of them: near the silhouette and not from their ends. The others have no
  * fragments, but each of their vertices would be posed and lit.
  *
  * Of a body with joints each joint has an eye, where it would be if that joint alone had moved the body from its rest. A fin
- * of several joints is seen as by an eye between theirs.
+ * of several joints is seen as by an eye between theirs. A choice serves one camera: of two that see a body in turn, neither
+ * finds it as it was.
  */
 export class SeenFins {
 	/** Numbers of all ends, four an edge. */
@@ -47,8 +58,8 @@ export class SeenFins {
 	readonly #eyes: number[] = [];
 	/** Whether they are those of the last choice. */
 	#fresh = false;
-	/** When a body that moves was drawn last, and what a choice takes, milliseconds. */
-	#drawn = Number.NEGATIVE_INFINITY;
+	/** When a choice was wanted last, and what one takes, milliseconds. */
+	#wanted = Number.NEGATIVE_INFINITY;
 	#cost = 0;
 
 	/** Indices of the last choice. */
@@ -60,7 +71,7 @@ export class SeenFins {
 	 * @param fins of `strips` quads each, root to tip
 	 * @param fade |n·v| of a face beyond which a fin is invisible
 	 * @returns indices of the fins seen, in their order, and how many; undefined where the vertices are laid out otherwise,
-	 * and where a body moves and choosing would take longer than it saves
+	 * and where a body moves and choosing would take much of a frame
 	 */
 	choose(
 		fins: Jointed & { geometry: BufferGeometry },
@@ -81,13 +92,15 @@ export class SeenFins {
 		const still = this.#look(fins, camera);
 		const own = this.#index as BufferAttribute;
 		if (this.#fresh && still) return { index: own, count: this.#count };
-		this.#fresh = false;
 		const now = performance.now();
-		const patient = !this.#joints || still || this.#cost < SHARE * (now - this.#drawn);
-		this.#drawn = now;
-		if (!patient) return undefined;
+		const spare = SHARE * (this.#fresh ? 3 : 1) * (now - this.#wanted);
+		this.#wanted = now;
+		this.#fresh = !this.#joints || still || this.#cost < spare;
+		if (!this.#fresh) {
+			this.#cost *= FADING;
+			return undefined;
+		}
 		this.#select(all.array, own, edges, 6 * strips, fade);
-		this.#fresh = true;
 		this.#cost = performance.now() - now;
 		return { index: own, count: this.#count };
 	}
@@ -104,12 +117,16 @@ export class SeenFins {
 			if (bones)
 				inverse
 					.multiply(bindMatrixInverse as Matrix4)
-					.multiply(joint.fromArray(bones, 16 * j))
+					.multiply(jointMatrix.fromArray(bones, 16 * j))
 					.multiply(bindMatrix as Matrix4);
-			eye
-				.set(0, 0, flat ? 1 : 0, flat ? 0 : 1)
-				.applyMatrix4(camera.matrixWorld)
-				.applyMatrix4(inverse.invert());
+			const { x, y, z } = stretch.setFromMatrixScale(inverse);
+			// Without an eye no cosine is a number, and all is seen.
+			if (bones && Math.max(x, y, z) > EVEN * Math.min(x, y, z)) eye.set(0, 0, 0, 0);
+			else
+				eye
+					.set(0, 0, flat ? 1 : 0, flat ? 0 : 1)
+					.applyMatrix4(camera.matrixWorld)
+					.applyMatrix4(inverse.invert());
 			for (let c = 0; c < 4; c++) {
 				still &&= this.#eyes[4 * j + c] === eye.getComponent(c);
 				this.#eyes[4 * j + c] = eye.getComponent(c);
@@ -144,7 +161,7 @@ export class SeenFins {
 			}
 			across.toArray(this.#ends, NUMBERS * end + 9);
 			for (let j = 0, free = JOINTS * end; this.#joints && j < JOINTS; j++)
-				if ((weights?.getComponent(vertex, j) ?? 0) >= LEAST)
+				if ((weights?.getComponent(vertex, j) ?? 0) >= MIN_WEIGHT)
 					this.#joints[free++] = joints?.getComponent(vertex, j) ?? -1;
 		}
 	}
@@ -179,8 +196,9 @@ export class SeenFins {
 		let mostOne = -2;
 		let leastOther = 2;
 		let mostOther = -2;
-		for (let j = 0; j < (joints ? JOINTS : 1); j++) {
-			const joint = joints ? (joints[JOINTS * end + j] as number) : 0;
+		let count = 0;
+		for (; count < (joints ? JOINTS : 1); count++) {
+			const joint = joints ? (joints[JOINTS * end + count] as number) : 0;
 			if (joint < 0) break;
 			const w = eyes[4 * joint + 3] as number;
 			const x = (eyes[4 * joint] as number) - w * (ends[at] as number);
@@ -195,7 +213,7 @@ export class SeenFins {
 			leastOther = Math.min(leastOther, other);
 			mostOther = Math.max(mostOther, other);
 		}
-		const tolerance = joints ? BETWEEN : TOLERANCE;
+		const tolerance = count > 1 ? BETWEEN : joints ? STRETCHED : TOLERANCE;
 		if (broadside < BROADSIDE - tolerance) return false;
 		// Both faces look to the viewer, or both away, by more than the fade.
 		const least = fade + tolerance;
