@@ -107,9 +107,9 @@ export class SeenFins {
 
 	/** Finds the eyes. @returns whether they are where they were */
 	#look(fins: Jointed, camera: Camera): boolean {
-		const flat = (camera as Camera & { isOrthographicCamera?: boolean }).isOrthographicCamera === true;
+		const flat = Number((camera as Camera & { isOrthographicCamera?: boolean }).isOrthographicCamera === true);
 		const { skeleton, bindMatrix, bindMatrixInverse, matrixWorld } = fins;
-		const bones = (this.#joints && skeleton?.boneMatrices) || undefined;
+		const bones = this.#joints && skeleton?.boneMatrices;
 		const count = bones ? bones.length / 16 : 1;
 		let still = true;
 		for (let j = 0; j < count; j++) {
@@ -124,7 +124,7 @@ export class SeenFins {
 			if (bones && Math.max(x, y, z) > EVEN * Math.min(x, y, z)) eye.set(0, 0, 0, 0);
 			else
 				eye
-					.set(0, 0, flat ? 1 : 0, flat ? 0 : 1)
+					.set(0, 0, flat, 1 - flat)
 					.applyMatrix4(camera.matrixWorld)
 					.applyMatrix4(inverse.invert());
 			for (let c = 0; c < 4; c++) {
@@ -161,8 +161,8 @@ export class SeenFins {
 			}
 			across.toArray(this.#ends, NUMBERS * end + 9);
 			for (let j = 0, free = JOINTS * end; this.#joints && j < JOINTS; j++)
-				if ((weights?.getComponent(vertex, j) ?? 0) >= MIN_WEIGHT)
-					this.#joints[free++] = joints?.getComponent(vertex, j) ?? -1;
+				if ((weights as BufferAttribute).getComponent(vertex, j) >= MIN_WEIGHT)
+					this.#joints[free++] = (joints as BufferAttribute).getComponent(vertex, j);
 		}
 	}
 
@@ -192,10 +192,8 @@ export class SeenFins {
 		const eyes = this.#eyes;
 		const at = NUMBERS * end;
 		let broadside = 0;
-		let leastOne = 2;
-		let mostOne = -2;
-		let leastOther = 2;
-		let mostOther = -2;
+		let least = 2;
+		let most = -2;
 		let count = 0;
 		for (; count < (joints ? JOINTS : 1); count++) {
 			const joint = joints ? (joints[JOINTS * end + count] as number) : 0;
@@ -208,16 +206,13 @@ export class SeenFins {
 			const one = dot(ends, at + 3, x, y, z) / far;
 			const other = dot(ends, at + 6, x, y, z) / far;
 			broadside = Math.max(broadside, Math.abs(dot(ends, at + 9, x, y, z)) / far);
-			leastOne = Math.min(leastOne, one);
-			mostOne = Math.max(mostOne, one);
-			leastOther = Math.min(leastOther, other);
-			mostOther = Math.max(mostOther, other);
+			least = Math.min(least, one, other);
+			most = Math.max(most, one, other);
 		}
 		const tolerance = count > 1 ? BETWEEN : joints ? STRETCHED : TOLERANCE;
 		if (broadside < BROADSIDE - tolerance) return false;
 		// Both faces look to the viewer, or both away, by more than the fade.
-		const least = fade + tolerance;
-		return !((leastOne >= least && leastOther >= least) || (mostOne <= -least && mostOther <= -least));
+		return !(least >= fade + tolerance || most <= -fade - tolerance);
 	}
 }
 
