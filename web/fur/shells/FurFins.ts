@@ -84,7 +84,7 @@ export class FurFins extends PosedMesh<BufferGeometry, FurFinMaterial> {
 	override onBeforeRender(renderer: WebGLRenderer, _scene: Scene, camera: Camera): void {
 		beginClip(renderer, this.clip);
 		const { geometry, material } = this;
-		// Targets turn normals on the GPU alone.
+		// Morph targets turn normals on the GPU alone.
 		const turned = this.pose?.influences.some(Boolean);
 		const seen = turned ? undefined : this.#seen.choose(this, camera, STRIPS, Number(material.defines.FADE_TO));
 		if (!seen) return;

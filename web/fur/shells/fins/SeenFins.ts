@@ -5,7 +5,7 @@ import type { Jointed } from '../../body/FurPose.ts';
 const NUMBERS = 12;
 /** As in fins.vert.glsl. */
 const BROADSIDE = 0.15;
-/** Its rounding. */
+/** Rounding of the shader. */
 const TOLERANCE = 1e-3;
 /**
  * With joints cosines differ besides: by up to EVEN times where one stretches, beyond which all its fins are drawn, and by up
