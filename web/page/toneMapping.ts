@@ -12,7 +12,8 @@ export const SHOULDER = 0.6;
 /** Paling per unit of light that the curve has taken away. */
 export const PALING = 0.03;
 
-const NONE = 'vec3 CustomToneMapping( vec3 color ) { return color; }';
+/** Three's, which changes nothing; the built page has it without spaces. */
+const NONE = /vec3 CustomToneMapping\([^}]*\}/;
 const CURVE = /* glsl */ `
 vec3 CustomToneMapping(vec3 color) {
 	color *= toneMappingExposure;

@@ -1,6 +1,13 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
-import { bareSchema, bareShader, fontsPlugin, sharePlugin, siteAddress } from '../../../web/tools/site/plugins.mjs';
+import {
+	bareSchema,
+	bareShader,
+	bareThree,
+	fontsPlugin,
+	sharePlugin,
+	siteAddress,
+} from '../../../web/tools/site/plugins.mjs';
 
 const page = `<html><head><title>furbake · learn</title>
 	<meta name="description" content="Strands &amp; slices." /></head></html>`;
@@ -51,6 +58,24 @@ describe('bareShader', () => {
 
 	it('ends the line of a last directive', () => {
 		expect(bareShader('#ifdef A\nint a;\n#endif // A\n')).toBe('#ifdef A\nint a;\n#endif\n');
+	});
+});
+
+describe('bareThree', () => {
+	const source = readFileSync(new URL('../../../node_modules/three/build/three.module.js', import.meta.url), 'utf8');
+	const bare = bareThree(source);
+
+	it('leaves no comment and no indent in the shaders of three', () => {
+		const shader = /^(?:var|const) [\w$]+ = "[^"]*(?:\/\/|\\n\\t)/gm;
+		expect(source.match(shader)?.length).toBeGreaterThan(60);
+		expect(bare.match(shader)?.length ?? 0).toBe(0);
+		expect(source.length - bare.length).toBeGreaterThan(20_000);
+	});
+
+	it('leaves the code around them, and words in one line, as they are', () => {
+		const code = (text: string) => text.replace(/^(var|const) [\w$]+ = ".*";$/gm, '');
+		expect(code(bare)).toBe(code(source));
+		expect(bareThree('const a = "// no shader";\n')).toBe('const a = "// no shader";\n');
 	});
 });
 

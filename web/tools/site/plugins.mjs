@@ -70,8 +70,21 @@ export function bareSchema(source) {
 	return JSON.stringify(JSON.parse(source, keep));
 }
 
+/** Shaders in three's module: texts of several lines, or with a directive. */
+const THREE_SHADER = /^(?:var|const) [\w$]+ = ("(?:[^"\\]|\\.)*(?:\\n|#)(?:[^"\\]|\\.)*");$/gm;
+
 /**
- * Strips comments from shaders, two fifths of their bytes, and descriptions from schemas.
+ * @param {string} code of three.module.js
+ * @returns {string} the module, its shaders bare: 2 kB of gzip less
+ */
+export function bareThree(code) {
+	return code.replace(THREE_SHADER, (line, text) =>
+		line.replace(text, () => JSON.stringify(bareShader(JSON.parse(text)))),
+	);
+}
+
+/**
+ * Strips comments and needless spaces from shaders, two fifths of their bytes, and descriptions from schemas.
  *
  * @returns {Plugin}
  */
@@ -86,6 +99,9 @@ export function barePlugin() {
 			const source = await readFile(id.replace(/\?raw$/, ''), 'utf8');
 			const code = shader ? JSON.stringify(bareShader(source)) : bareSchema(source);
 			return { code: `export default ${code};`, moduleType: 'js' };
+		},
+		transform(code, id) {
+			return id.endsWith('/three/build/three.module.js') ? { code: bareThree(code), map: null } : undefined;
 		},
 	};
 }

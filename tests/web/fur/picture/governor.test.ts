@@ -111,6 +111,21 @@ describe.each([
 		}
 	});
 
+	it('lets nobody wait where frames crawl: four of them are enough', () => {
+		const one = machine({ merges: true });
+		for (let frames = 0; one.scale === 1 && frames < 20; frames++) one.frame(pixels(3000));
+		expect(one.frames).toBe(4);
+		expect(one.scale).toBe(0.5);
+	});
+
+	it('leaves a light scene alone where two frames take long', () => {
+		const one = machine();
+		one.run(2, pixels(9));
+		for (let i = 0; i < 2; i++) one.frame(pixels(9), true, 600);
+		one.run(2, pixels(9));
+		expect(one.changes).toEqual([]);
+	});
+
 	it('ignores the gap of a hidden tab and single hiccups', () => {
 		const one = machine();
 		one.run(2, pixels(9));
