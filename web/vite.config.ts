@@ -22,7 +22,7 @@ export default defineConfig({
 	plugins: [
 		lesson(),
 		guidePlugin(),
-		wholePlugin(/checks/),
+		wholePlugin(/checks|environmentMap/),
 		barePlugin(),
 		fontsPlugin(),
 		licencesPlugin(),

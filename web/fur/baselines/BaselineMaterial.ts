@@ -18,6 +18,7 @@ import opacity from '../shaders/hair/opacity.glsl?raw';
 import shell from '../shaders/hair/shell.glsl?raw';
 import drift from '../shaders/hair/tile/drift.glsl?raw';
 import view from '../shaders/light/view.glsl?raw';
+import { followEnvironment } from '../shells/environment.ts';
 import type { FurMaterial } from '../shells/FurMaterial.ts';
 import { hairChunks, texelChunks } from '../shells/parts/chunks.ts';
 import { parts } from '../shells/parts/parts.ts';
@@ -98,8 +99,9 @@ export class BaselineMaterial extends ShaderMaterial {
 		this.shells.trim = share;
 	}
 
-	/** Follow the shells' compiled parts. */
-	override onBeforeRender(_renderer: WebGLRenderer, _scene: Scene, _camera: Camera): void {
+	/** Follow the shells' compiled parts, and the scene's environment. */
+	override onBeforeRender(renderer: WebGLRenderer, scene: Scene, _camera: Camera): void {
 		followParts(this, this.shells, SHAPE);
+		followEnvironment(this, renderer, scene);
 	}
 }

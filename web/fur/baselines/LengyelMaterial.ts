@@ -1,4 +1,5 @@
 import { type IUniform, type Texture, Vector2 } from 'three';
+import environmentMap from '../shaders/light/environmentMap.glsl?raw';
 import type { FurMaterial } from '../shells/FurMaterial.ts';
 import { BaselineMaterial } from './BaselineMaterial.ts';
 import kajiyaKay from './shaders/kajiya-kay.glsl?raw';
@@ -39,7 +40,7 @@ export function localLight(
 	{ diffuse, skyDiffuse, darkness }: Brightness,
 ): { vertex: string; fragment: string; uniforms: Record<string, IUniform>; defines: Record<string, string> } {
 	return {
-		vertex: ['#include <lights_pars_begin>', kajiyaKay, localOut].join('\n'),
+		vertex: ['#include <lights_pars_begin>', environmentMap, kajiyaKay, localOut].join('\n'),
 		fragment: ['#include <lights_pars_begin>', kajiyaKay, localIn].join('\n'),
 		uniforms: {
 			lean: shells.uniforms.lean as IUniform,

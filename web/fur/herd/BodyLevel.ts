@@ -20,6 +20,7 @@ import {
 } from 'three';
 import type { Fur } from '../Fur.ts';
 import { beginClip, endClip, type FurColumns } from '../shells/clip.ts';
+import { followEnvironment } from '../shells/environment.ts';
 import { followHue } from '../shells/hue.ts';
 import { SPACING } from '../shells/lod.ts';
 import { parts } from '../shells/parts/parts.ts';
@@ -59,9 +60,10 @@ export class BodyMaterial extends ShaderMaterial {
 		this.follow();
 	}
 
-	/** Use the lamps of this scene, not of the fur's. */
-	override onBeforeRender(_renderer: WebGLRenderer, scene: Scene, _camera: Camera): void {
+	/** Use the light of this scene, not of the fur's. */
+	override onBeforeRender(renderer: WebGLRenderer, scene: Scene, _camera: Camera): void {
 		followHue(this, scene);
+		followEnvironment(this, renderer, scene);
 	}
 
 	/** Copy the source's compiled parts and blending. */
@@ -69,11 +71,13 @@ export class BodyMaterial extends ShaderMaterial {
 		if (this.#version === this.#source.version) return;
 		this.#version = this.#source.version;
 		Material.prototype.copy.call(this, this.#source);
-		const { ONE_HUE } = this.defines;
+		const own = this.defines;
 		const { BODY_LIGHT: _, ...parts } = this.#source.defines;
 		this.defines = { ...parts, BODIES: '' };
-		if (ONE_HUE === undefined) delete this.defines.ONE_HUE;
-		else this.defines.ONE_HUE = ONE_HUE;
+		for (const part of ['ONE_HUE', 'ENVIRONMENT_MAP']) {
+			if (own[part] === undefined) delete this.defines[part];
+			else this.defines[part] = own[part];
+		}
 		this.needsUpdate = true;
 	}
 }

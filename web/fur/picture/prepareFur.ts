@@ -2,6 +2,7 @@ import type { Camera, Scene, Texture, WebGLRenderer, WebGLRenderTarget } from 't
 import type { Fur } from '../Fur.ts';
 import { turn } from '../planes/steps.ts';
 import { BodyLight } from '../shells/BodyLight.ts';
+import { prepareEnvironment } from '../shells/environment.ts';
 
 /**
  * Compiles a fur's programs and uploads its planes in small steps before it is first seen, so that no frame waits for them.
@@ -20,14 +21,16 @@ export async function prepareFur(
 ): Promise<void> {
 	// Without this extension three would warn, and could not tell when programs are ready.
 	const aside = renderer.extensions.has('KHR_parallel_shader_compile');
+	if (scene.environment) await prepareEnvironment(renderer, scene.environment);
 	const before = renderer.getRenderTarget();
+	const drawn = [...(fur.fins ? [fur.fins] : []), fur.shells];
+	// Materials of fur depend on the lamps' hue, and on the environment.
+	for (const part of drawn) part.material.onBeforeRender(renderer, scene, camera);
 	for (const part of fur.shells.children) if (part instanceof BodyLight) part.follow();
 	renderer.setRenderTarget(target);
-	const compiled = [...(fur.fins ? [fur.fins] : []), fur.shells].map((part) => {
-		// Materials of fur depend on the lamps' hue.
-		part.material.onBeforeRender(renderer, scene, camera);
-		return aside ? renderer.compileAsync(part, camera, scene) : renderer.compile(part, camera, scene);
-	});
+	const compiled = drawn.map((part) =>
+		aside ? renderer.compileAsync(part, camera, scene) : renderer.compile(part, camera, scene),
+	);
 	renderer.setRenderTarget(before);
 	await Promise.all(compiled);
 	const textures = new Set<Texture>(

@@ -32,6 +32,7 @@ import bodyLight from '../shaders/draw/bodyLight.glsl?raw';
 import vertexMain from '../shaders/draw/bodyLight.vert.glsl?raw';
 import curvature from '../shaders/draw/curvature.glsl?raw';
 import frame from '../shaders/hair/frame.glsl?raw';
+import { followEnvironment } from './environment.ts';
 import type { FurMaterial } from './FurMaterial.ts';
 import { arrivalChunks, hairChunks, skyChunks } from './parts/chunks.ts';
 import { followComb, followParts, switchPart } from './switches.ts';
@@ -43,7 +44,7 @@ const VERTICES_PER_ROW = 1024;
 const SKY_HEIGHTS = 5;
 
 /** Parts of the shells' shaders that place and bend hairs and light them by the sky. */
-const PARTS = ['SWING', 'STRAIGHT', 'TRIMMED', 'WET', 'SKY', 'MORPHS'];
+const PARTS = ['SWING', 'STRAIGHT', 'TRIMMED', 'WET', 'SKY', 'ENVIRONMENT_MAP', 'MORPHS'];
 
 /** Parts of the shells' shaders that belong to the pelt. */
 const PELT_PARTS = [
@@ -177,6 +178,7 @@ export class BodyLight extends Points<InstancedBufferGeometry, ShaderMaterial> i
 		const own = material === this.material && this.#shells.material === this.#source;
 		const entries = own ? this.#fit(renderer, scene) : 0;
 		if (entries === 0) return;
+		followEnvironment(this.#source, renderer, scene);
 		this.follow();
 		this.#frame = renderer.info.render.frame;
 		this.#camera = camera;

@@ -12,6 +12,7 @@ import {
 import { PeltLight } from '../light/PeltLight.ts';
 import { CONTRAST, codings, type FurTextures, type SlabMeanCurves, type TexelCoding } from '../light/texels.ts';
 import { type Stained, stain } from '../weather/stains.ts';
+import { followEnvironment } from './environment.ts';
 import { followHue } from './hue.ts';
 import { peltParameters } from './parts/peltParameters.ts';
 import { inOrder, mirrorUniforms, switchPart } from './switches.ts';
@@ -70,7 +71,7 @@ export class PeltMaterial extends ShaderMaterial {
 		return [this, ...this.#followers];
 	}
 
-	/** Whether ambient and hemisphere lights and light probes count. A fragment costs less without. */
+	/** Whether ambient and hemisphere lights, light probes and `scene.environment` count. A fragment costs less without. */
 	get environment(): boolean {
 		return 'SKY' in this.defines;
 	}
@@ -193,9 +194,10 @@ export class PeltMaterial extends ShaderMaterial {
 		return (this.#light.hidden(this.trim)[which] as number) * Math.min(this.density, 1);
 	}
 
-	/** Switch to the cheaper sum for lamps of one hue. */
-	override onBeforeRender(_renderer: WebGLRenderer, scene: Scene, _camera: Camera): void {
+	/** Switch to the cheaper sum for lamps of one hue, and to the light of the scene's environment. */
+	override onBeforeRender(renderer: WebGLRenderer, scene: Scene, _camera: Camera): void {
 		followHue(this, scene);
+		followEnvironment(this, renderer, scene);
 	}
 
 	/** Frees everything but the pelt's textures. */

@@ -17,6 +17,7 @@ import weatherOut from '../../shaders/hair/weather.vert.glsl?raw';
 import arrival from '../../shaders/light/arrival.glsl?raw';
 import bent from '../../shaders/light/bent.glsl?raw';
 import curves from '../../shaders/light/curves.glsl?raw';
+import environmentMap from '../../shaders/light/environmentMap.glsl?raw';
 import eye from '../../shaders/light/eye.glsl?raw';
 import glow from '../../shaders/light/glow.glsl?raw';
 import lamps from '../../shaders/light/lamps.glsl?raw';
@@ -42,7 +43,7 @@ export const texelChunks = (): string[] => [...furChunks(), regionIn, trim, dens
 
 /** Arrival of lamps at a point of the fur. @param curved whether by mean curves (format 2.x) */
 export const arrivalChunks = (curved: boolean): string[] => [
-	...['#include <common>', '#include <lights_pars_begin>'],
+	...['#include <common>', '#include <lights_pars_begin>', environmentMap],
 	...[view, moments, short, trimmed, bent, eye, curved ? curves : (parts.horizon?.horizon ?? ''), arrival],
 ];
 

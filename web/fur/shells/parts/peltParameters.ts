@@ -58,6 +58,7 @@ export function peltParameters(
 			backlight: { value: 0 },
 			glow: { value: 0 },
 			lampHue: { value: new Color(1, 1, 1) },
+			environmentProbe: { value: null },
 			density: { value: 1 },
 			swing: { value: null },
 			...stainUniforms(),
