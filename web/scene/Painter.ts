@@ -13,6 +13,7 @@ import { OutputPass } from 'three/addons/postprocessing/OutputPass.js';
 import { type Fur, type FurLimits, furLimits } from '../fur/index.ts';
 import { disposeAll } from '../page/dispose.ts';
 import { setToneMapping } from '../page/toneMapping.ts';
+import { isWhole } from '../page/webgl.ts';
 import { compileScene } from './compile.ts';
 
 const MAX_PIXEL_RATIO = 2;
@@ -266,7 +267,7 @@ function output(): Output | undefined {
 	const attributes: WebGLContextAttributes = { antialias: false, depth: false, powerPreference: 'high-performance' };
 	// Asked here, since the renderer would log an error.
 	const gl = canvas.getContext('webgl2', attributes);
-	if (!gl) return undefined;
+	if (!isWhole(gl)) return undefined;
 	const half = gl.getExtension('EXT_color_buffer_float') ?? gl.getExtension('EXT_color_buffer_half_float');
 	const renderer = new WebGLRenderer({ canvas, ...attributes });
 	setToneMapping(renderer);

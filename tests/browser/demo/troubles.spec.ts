@@ -22,6 +22,24 @@ async function held(page: Page, files: string): Promise<() => void> {
 	return release;
 }
 
+test('where half of WebGL2 is hidden there are words and a picture, on the page and in the lesson', async ({
+	page,
+}) => {
+	// As Firefox does that resists fingerprinting; it refuses shaders that take more.
+	await page.addInitScript(() => {
+		const { getParameter, MAX_VARYING_VECTORS } = WebGL2RenderingContext.prototype;
+		WebGL2RenderingContext.prototype.getParameter = function (name) {
+			return name === MAX_VARYING_VECTORS ? 8 : getParameter.call(this, name);
+		};
+	});
+	await open(page, '?lang=en');
+	expect(await state(page)).toBe('failed');
+	await expect(page.locator('#fallback')).toContainText('half hidden against fingerprinting');
+	await open(page, 'learn.html?lang=en');
+	expect(await state(page)).toBe('failed');
+	await expect(page.locator('figure[data-figure]').first()).toContainText('needs WebGL2');
+});
+
 test('unknown and broken parameters are ignored with a notice', async ({ page }) => {
 	await drawNothing(page);
 	await open(page, '?model=cat&still=1&light=north&camera=1,2&shells=many&env=mars&colour=red');

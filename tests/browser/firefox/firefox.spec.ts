@@ -127,6 +127,15 @@ test('the tag is lit by drags, and each view has its own light', async () => {
 	expect(lights[1]).toBe('-1,0.2,0.3');
 });
 
+test('the panel has a thin scroll bar, at which Tab does not stop', async () => {
+	await open('?model=torus-512&shells=4&still=1&lang=en');
+	const scroller = await page.$eval('#panel .lil-root > .lil-children', (element) => ({
+		bar: getComputedStyle(element).scrollbarWidth,
+		tabIndex: (element as HTMLElement).tabIndex,
+	}));
+	expect(scroller).toEqual({ bar: 'thin', tabIndex: -1 });
+});
+
 test('two methods stand side by side', async () => {
 	await open(`${TORUS}&light=-1,.2,.3`);
 	const alone = await halves();

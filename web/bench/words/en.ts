@@ -65,7 +65,7 @@ export const en = {
 		return `${percent} %${left}: ${doing[what]}`;
 	},
 	machine: (device: string, cores: number, seconds: number, browser: string) =>
-		`${device}, ${cores} cores, ${duration(seconds)} in all. ${browser}`,
+		`${device}, ${cores} cores by the browser’s word, ${duration(seconds)} in all. ${browser}`,
 	failed: (why: string) => `It could not be measured: ${why}`,
 	problems: (problems: string[]) => `In the address: ${problems.join('; ')}.`,
 	problem: (given: string, expected: string) => `${given}: expected ${expected}`,

@@ -46,7 +46,8 @@ export const zh: Words = {
 		const left = secondsLeft === undefined ? '' : `，大约还需 ${duration(secondsLeft)}`;
 		return `${percent}%${left}：${doing[what]}`;
 	},
-	machine: (device, cores, seconds, browser) => `${device}，${cores} 核，共用时 ${duration(seconds)}。${browser}`,
+	machine: (device, cores, seconds, browser) =>
+		`${device}，浏览器报告 ${cores} 核，共用时 ${duration(seconds)}。${browser}`,
 	failed: (why) => `无法测量：${why}`,
 	problems: (problems) => `网址中有误：${problems.join('；')}。`,
 	problem: (given, expected) => `${given}，应为${expected}`,

@@ -1,9 +1,10 @@
 /** Fallback without WebGL2: words and a picture. */
 
+import { isWhole } from '../../page/webgl.ts';
 import { words } from '../words/index.ts';
 
 export function hasWebGL2(): boolean {
-	return document.createElement('canvas').getContext('webgl2') !== null;
+	return isWhole(document.createElement('canvas').getContext('webgl2'));
 }
 
 export function showFallback(): void {

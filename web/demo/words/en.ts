@@ -163,7 +163,7 @@ export const en = {
 
 	fallbackTitle: 'This page needs WebGL2',
 	fallback:
-		'furbake draws fur that you relight by dragging. This browser does not offer WebGL2, or it is switched off: please use a current Chrome, Edge, Firefox or Safari, or switch hardware acceleration on.',
+		'furbake draws fur that you relight by dragging. This browser does not offer WebGL2, or it is switched off, or half hidden against fingerprinting: please use a current Chrome, Edge, Firefox or Safari, switch hardware acceleration on, or let this site see all of it.',
 	still: 'A furry bunny, lit from the side',
 };
 

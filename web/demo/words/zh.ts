@@ -168,6 +168,6 @@ export const zh: Words = {
 
 	fallbackTitle: '本页需要 WebGL2',
 	fallback:
-		'furbake 绘制可拖动光源的实时毛发。此浏览器不支持 WebGL2，或已将其关闭：请使用新版 Chrome、Edge、Firefox 或 Safari，或开启硬件加速。',
+		'furbake 绘制可拖动光源的实时毛发。此浏览器不支持 WebGL2，或已将其关闭，或为防指纹识别而隐藏了一部分：请使用新版 Chrome、Edge、Firefox 或 Safari，开启硬件加速，或允许本站使用完整的 WebGL2。',
 	still: '一只侧面受光的毛茸茸的兔子',
 };
