@@ -56,10 +56,12 @@ async function read(renderer: WebGLRenderer, map: Texture): Promise<SphericalHar
 	const scene = new Scene();
 	scene.background = map as CubeTexture;
 	scene.backgroundBlurriness = BLUR;
-	new CubeCamera(0.1, 10, target).update(renderer, scene);
-	const { sh } = await LightProbeGenerator.fromCubeRenderTarget(renderer, target);
-	target.dispose();
-	return sh;
+	try {
+		new CubeCamera(0.1, 10, target).update(renderer, scene);
+		return (await LightProbeGenerator.fromCubeRenderTarget(renderer, target)).sh;
+	} finally {
+		target.dispose();
+	}
 }
 
 /** Reading of a map as it is now, begun if need be; undefined while the map itself is loaded. */
