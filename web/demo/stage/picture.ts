@@ -6,6 +6,7 @@ import { Lamp } from '../../page/lamp/lamp.ts';
 import { MovingLight } from '../../page/light.ts';
 import type { Room } from '../../page/room.ts';
 import type { Triple } from '../state/view.ts';
+import { words } from '../words/index.ts';
 import { OrbitCamera } from './camera.ts';
 import { Frames } from './frames.ts';
 import { GpuFrames } from './gpuFrames.ts';
@@ -21,10 +22,7 @@ const SETTLING_TIME = 1200;
 const ROOM_EASING = 0.11;
 const ROOM_REACHED = 0.3;
 const ROOM_SIDES = ['left', 'top', 'width', 'height'] as const;
-/**
- * Share of a frame's time that counts while neither light nor camera moves: 30 frames a second are enough for a body that
- * breathes, and a picture that is looked at is better sharp.
- */
+/** Share of a frame's time that counts while neither light nor camera moves: 30 sharp frames a second show a body breathe. */
 const ALIVE = 0.5;
 /** Longest time step of animations, seconds: nothing leaps after a hidden tab. */
 const MAX_STEP = 0.25;
@@ -280,7 +278,7 @@ export class Picture {
 
 	/** Renders the picture to a PNG: at full resolution, the model in its middle, without lamp and ring. */
 	async file(): Promise<Blob> {
-		if (this.stage.gl.isContextLost()) throw new Error('the picture is being drawn anew, please try again');
+		if (this.stage.gl.isContextLost()) throw new Error(words.redrawn);
 		const room = this.#room;
 		this.#room = undefined;
 		this.stage.scale = 1;
@@ -293,8 +291,8 @@ export class Picture {
 		this.#room = room;
 		this.#frame();
 		// In the same task as the render: later the canvas may be empty.
-		const blob = await new Promise<Blob | null>((resolve) => this.canvas.toBlob(resolve, 'image/png'));
-		if (!blob) throw new Error('the browser made no picture of the canvas');
-		return blob;
+		return new Promise((resolve, reject) =>
+			this.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error(words.noPicture)))),
+		);
 	}
 }

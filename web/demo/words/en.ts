@@ -122,6 +122,8 @@ export const en = {
 	copyThis: (link: string) => `This is the link:\n${link}`,
 	saved: (file: string) => `Saved as ${file}.`,
 	notSaved: (reason: string) => `The picture cannot be saved: ${reason}`,
+	redrawn: 'it is being drawn anew, please try again',
+	noPicture: 'the browser made none of the canvas',
 	noLink: 'A model from your own files has no address: this link shows the rest of the view.',
 	notInLink: 'What was painted on the fur is not in the link.',
 	standsAlone: 'A model with joints and several furs stands alone: the crowd is left out.',

@@ -129,6 +129,8 @@ export const zh: Words = {
 	copyThis: (link) => `链接如下：\n${link}`,
 	saved: (file) => `已保存为 ${file}。`,
 	notSaved: (reason) => `无法保存图片：${reason}`,
+	redrawn: '画面正在重新绘制，请稍后再试',
+	noPicture: '浏览器未能由画布生成图片',
 	noLink: '来自本地文件的模型没有地址：此链接只重现其余设置。',
 	notInLink: '涂在毛发上的水和泥不会写进链接。',
 	standsAlone: '带骨骼且有多种毛发的模型只能单独显示：已忽略群体。',
