@@ -154,6 +154,19 @@ test('a script that is missing, as after an update of the site, is told, with a 
 	watch.complaints.length = 0;
 });
 
+test('a script that is missing when it is first used is told, and the page goes on without', async ({
+	page,
+	watch,
+}) => {
+	await drawNothing(page);
+	await page.route('**/assets/crowd-*.js', (route) => route.fulfill({ status: 404 }));
+	await open(page, '?model=sphere&still=1&shells=2&crowd=4');
+	expect(await state(page)).toBe('ready');
+	await expect(page.getByRole('status')).toContainText('A file of this page cannot be loaded.');
+	await page.unrouteAll();
+	watch.complaints.length = 0;
+});
+
 test('without the list of models the page says so once', async ({ page, watch }) => {
 	await page.route('**/models/models.json', (route) => route.fulfill({ body: '<!doctype html>' }));
 	await page.goto(`${site}?still=1`);
