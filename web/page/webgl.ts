@@ -1,4 +1,4 @@
-/** Varyings of four numbers that WebGL2 promises, as many as fur takes. Browsers that resist fingerprinting allow eight. */
+/** Varyings of four numbers that WebGL2 promises, and fur counts on. Browsers that resist fingerprinting allow eight. */
 const VARYINGS = 15;
 
 /** Whether a context is there, and does what WebGL2 promises. */

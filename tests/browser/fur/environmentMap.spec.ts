@@ -19,6 +19,7 @@ test('fur is lit by an environment as by a light probe of it, turned and dimmed,
 		test.info().annotations.push({ type: way, description: decibels.toFixed(1) });
 	for (const way of ['picture', 'pmrem', 'turned', 'rival', 'herd'] as const)
 		expect(found[way], way).toBeGreaterThan(45);
+	expect(found.live).toBeGreaterThan(40);
 	expect(found.unturned).toBeLessThan(20);
 	expect(found.beside).toBeGreaterThan(100);
 	expect(found.dark).toBe(0);

@@ -37,11 +37,12 @@ async function stand(url: string) {
 	camera.position.set(2, 3, 8);
 	camera.lookAt(0, 0, 0);
 	const target = new WebGLRenderTarget(SIZE, SIZE, { type: FloatType });
+	const drawAtOnce = () => renderFloats(renderer, scene, camera, target).slice();
 	const draw = async () => {
 		await prepareFur(fur, renderer, scene, camera, target);
-		return renderFloats(renderer, scene, camera, target).slice();
+		return drawAtOnce();
 	};
-	return { fur, scene, draw };
+	return { fur, scene, draw, drawAtOnce };
 }
 
 /** Three's own probe of a background. */
@@ -55,6 +56,8 @@ async function probeOf(background: Scene) {
 export interface Found {
 	picture: number;
 	pmrem: number;
+	/** a cube that is drawn anew */
+	live: number;
 	turned: number;
 	/** turned as little as before */
 	unturned: number;
@@ -67,7 +70,7 @@ export interface Found {
 }
 
 export async function underEnvironment(url: string, file: string): Promise<Found> {
-	const { fur, scene, draw } = await stand(url);
+	const { fur, scene, draw, drawAtOnce } = await stand(url);
 	const picture = await new EXRLoader().setDataType(FloatType).loadAsync(file);
 	picture.mapping = EquirectangularReflectionMapping;
 	const place = new Scene();
@@ -81,6 +84,18 @@ export async function underEnvironment(url: string, file: string): Promise<Found
 	const found: Partial<Found> = { picture: snr(truth, await draw()) };
 	scene.environment = new PMREMGenerator(renderer).fromEquirectangular(picture).texture;
 	found.pmrem = snr(truth, await draw());
+
+	// Without preparation, and drawn anew while it is being read: first a dark place.
+	const cube = new WebGLCubeRenderTarget(256, { type: FloatType });
+	const eyes = new CubeCamera(0.1, 10, cube);
+	eyes.update(renderer, new Scene());
+	scene.environment = cube.texture;
+	drawAtOnce();
+	eyes.update(renderer, place);
+	for (let frame = 0; frame < 50 && !(found.live && found.live > 40); frame++) {
+		found.live = snr(truth, drawAtOnce());
+		await new Promise((resolve) => setTimeout(resolve, 100));
+	}
 
 	place.backgroundRotation.set(0.4, 1.9, -0.7);
 	place.backgroundIntensity = scene.environmentIntensity = 0.5;

@@ -1,6 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import {
+	barePlugin,
 	bareSchema,
 	bareShader,
 	bareThree,
@@ -63,7 +64,8 @@ describe('bareShader', () => {
 
 describe('bareThree', () => {
 	const source = readFileSync(new URL('../../../node_modules/three/build/three.module.js', import.meta.url), 'utf8');
-	const bare = bareThree(source);
+	const { transform } = barePlugin() as unknown as { transform: (code: string, id: string) => { code: string } };
+	const bare = transform(source, '/node_modules/three/build/three.module.js').code;
 
 	it('leaves no comment and no indent in the shaders of three', () => {
 		const shader = /^(?:var|const) [\w$]+ = "[^"]*(?:\/\/|\\n\\t)/gm;
@@ -75,7 +77,14 @@ describe('bareThree', () => {
 	it('leaves the code around them, and words in one line, as they are', () => {
 		const code = (text: string) => text.replace(/^(var|const) [\w$]+ = ".*";$/gm, '');
 		expect(code(bare)).toBe(code(source));
-		expect(bareThree('const a = "// no shader";\n')).toBe('const a = "// no shader";\n');
+		for (const text of ['// no shader', '#fff', 'a  =  b'])
+			expect(bareThree(`const a = "${text}";\n`)).toBe(`const a = "${text}";\n`);
+	});
+
+	it('tells where three has its shaders elsewhere', () => {
+		expect(() => transform('export {};\n', '/node_modules/three/build/three.module.js')).toThrow(
+			'got no quoted shader',
+		);
 	});
 });
 

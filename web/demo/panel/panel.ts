@@ -50,8 +50,9 @@ export class Panel {
 		this.#handlers = handlers;
 		const gui = new GUI({ container, title: words.panel, injectStyles: false });
 		this.element = gui.domElement;
-		// Firefox stops at whatever scrolls, and this has no name; its controls scroll it.
+		// In Firefox Tab stops at whatever scrolls, and this has no name; clicks would take the arrow keys from the picture.
 		gui.$children.tabIndex = -1;
+		gui.$children.addEventListener('focus', () => gui.$children.blur());
 		gui.domElement.setAttribute('role', 'group');
 		gui.domElement.setAttribute('aria-label', words.settings);
 		const folders = FOLDERS.map((name) => [name, gui.addFolder(words[name])] as const);

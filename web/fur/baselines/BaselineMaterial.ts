@@ -18,7 +18,7 @@ import opacity from '../shaders/hair/opacity.glsl?raw';
 import shell from '../shaders/hair/shell.glsl?raw';
 import drift from '../shaders/hair/tile/drift.glsl?raw';
 import view from '../shaders/light/view.glsl?raw';
-import { followEnvironment } from '../shells/environment.ts';
+import { followEnvironmentMap } from '../shells/environmentMap.ts';
 import type { FurMaterial } from '../shells/FurMaterial.ts';
 import { hairChunks, texelChunks } from '../shells/parts/chunks.ts';
 import { parts } from '../shells/parts/parts.ts';
@@ -102,6 +102,6 @@ export class BaselineMaterial extends ShaderMaterial {
 	/** Follow the shells' compiled parts, and the scene's environment. */
 	override onBeforeRender(renderer: WebGLRenderer, scene: Scene, _camera: Camera): void {
 		followParts(this, this.shells, SHAPE);
-		followEnvironment(this, renderer, scene);
+		followEnvironmentMap(this, renderer, scene);
 	}
 }

@@ -20,10 +20,11 @@ import {
 } from 'three';
 import type { Fur } from '../Fur.ts';
 import { beginClip, endClip, type FurColumns } from '../shells/clip.ts';
-import { followEnvironment } from '../shells/environment.ts';
+import { followEnvironmentMap } from '../shells/environmentMap.ts';
 import { followHue } from '../shells/hue.ts';
 import { SPACING } from '../shells/lod.ts';
 import { parts } from '../shells/parts/parts.ts';
+import { inOrder } from '../shells/switches.ts';
 import type { BodyDetails } from './BodyDetails.ts';
 import type { FarSurface, FurSimplifier } from './FarSurface.ts';
 import { farFins } from './farFins.ts';
@@ -63,7 +64,7 @@ export class BodyMaterial extends ShaderMaterial {
 	/** Use the light of this scene, not of the fur's. */
 	override onBeforeRender(renderer: WebGLRenderer, scene: Scene, _camera: Camera): void {
 		followHue(this, scene);
-		followEnvironment(this, renderer, scene);
+		followEnvironmentMap(this, renderer, scene);
 	}
 
 	/** Copy the source's compiled parts and blending. */
@@ -71,13 +72,10 @@ export class BodyMaterial extends ShaderMaterial {
 		if (this.#version === this.#source.version) return;
 		this.#version = this.#source.version;
 		Material.prototype.copy.call(this, this.#source);
-		const own = this.defines;
 		const { BODY_LIGHT: _, ...parts } = this.#source.defines;
-		this.defines = { ...parts, BODIES: '' };
-		for (const part of ['ONE_HUE', 'ENVIRONMENT_MAP']) {
-			if (own[part] === undefined) delete this.defines[part];
-			else this.defines[part] = own[part];
-		}
+		const { ONE_HUE, ENVIRONMENT_MAP } = this.defines;
+		const own = Object.entries({ ...parts, ONE_HUE, ENVIRONMENT_MAP, BODIES: '' });
+		this.defines = inOrder(Object.fromEntries(own.filter(([, value]) => value !== undefined)));
 		this.needsUpdate = true;
 	}
 }

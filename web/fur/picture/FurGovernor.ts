@@ -36,7 +36,7 @@ const SKIPPED_FRAMES = 4;
 /** Shares of the target: two windows in a row above the first step down, one above the second. */
 const LATE = 1.15;
 const FAR_LATE = 1.5;
-/** Share of the target beyond which frames crawl: the first two after a change decide. */
+/** Share of the target beyond which frames crawl: the first two that are not skipped decide. */
 const CRAWLING = 24;
 /** Share of the target that the time expected by the pixels may fill after a step. */
 const ROOM = 0.9;
@@ -89,8 +89,8 @@ export class FurGovernor {
 	readonly #times = new Float64Array(WINDOW);
 	#count = 0;
 	#skip = SKIPPED_FRAMES;
-	/** Whether a window has been judged since the last change. */
-	#judged = false;
+	/** Whether all frames have crawled since the last change, or since motion or rest began. */
+	#crawls = true;
 	#level = 0;
 	#resting = false;
 	#moved = Number.NEGATIVE_INFINITY;
@@ -166,23 +166,22 @@ export class FurGovernor {
 	#restart(): void {
 		this.#count = 0;
 		this.#skip = SKIPPED_FRAMES;
-		this.#judged = false;
+		this.#crawls = true;
 		this.#late = 0;
 		this.#calm = 0;
 	}
 
 	#measure(time: number, now: number): void {
+		this.#crawls &&= time > CRAWLING * this.#target;
 		if (this.#skip > 0) {
-			this.#skip -= time > CRAWLING * this.#target ? 2 : 1;
+			this.#skip -= this.#crawls ? 2 : 1;
 			return;
 		}
 		this.#times[this.#count++] = time;
-		const crawls = this.#count === 2 && !this.#judged && this.#all(CRAWLING);
-		const decided = crawls || (this.#count === 3 && this.#all(FAR_LATE));
+		const decided = (this.#count === 2 && this.#crawls) || (this.#count === 3 && this.#allFarLate());
 		if (this.#count < WINDOW && !decided) return;
 		const median = this.#median();
 		this.#count = 0;
-		this.#judged = true;
 		this.#since++;
 		if (!this.#resting) this.#whole = median / this.#step.time;
 		if (this.#resting) this.#learn(median);
@@ -190,9 +189,9 @@ export class FurGovernor {
 		else this.#beOnTime(median, now);
 	}
 
-	/** Whether all frames of the window take more than a share of the target, so that it is known at once. */
-	#all(share: number): boolean {
-		for (let i = 0; i < this.#count; i++) if ((this.#times[i] ?? 0) <= share * this.#target) return false;
+	/** Whether three frames in a row are late enough to decide at once. */
+	#allFarLate(): boolean {
+		for (let i = 0; i < this.#count; i++) if ((this.#times[i] ?? 0) <= FAR_LATE * this.#target) return false;
 		return true;
 	}
 

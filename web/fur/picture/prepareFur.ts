@@ -2,7 +2,7 @@ import type { Camera, Scene, Texture, WebGLRenderer, WebGLRenderTarget } from 't
 import type { Fur } from '../Fur.ts';
 import { turn } from '../planes/steps.ts';
 import { BodyLight } from '../shells/BodyLight.ts';
-import { prepareEnvironment } from '../shells/environment.ts';
+import { prepareEnvironmentMap } from '../shells/environmentMap.ts';
 
 /**
  * Compiles a fur's programs and uploads its planes in small steps before it is first seen, so that no frame waits for them.
@@ -21,7 +21,6 @@ export async function prepareFur(
 ): Promise<void> {
 	// Without this extension three would warn, and could not tell when programs are ready.
 	const aside = renderer.extensions.has('KHR_parallel_shader_compile');
-	if (scene.environment) await prepareEnvironment(renderer, scene.environment);
 	const before = renderer.getRenderTarget();
 	const drawn = [...(fur.fins ? [fur.fins] : []), fur.shells];
 	// Materials of fur depend on the lamps' hue, and on the environment.
@@ -32,7 +31,7 @@ export async function prepareFur(
 		aside ? renderer.compileAsync(part, camera, scene) : renderer.compile(part, camera, scene),
 	);
 	renderer.setRenderTarget(before);
-	await Promise.all(compiled);
+	await Promise.all([...compiled, prepareEnvironmentMap(renderer, scene)]);
 	const textures = new Set<Texture>(
 		[fur.textures, fur.finTextures].flatMap((those) => Object.values(those ?? {}).filter(Boolean)),
 	);

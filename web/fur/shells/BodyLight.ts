@@ -32,7 +32,7 @@ import bodyLight from '../shaders/draw/bodyLight.glsl?raw';
 import vertexMain from '../shaders/draw/bodyLight.vert.glsl?raw';
 import curvature from '../shaders/draw/curvature.glsl?raw';
 import frame from '../shaders/hair/frame.glsl?raw';
-import { followEnvironment } from './environment.ts';
+import { followEnvironmentMap } from './environmentMap.ts';
 import type { FurMaterial } from './FurMaterial.ts';
 import { arrivalChunks, hairChunks, skyChunks } from './parts/chunks.ts';
 import { followComb, followParts, switchPart } from './switches.ts';
@@ -178,7 +178,7 @@ export class BodyLight extends Points<InstancedBufferGeometry, ShaderMaterial> i
 		const own = material === this.material && this.#shells.material === this.#source;
 		const entries = own ? this.#fit(renderer, scene) : 0;
 		if (entries === 0) return;
-		followEnvironment(this.#source, renderer, scene);
+		followEnvironmentMap(this.#source, renderer, scene);
 		this.follow();
 		this.#frame = renderer.info.render.frame;
 		this.#camera = camera;

@@ -12,7 +12,7 @@ import {
 import { PeltLight } from '../light/PeltLight.ts';
 import { CONTRAST, codings, type FurTextures, type SlabMeanCurves, type TexelCoding } from '../light/texels.ts';
 import { type Stained, stain } from '../weather/stains.ts';
-import { followEnvironment } from './environment.ts';
+import { followEnvironmentMap } from './environmentMap.ts';
 import { followHue } from './hue.ts';
 import { peltParameters } from './parts/peltParameters.ts';
 import { inOrder, mirrorUniforms, switchPart } from './switches.ts';
@@ -197,7 +197,7 @@ export class PeltMaterial extends ShaderMaterial {
 	/** Switch to the cheaper sum for lamps of one hue, and to the light of the scene's environment. */
 	override onBeforeRender(renderer: WebGLRenderer, scene: Scene, _camera: Camera): void {
 		followHue(this, scene);
-		followEnvironment(this, renderer, scene);
+		followEnvironmentMap(this, renderer, scene);
 	}
 
 	/** Frees everything but the pelt's textures. */

@@ -70,12 +70,12 @@ export function bareSchema(source) {
 	return JSON.stringify(JSON.parse(source, keep));
 }
 
-/** Shaders in three's module: texts of several lines, or with a directive. */
-const THREE_SHADER = /^(?:var|const) [\w$]+ = ("(?:[^"\\]|\\.)*(?:\\n|#)(?:[^"\\]|\\.)*");$/gm;
+/** Shaders in three's module: quoted texts of several lines, or of one directive. */
+const THREE_SHADER = /^(?:var|const) [\w$]+ = ("(?:[^"\\]|\\.)*\\n(?:[^"\\]|\\.)*"|"#\w+ [^"\\]*");$/gm;
 
 /**
  * @param {string} code of three.module.js
- * @returns {string} the module, its shaders bare: 2 kB of gzip less
+ * @returns {string} the module, its quoted shaders bare: 1.8 kB of gzip less
  */
 export function bareThree(code) {
 	return code.replace(THREE_SHADER, (line, text) =>
@@ -101,7 +101,10 @@ export function barePlugin() {
 			return { code: `export default ${code};`, moduleType: 'js' };
 		},
 		transform(code, id) {
-			return id.endsWith('/three/build/three.module.js') ? { code: bareThree(code), map: null } : undefined;
+			if (!id.endsWith('/three/build/three.module.js')) return undefined;
+			const bare = bareThree(code);
+			if (bare === code) throw new Failure(`${id}: got no quoted shader, expected those of three`);
+			return { code: bare, map: null };
 		},
 	};
 }

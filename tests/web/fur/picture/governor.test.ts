@@ -123,6 +123,10 @@ describe.each([
 		one.run(2, pixels(9));
 		for (let i = 0; i < 2; i++) one.frame(pixels(9), true, 600);
 		one.run(2, pixels(9));
+		one.run(2, pixels(9), false);
+		for (let i = 0; i < 4; i++) one.frame(pixels(9), true);
+		for (let i = 0; i < 2; i++) one.frame(pixels(9), true, 600);
+		one.run(2, pixels(9));
 		expect(one.changes).toEqual([]);
 	});
 

@@ -3,12 +3,11 @@
 import {
 	CubeCamera,
 	type CubeTexture,
-	type Euler,
 	FloatType,
 	HalfFloatType,
 	Matrix4,
+	type Object3D,
 	Scene,
-	type ShaderMaterial,
 	SphericalHarmonics3,
 	type Texture,
 	Vector3,
@@ -16,12 +15,13 @@ import {
 	type WebGLRenderer,
 } from 'three';
 import { LightProbeGenerator } from 'three/addons/lights/LightProbeGenerator.js';
-import { switchPart } from '../switches.ts';
 
 /** Pixels along the face of the cube in which a map is read. */
 const SIZE = 64;
 /** Roughness of three's blurred copy of the map that is read: a sun would fall between the pixels of a sharper one. */
 const BLUR = 0.1;
+/** Readings of a map that may fail in a row. */
+const TRIES = 3;
 
 /** Points and weights whose sums are integrals over the sphere up to degree 5: faces and corners of a cube. */
 const RULE = [-1, 0, 1]
@@ -34,22 +34,29 @@ const RULE = [-1, 0, 1]
 
 /** What is known of a map. */
 interface Reading {
-	/** of the map that is being read, or was */
+	/** of the map that was read last */
 	version: number;
-	harmonics?: SphericalHarmonics3;
-	done: Promise<void>;
+	readonly harmonics: SphericalHarmonics3;
+	/** while it is read */
+	done: Promise<void> | undefined;
+	failures: number;
 }
 
 const readings = new WeakMap<Texture, Reading>();
 
-const there = (image: { width?: number; image?: { width?: number } } | undefined): boolean =>
-	((image?.width ?? image?.image?.width) as number) > 0;
+interface Pixels {
+	width?: number;
+	/** of a face of a cube that is a texture itself */
+	image?: Pixels;
+}
+
+const hasPixels = (image: Pixels | undefined): boolean => (image?.width ?? image?.image?.width ?? 0) > 0;
 
 /** Whether all pictures of a map have been loaded. */
 const isLoaded = ({ image }: Texture): boolean =>
-	Array.isArray(image) ? image.length === 6 && image.every(there) : there(image as Parameters<typeof there>[0]);
+	Array.isArray(image) ? image.length === 6 && image.every(hasPixels) : hasPixels(image as Pixels | undefined);
 
-/** Harmonics of the radiance in the map's own axes. Draws, and so not to be called while a picture is drawn. */
+/** Harmonics of the radiance in the map's own axes. */
 async function read(renderer: WebGLRenderer, map: Texture): Promise<SphericalHarmonics3> {
 	const type = renderer.extensions.has('EXT_color_buffer_float') ? FloatType : HalfFloatType;
 	const target = new WebGLCubeRenderTarget(SIZE, { type });
@@ -64,22 +71,50 @@ async function read(renderer: WebGLRenderer, map: Texture): Promise<SphericalHar
 	}
 }
 
-/** Reading of a map as it is now, begun if need be; undefined while the map itself is loaded. */
-function readingOf(renderer: WebGLRenderer, map: Texture): Reading | undefined {
-	const reading = readings.get(map);
+/** Reading of a map; a new one is begun where it has been loaded or changed, behind the frame that is being drawn. */
+function readingOf(renderer: WebGLRenderer, map: Texture): Reading {
+	const reading = readings.get(map) ?? {
+		version: Number.NaN,
+		harmonics: new SphericalHarmonics3(),
+		done: undefined,
+		failures: 0,
+	};
+	readings.set(map, reading);
 	const version = map.version + map.pmremVersion;
-	if (reading?.version === version || !isLoaded(map)) return reading;
-	const next: Reading = { ...reading, version, done: Promise.resolve() };
-	next.done = next.done.then(async () => {
-		next.harmonics = await read(renderer, map);
-	});
-	readings.set(map, next);
-	return next;
+	if (reading.version === version || reading.done || !isLoaded(map)) return reading;
+	reading.version = version;
+	reading.done = Promise.resolve()
+		.then(() => read(renderer, map))
+		.then((harmonics) => {
+			reading.harmonics.copy(harmonics);
+			reading.failures = 0;
+		})
+		.catch((error) => {
+			// A context that is lost comes back.
+			if (++reading.failures < TRIES) reading.version = Number.NaN;
+			else console.warn('furbake: scene.environment cannot be read, fur has no light of it:', error);
+		})
+		.finally(() => {
+			reading.done = undefined;
+		});
+	return reading;
 }
 
-/** Reads a map, if it has been loaded. */
-export async function prepare(renderer: WebGLRenderer, map: Texture): Promise<void> {
-	await readingOf(renderer, map)?.done;
+let probed = false;
+const look = (object: Object3D): void => {
+	probed ||= 'isLightProbe' in object;
+};
+
+/** Whether a scene has light probes, which count in place of its environment. */
+function hasProbe(scene: Scene): boolean {
+	probed = false;
+	scene.traverseVisible(look);
+	return probed;
+}
+
+/** Reads the scene's map, if it has been loaded. */
+export async function prepare(renderer: WebGLRenderer, scene: Scene): Promise<void> {
+	if (scene.environment && !hasProbe(scene)) await readingOf(renderer, scene.environment).done;
 }
 
 const turn = new Matrix4();
@@ -88,25 +123,21 @@ const radiance = new Vector3();
 const basis = new Array<number>(9).fill(0);
 const turned = new SphericalHarmonics3();
 
-/** Harmonics, turned as three turns the map of a scene, times its intensity; the result is reused. */
-function placed(harmonics: SphericalHarmonics3, rotation: Euler, intensity: number): Vector3[] {
-	turn.makeRotationFromEuler(rotation).transpose();
+/** Harmonics of a scene's environment, turned as three turns it, times its intensity; 0 until it has been read. The result is reused. */
+export function probeOf(renderer: WebGLRenderer, scene: Scene): Vector3[] {
+	const { environment, environmentRotation, environmentIntensity } = scene;
 	turned.zero();
+	if (!environment || hasProbe(scene)) return turned.coefficients;
+	const { harmonics } = readingOf(renderer, environment);
+	turn.makeRotationFromEuler(environmentRotation).transpose();
 	for (const { point, weight } of RULE) {
 		harmonics.getAt(from.copy(point).applyMatrix4(turn), radiance);
 		SphericalHarmonics3.getBasisAt(point, basis);
 		for (let j = 0; j < 9; j++)
-			(turned.coefficients[j] as Vector3).addScaledVector(radiance, intensity * weight * (basis[j] as number));
+			(turned.coefficients[j] as Vector3).addScaledVector(
+				radiance,
+				environmentIntensity * weight * (basis[j] as number),
+			);
 	}
 	return turned.coefficients;
-}
-
-/** Light a material by the scene's map, once that has been read. */
-export function follow(material: ShaderMaterial, renderer: WebGLRenderer, scene: Scene): void {
-	const { environment, environmentRotation, environmentIntensity } = scene;
-	const harmonics = environment ? readingOf(renderer, environment)?.harmonics : undefined;
-	const { environmentProbe } = material.uniforms;
-	if (harmonics && environmentProbe)
-		environmentProbe.value = placed(harmonics, environmentRotation, environmentIntensity);
-	switchPart(material, 'ENVIRONMENT_MAP', harmonics && '');
 }

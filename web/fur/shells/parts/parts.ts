@@ -1,6 +1,6 @@
 /**
- * Parts of the shaders, with their code, that only some assets or scenes need. Each is a file of its own, fetched beside the
- * first asset that has it and before its materials are made; without it the shaders lack its text, and nothing else.
+ * Parts of the shaders, with their code, that only some assets need. Each is a file of its own, fetched beside the first
+ * asset that has it and before its materials are made; without it the shaders lack its text, and nothing else.
  */
 const FETCHES = {
 	/** Several furs on one body. */
@@ -9,7 +9,7 @@ const FETCHES = {
 	pose: () => import('./pose.ts'),
 	/** Light of format 1.x, which knows one horizon for the whole body. */
 	horizon: () => import('./horizon.ts'),
-	/** Light of `scene.environment`; fetched with the first scene that has it. */
+	/** Reading of `scene.environment`, whose part of the shaders is always there; fetched with the first scene that has one. */
 	environmentMap: () => import('./environmentMap.ts'),
 };
 

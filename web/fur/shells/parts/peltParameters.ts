@@ -12,6 +12,7 @@ import {
 	UniformsLib,
 	UniformsUtils,
 	Vector2,
+	Vector3,
 } from 'three';
 import { BODY_RADIUS } from '../../light/moments.ts';
 import { basisDefines, CONTRAST, codings, type FurTextures, type TexelCoding } from '../../light/texels.ts';
@@ -58,7 +59,7 @@ export function peltParameters(
 			backlight: { value: 0 },
 			glow: { value: 0 },
 			lampHue: { value: new Color(1, 1, 1) },
-			environmentProbe: { value: null },
+			environmentProbe: { value: Array.from({ length: 9 }, () => new Vector3()) },
 			density: { value: 1 },
 			swing: { value: null },
 			...stainUniforms(),
