@@ -32,12 +32,12 @@ const RULE = [-1, 0, 1]
 		return { point: point.normalize(), weight: 4 * Math.PI * (corner ? 3 / 40 : 1 / 15) };
 	});
 
-/** What is known of a map. */
+/** State of a map's reading. */
 interface Reading {
-	/** of the map that was read last */
+	/** Version of the map that was read last. */
 	version: number;
 	readonly harmonics: SphericalHarmonics3;
-	/** while it is read */
+	/** Promise of the reading under way. */
 	done: Promise<void> | undefined;
 	failures: number;
 }
@@ -46,7 +46,7 @@ const readings = new WeakMap<Texture, Reading>();
 
 interface Pixels {
 	width?: number;
-	/** of a face of a cube that is a texture itself */
+	/** Picture of a cube's face that is a texture itself. */
 	image?: Pixels;
 }
 
