@@ -70,14 +70,14 @@ test('the package holds the library, its types and its licences, and nothing els
 			'lib/index.d.ts',
 			'lib/reference.js',
 			'lib/reference.d.ts',
-			...['checks', 'growFur', 'fins', 'pose', 'regions', 'horizon'].map((name) => `lib/${name}.js`),
+			...['checks', 'growFur', 'fins', 'pose', 'regions', 'horizon', 'environmentMap'].map((name) => `lib/${name}.js`),
 			'lib/licenses.md',
 			'lib/fur-view.js',
 			'lib/fur-view.licenses.md',
 		]),
 	);
 	const others = packed.filter((path) => !/^lib\/(.*\.d\.ts|shared\d*\.js)$/.test(path));
-	expect(others).toHaveLength(15);
+	expect(others).toHaveLength(16);
 	const parts = licencesIn(readFileSync(join(app, 'node_modules', 'furbake', 'lib', 'licenses.md'), 'utf8'));
 	expect([...parts.keys()]).toEqual(['@cfworker/json-schema']);
 	for (const [name, text] of parts) expect(text, name).toContain('Permission is hereby granted');
