@@ -75,7 +75,7 @@ class LitHairs:
             seen *= see
             once.append(_sums(seen, self.layers))
         onwards = np.maximum(sent(self.arriving, self.tangent, eye)[:, some], 0)
-        blocks = pool(see.reshape(self.layers, -1, *see.shape[1:]).sum(1), self.size // 2)
+        blocks = pool(see.reshape(self.layers, -1, *see.shape[1:]).sum(1), 2 * onwards.shape[-1])
         more = (blocks * doubled(np.moveaxis(onwards, 1, 0))).mean((-1, -2), dtype=np.float64)
         return np.stack(once) + more, _sums(see, self.layers)
 

@@ -47,6 +47,8 @@ class Sides:
         if off_axis is None:
             return
         off = off_axis.reshape(-1, 2)[self.voxels].astype(np.float32)
+        along = off[:, 0] * u + off[:, 1] * v
+        self.off = np.stack([off[:, 0] - along * u, off[:, 1] - along * v, -along * up])
         place = off[:, 0] * self.across[0] + off[:, 1] * self.across[1]
         size = self.shape[-1]
         half = np.maximum(0.5 / (size * np.maximum(radius, 1e-6)), LEAST).astype(np.float32)[self.voxels // size**2]
@@ -64,6 +66,15 @@ class Sides:
         found = np.full(along.size, 4 / np.pi * np.hypot(*light[:2]), np.float32)
         found[at] = self._lit(light, along.ravel()[at], hairs)
         return found.reshape(along.shape)
+
+    def towards(self, light: Array, width: Single) -> Single:
+        """How far voxels lie from their hairs' axes towards a light, in radii, of all `voxels`.
+
+        width : (K, N, N) sine between hairs and light, as of `fibre.shown`
+        """
+        place = np.tensordot(light.astype(np.float32), self.off, 1)
+        place /= width.ravel()[self.voxels]
+        return np.asarray(place)
 
     def _lit(self, light: Array, along: Single, hairs: slice) -> Single:
         if not self.placed:

@@ -5,8 +5,8 @@ Directions are unit vectors (lu, lv, lz) towards the light in the tile's frame. 
 
 L = T·D + M: T is the transmittance along the bent paths of `paths` (straight ones on a flat patch), D the scattering of
 the side of the hair that is seen (`fibre`, `sides`), M what is scattered more than once (`scatter`). How a hair shades
-itself is in D: T starts half a fine slab from a voxel's middle and is divided by what its own hair leaves of it from
-there on. M is worked out in flat slabs with the hairs as thin and as long as on the body.
+itself is in D: T starts half a fine slab from a voxel's middle and is divided by what the voxel's own hair leaves of it
+from there on. M is worked out in flat slabs with the hairs as thin and as long as on the body.
 """
 
 from __future__ import annotations
@@ -128,9 +128,9 @@ def _apart(
 ) -> tuple[Single, Iterator[Single], Iterator[Single] | None]:
     """As `sample_apart`, M light by light."""
     single = np.empty((len(lights), layers, size, size), np.float32)
-    caught, reaching = np.empty((2, len(lights), layers, size // 2, size // 2), np.float32)
-    floor = np.empty((len(lights), size // 2, size // 2), np.float32)
     beam = Beam(fine, layers, size, setting.radius)
+    caught, reaching = np.empty((2, len(lights), layers, beam.even, beam.even), np.float32)
+    floor = np.empty((len(lights), beam.even, beam.even), np.float32)
     for i, fields in enumerate((beams or beams_here)(beam, lights)):
         single[i], caught[i], reaching[i], floor[i] = fields
         progress((i + 1) / len(lights) * SINGLE_SHARE)

@@ -79,6 +79,19 @@ def test_texels_of_a_broad_hair_have_the_light_of_their_side(lean: tuple[float, 
     assert abs(apart.mean()) < 0.1 * wanted.mean() + 0.1
 
 
+@pytest.mark.parametrize("azimuth", [1.2, 2.0, 3.6, 5.2])
+def test_a_broad_hair_shades_itself_once(azimuth: float) -> None:
+    """Its lit side has all of the light, though T is less on the mean of the hair's voxels."""
+    beam, fibre, place = broad_hair((0.5, 0.0))
+    light = np.array([0.9 * np.cos(azimuth), 0.9 * np.sin(azimuth), np.sqrt(0.19)])
+    seen = beam(light)[0]
+    inside = (np.abs(place) < 0.8) & (beam.seen > 0.02)
+    wanted = 4 * np.maximum(surface(fibre, place[inside]) @ light, 0)
+    assert seen[inside].mean() == pytest.approx(wanted.mean(), rel=0.12)
+    lit = wanted > wanted.max() / 2
+    assert seen[inside][lit].mean() == pytest.approx(wanted[lit].mean(), rel=0.12)
+
+
 def test_hairs_take_light_of_others_on_the_side_from_which_it_comes() -> None:
     """A flux F adds 2·n·F to what is even, half of a lamp's contrast (`sides`)."""
     beam, _, place = broad_hair((0.5, 0.0))

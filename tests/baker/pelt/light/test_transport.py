@@ -6,13 +6,15 @@ import numpy as np
 import pytest
 from scipy.ndimage import map_coordinates
 
+from furbake.options import preset
+from furbake.pelt.hairs.shown import shown_slabs
 from furbake.pelt.hairs.strands import Coat, Hairs, grow
-from furbake.pelt.hairs.volume import voxelise
+from furbake.pelt.hairs.volume import fine_shape, voxelise
 from furbake.pelt.light.beam import Beam
 from furbake.pelt.light.depth import Depth
 from furbake.pelt.light.fibre import THINNEST, cylinder
 from furbake.pelt.light.paths import spread
-from furbake.pelt.light.transport import LOWEST, Setting, hemisphere, lowest, sample
+from furbake.pelt.light.transport import LOWEST, Setting, hemisphere, lowest, sample, sample_apart
 
 
 def march_on_a_ball(sigma: np.ndarray, height: float, light: np.ndarray, beta: float, step: float = 0.05) -> np.ndarray:
@@ -208,3 +210,18 @@ def test_light_between_upright_hairs_equals_rays_against_their_cylinders(lz: flo
         reach = np.min(along[met] - np.sqrt(radius**2 - beside[met] ** 2), initial=np.inf)
         lit.append((free / lz * np.sqrt(1 - lz * lz) < reach).mean())
     assert found == pytest.approx(np.mean(lit), rel=0.12)
+
+
+@pytest.mark.parametrize("name", ["bunny", "paper"])
+def test_fine_texels_are_lit_as_coarse_ones(name: str) -> None:
+    """Seen from above: light that met one hair, and light that met several, by the same hairs in two resolutions."""
+    fur, lights = preset(name), np.array([[0.3, 0.0, 0.954], [0.0, 0.8, 0.6], [-0.9, 0.3, 0.316]])
+    strands, seen = grow(fur.coat, fur.height_share, fur.seed), []
+    for layers, size in ((16, 64), (24, 128)):
+        fine = voxelise(strands, fur.height_share, *fine_shape(layers, size, fur.height_share), fur.coat.opacity)
+        alpha = shown_slabs(fine, strands, layers, size).coverage
+        single, multiple, _ = sample_apart(fine, layers, size, lights, Setting(fur.coat.albedo, flat=True))
+        clear = np.cumprod(1 - alpha[::-1], 0)[::-1]
+        visible = alpha * np.concatenate([clear[1:], np.ones_like(clear[:1])])
+        seen.append([(light * visible).sum(1).mean((1, 2)) for light in (single, multiple)])
+    np.testing.assert_allclose(seen[1], seen[0], rtol=0.1)
