@@ -28,7 +28,7 @@ Single = NDArray[np.float32]
 DARK = 1e-6
 """Least T that is distinguished from 0."""
 
-CONTRAST = 1.4
+CONTRAST = 1.75
 """Contrast of the texels' light on a page over the stored one: `CONTRAST` of web/fur/light/texels.ts."""
 
 SHOWN_SIZE = 64

@@ -75,8 +75,8 @@ export function momentUniforms({ environment = [], basis }: TexelCoding, fin: bo
 	return uniforms;
 }
 
-/** Contrast of the texels' light over the stored one's: blended between texels, in six numbers, it has seven tenths of the hairs'. */
-export const CONTRAST = 1.4;
+/** Contrast of the texels' light over the stored one's, which six numbers and the mean between texels make evener than the hairs'. */
+export const CONTRAST = 1.75;
 
 /** Coefficient of the function 1, the last of a PTM's; -1 in old assets' bases. */
 const constantOf = (basis: Basis): number =>
