@@ -15,6 +15,7 @@ from furbake.pelt.light.depth import Depth
 from furbake.pelt.light.fibre import THINNEST, cylinder
 from furbake.pelt.light.paths import spread
 from furbake.pelt.light.transport import LOWEST, Setting, hemisphere, lowest, sample, sample_apart
+from furbake.study.verify.tile import composite
 
 
 def march_on_a_ball(sigma: np.ndarray, height: float, light: np.ndarray, beta: float, step: float = 0.05) -> np.ndarray:
@@ -221,7 +222,5 @@ def test_fine_texels_are_lit_as_coarse_ones(name: str) -> None:
         fine = voxelise(strands, fur.height_share, *fine_shape(layers, size, fur.height_share), fur.coat.opacity)
         alpha = shown_slabs(fine, strands, layers, size).coverage
         single, multiple, _ = sample_apart(fine, layers, size, lights, Setting(fur.coat.albedo, flat=True))
-        clear = np.cumprod(1 - alpha[::-1], 0)[::-1]
-        visible = alpha * np.concatenate([clear[1:], np.ones_like(clear[:1])])
-        seen.append([(light * visible).sum(1).mean((1, 2)) for light in (single, multiple)])
+        seen.append([composite(light, alpha).mean((1, 2)) for light in (single, multiple)])
     np.testing.assert_allclose(seen[1], seen[0], rtol=0.1)
