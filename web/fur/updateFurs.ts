@@ -29,6 +29,7 @@ export function updateFurs(furs: readonly Updated[], seconds: number): boolean {
 			done.add(part);
 			if (part.update(seconds)) changed = true;
 		}
-	done.clear();
+	// Clearing makes a new table.
+	if (done.size > 0) done.clear();
 	return changed;
 }

@@ -13,11 +13,10 @@ import {
 	type furMethod,
 	updateFurs,
 } from '../../fur/index.ts';
-import { DEFAULT_LOOK, GLOW } from '../../page/look.ts';
 import type { ShellSpacing } from '../stage/spacing.ts';
 import type { Store } from '../state/store.ts';
 import type { View } from '../state/view.ts';
-import { paint } from './colours.ts';
+import { style } from './style.ts';
 
 export interface Outfit {
 	/** Pelt in the place of the body's own; undefined: its own. */
@@ -52,6 +51,8 @@ export class Looks {
 	#looks: Look[] = [];
 	/** Looks that are being faded out. */
 	#leavingLooks: readonly Look[] = [];
+	/** Furs of both, kept as frames would make the list anew. */
+	#drawn: readonly Fur[] = [];
 	/** True while the first picture is drawn. */
 	#first = false;
 	#fade: FurFade | undefined;
@@ -158,6 +159,7 @@ export class Looks {
 		this.#fade = undefined;
 		const before = this.#leavingLooks;
 		this.#leavingLooks = [];
+		this.#list();
 		this.#showOnlyLooks(before);
 		this.#onFaded();
 	}
@@ -180,6 +182,11 @@ export class Looks {
 			style(fur, gloss, view);
 			return { fur, gloss, rival: light?.(fur, method, this.#methodOptions) };
 		});
+		this.#list();
+	}
+
+	#list(): void {
+		this.#drawn = [...this.#looks, ...this.#leavingLooks].map(({ fur }) => fur);
 	}
 
 	/** Shows the present looks only, and frees those before. */
@@ -238,19 +245,20 @@ export class Looks {
 		weather: FurWeather | undefined,
 		still: Texture | undefined,
 	): void {
-		const furs = [...this.#looks, ...this.#leavingLooks].map(({ fur }) => fur);
-		for (const fur of furs) {
+		for (const fur of this.#drawn) {
 			fur.motion = motion;
 			fur.weather = weather;
 			if (!motion) fur.swing = still;
 		}
-		updateFurs(furs, seconds);
+		updateFurs(this.#drawn, seconds);
 	}
 
 	/** Spaces the shells of all furs. */
 	space({ coarseness, merging }: ShellSpacing): void {
-		const wanted = { coarseness: this.#first ? FIRST_COARSENESS : coarseness, merging };
-		for (const { fur } of [...this.#looks, ...this.#leavingLooks]) Object.assign(fur.shells, wanted);
+		for (const { shells } of this.#drawn) {
+			shells.coarseness = this.#first ? FIRST_COARSENESS : coarseness;
+			shells.merging = merging;
+		}
 	}
 
 	/** Fetches the states of the furs on show. */
@@ -281,20 +289,9 @@ export class Looks {
 		this.finishFade();
 		for (const { rival } of this.#looks) rival?.dispose();
 		this.#looks = [];
+		this.#list();
 		for (const fur of [...this.#furs.values()].flat()) fur.dispose();
 		this.#furs.clear();
 		this.#body = undefined;
 	}
-}
-
-function style(fur: Fur, gloss = DEFAULT_LOOK.gloss, { shells, length = 1, density = 1, colour }: View): void {
-	const { material } = fur.shells;
-	material.gloss = gloss;
-	material.backlight = DEFAULT_LOOK.backlight;
-	material.glow = GLOW * fur.extent;
-	material.density = density;
-	fur.length = length * fur.asset.length;
-	if (shells) fur.shells.shellCount = shells;
-	else fur.shells.automatic = true;
-	paint(fur, colour);
 }
