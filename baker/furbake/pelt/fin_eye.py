@@ -36,14 +36,14 @@ def level_hairs(strands: Strands, coat: Coat, height: float, layers: int, size: 
     return towards(eyes, [np.arange(len(lights))] * len(eyes), lights, strands, coat, height, layers, size)
 
 
-def fit_fin_eye(pelt: Pelt, fin: FinPelt, hairs: SeenHairs) -> Array:
+def fit_fin_eye(pelt: Pelt, fin: FinPelt, hairs: SeenHairs, finer: Array) -> Array:
     """Weights (3, 16) of the law for the fins of this dry fur, for s⁰, s¹, s². The pelt has mean curves.
 
-    hairs : its own, as of `level_hairs`
+    hairs, finer : its own, as of `level_hairs` and `eye.gauge`
     """
     lights, eyes = hairs.lights, hairs.eyes
     light, sends, texels = fin_light(pelt, fin, lights), [], []
-    for sent, seen in zip(hairs.light, hairs.seen, strict=True):
+    for sent, seen in zip(hairs.light(finer), hairs.seen, strict=True):
         share = np.where(seen > DARK * seen.sum(), seen / seen.sum() + HIDDEN / pelt.layers, 0)
         sends.append(sent / np.maximum(seen, 1e-30) * share)
         texels.append(light * share)

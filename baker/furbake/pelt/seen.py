@@ -7,6 +7,7 @@ the same neighbours at first: `shared_depth` is what they share of their optical
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 from furbake.cores import cores
 from furbake.pelt.hairs.shown import BETWEEN, MAX_COVERAGE, MIN_SPREAD, slant
 from furbake.pelt.hairs.strands import Coat
-from furbake.pelt.hairs.volume import SOLID_SLAB, Volume, doubled, moved, pool
+from furbake.pelt.hairs.volume import SOLID_SLAB, Volume, moved, pool
 from furbake.pelt.light.beam import Beam
 from furbake.pelt.light.fibre import THINNEST, Cylinders
 from furbake.pelt.light.paths import BODY_RADIUS, FLAT
@@ -36,32 +37,46 @@ SHOWN_SIZE = 64
 
 
 class LitHairs:
-    """Hairs of a fine volume under n lights."""
+    """Hairs of a fine volume under n lights, each a whole cylinder: it shades itself by the mean of it."""
 
     def __init__(
-        self, fine: Volume, layers: int, size: int, lights: Array, coat: Coat, beta: float | None = BODY_RADIUS
+        self,
+        fine: Volume,
+        layers: int,
+        size: int,
+        lights: Array,
+        coat: Coat,
+        beta: float | None = BODY_RADIUS,
+        *,
+        coarse: bool = True,
     ) -> None:
-        """fine : the oversampled volume of `layers` slabs of `size` × `size`; lights : (n, 3); beta : as of `Beam`"""
+        """fine : the oversampled volume of `layers` slabs of `size` × `size`; lights : (n, 3); beta : as of `Beam`
+
+        coarse : light between hairs is scattered in half as many voxels a side as in the samples
+        """
         self.layers, self.size, self.lights = layers, size, lights
         self.beam = Beam(fine, layers, size, beta)
         stored = self.beam.slabs()
-        sigma, tangent = even(stored.sigma), even(stored.tangent)
+        scale = even if coarse else np.asarray
+        sigma, tangent = scale(stored.sigma), scale(stored.tangent)
         self.tangent = tangent / np.linalg.norm(tangent, axis=-1, keepdims=True)
         self.filled = np.float32(fine.height * SOLID_SLAB / coat.opacity) * fine.sigma.mean((1, 2)).astype(np.float32)
         self.along = [self.beam.along(light) for light in lights]
         with ThreadPoolExecutor(cores()) as workers:
-            passed, floor = zip(*workers.map(self.beam.reach, lights), strict=True)
+            passed, floor = zip(*workers.map(partial(self.beam.reach, sides=False), lights), strict=True)
             pairs = workers.map(self.beam.caught, passed, self.along)
-            caught, reaching = (even(np.stack(each)) for each in zip(*pairs, strict=True))
+            caught, reaching = (scale(np.stack(each)) for each in zip(*pairs, strict=True))
         self.depths = [-np.log(np.maximum(each, DARK)) for each in passed]
         skin = 0.0 if beta is None else coat.skin
         light = Unscattered(lights, caught, reaching, pool(np.stack(floor), sigma.shape[-1]))
         slabs = Slabs(sigma, stored.thick, self.tangent)
         self.arriving = between_hairs(slabs, light, albedo=coat.albedo, skin=skin)
 
-    def towards(self, eye: Array, some: NDArray[np.intp]) -> tuple[Array, Array]:
-        """Light of the slabs towards an eye under `some` of the lights, (m, K), and what it sees of their hairs."""
-        clear, hairs = self.beam.reach(eye)[0], Cylinders(self.beam.along(eye))
+    def towards(self, eye: Array, some: NDArray[np.intp]) -> tuple[Array, Array, Array]:
+        """Light of the slabs towards an eye under `some` of the lights, (m, K), that met one hair, and that met
+        several, and what the eye sees of their hairs, (K,).
+        """
+        clear, hairs = self.beam.reach(eye, sides=False)[0], Cylinders(self.beam.along(eye))
         depth = -np.log(np.maximum(clear, DARK))
         see = clear * self.beam.breadth * np.maximum(hairs.sin_view, THINNEST) * np.float32(self.beam.slab)
         once = []
@@ -75,9 +90,9 @@ class LitHairs:
             seen *= see
             once.append(_sums(seen, self.layers))
         onwards = np.maximum(sent(self.arriving, self.tangent, eye)[:, some], 0)
-        blocks = pool(see.reshape(self.layers, -1, *see.shape[1:]).sum(1), 2 * onwards.shape[-1])
-        more = (blocks * doubled(np.moveaxis(onwards, 1, 0))).mean((-1, -2), dtype=np.float64)
-        return np.stack(once) + more, _sums(see, self.layers)
+        blocks = pool(see.reshape(self.layers, -1, *see.shape[1:]).sum(1), onwards.shape[-1])
+        more = (blocks * np.moveaxis(onwards, 1, 0)).mean((-1, -2), dtype=np.float64)
+        return np.stack(once), more, _sums(see, self.layers)
 
 
 class ShownTexels:

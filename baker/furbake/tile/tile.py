@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from furbake.beside import Beside, Later, results
 from furbake.options import BakeOptions
 from furbake.pelt.bent import Unbent, bent_light, fit_bends, tips_of, unbent_light
-from furbake.pelt.eye import SeenHairs, fit_eye, seen_hairs
+from furbake.pelt.eye import SeenHairs, fit_eye, gauge, seen_hairs
 from furbake.pelt.fin_eye import fit_fin_eye, level_hairs
 from furbake.pelt.hairs.shown import DENSE, open_share, spread_of
 from furbake.pelt.hairs.states import Fur, chosen, in_state
@@ -98,7 +98,7 @@ class Tile:
                 spread=round(spread_of(self.strands, self.height), 3),
                 open=round(share, 3) if share > DENSE else 0.0,
             )
-            law = fit_eye(pelt, self._seen.result(), flat=self.options.flat)
+            law = fit_eye(pelt, self._seen.result(), self._gauge.result(), flat=self.options.flat)
             if law is not None:
                 pelt = replace(pelt, eye=law.weights, surge=law.surge)
         step(0.6)
@@ -117,12 +117,12 @@ class Tile:
             for (pelt, figures), (fin, found) in zip(fitted, sides, strict=True)
         ]
         if pelt.fin is not None and pelt.eye is not None and self._level is not None:
-            pelt = replace(pelt, fin_eye=fit_fin_eye(pelt, pelt.fin, self._level.result()))
+            pelt = replace(pelt, fin_eye=fit_fin_eye(pelt, pelt.fin, self._level.result(), self._gauge.result()))
         return [(pelt, figures), *others]
 
     def begin(self) -> None:
         """Have the process beside this one begin with what needs no volume."""
-        _ = self._seen, self._level, self._short
+        _ = self._seen and self._gauge, self._level, self._short
 
     def _beams(self, beam: Beam, lights: Floats) -> Iterator[Fields]:
         return beams_here(beam, lights, lambda: self.beside.busy)
@@ -143,6 +143,11 @@ class Tile:
         if self.options.curves == "none":
             return None
         return self.beside.submit(seen_hairs, *self._own_hairs, self.options.flat)
+
+    @cached_property
+    def _gauge(self) -> Later[Floats]:
+        """Light that met several hairs, for both of these laws."""
+        return self.beside.submit(gauge, *self._own_hairs, self.options.flat)
 
     @cached_property
     def _level(self) -> Later[SeenHairs] | None:

@@ -20,17 +20,20 @@ from furbake.pelt.bent import MIN_FACTOR
 from furbake.pelt.eye import (
     TERMS,
     WIDTHS,
+    EyeLaw,
     Pairs,
     factor,
     fit_eye,
     fit_pairs,
     fit_surge,
+    gauge,
     rings,
     seen_hairs,
     surge,
     terms,
+    towards,
 )
-from furbake.pelt.hairs.strands import Strands
+from furbake.pelt.hairs.strands import Strands, grow
 from furbake.pelt.hairs.volume import Volume
 from furbake.pelt.light.fibre import ABOVE
 from furbake.pelt.pelt import Pelt
@@ -53,6 +56,13 @@ def small() -> Small:
     """A small pelt, its strands and its fine volume."""
     strands, fine, volume = grown(SMALL)
     return fit_pelt(volume, light(fine, SMALL), SMALL)[0], strands, fine
+
+
+def law_of(pelt: Pelt, strands: Strands) -> EyeLaw:
+    hairs = strands, SMALL.coat, pelt.height, pelt.layers, pelt.size
+    law = fit_eye(pelt, seen_hairs(*hairs), gauge(*hairs))
+    assert law is not None
+    return law
 
 
 def test_terms() -> None:
@@ -167,13 +177,13 @@ def test_even_shells_hide_what_is_behind_them(make_pelt: Callable[..., Pelt], be
 def test_numbers_mend_what_eyes_aside_see(small: Small) -> None:
     """Under lights and eyes that no fit has seen; twice the same numbers; above nothing changes."""
     pelt, strands, fine = small
-    law = fit_eye(pelt, seen_hairs(strands, SMALL.coat, pelt.height, pelt.layers, pelt.size))
-    assert law is not None
+    law = law_of(pelt, strands)
     lights, eyes = rings((0.75, 0.45, 0.2), 4, 0.7), rings((0.7, 0.35), 5, 0.2)
     lit, shown = LitHairs(fine, 6, 16, lights, SMALL.coat), ShownTexels(pelt, lights)
     before, after = [], []
     for eye in eyes[1:]:
-        (hairs, all_hairs), (texels, all_texels) = (of.towards(eye, np.arange(len(lights))) for of in (lit, shown))
+        *each, all_hairs = lit.towards(eye, np.arange(len(lights)))
+        (texels, all_texels), hairs = shown.towards(eye, np.arange(len(lights))), sum(each)
         pairs = lights, np.repeat(eye[None], len(lights), 0)
         told = factor(*pairs, fine.drift[-1] / fine.height, MIDDLE, law.weights) * surge(*pairs, law.surge)[:, None]
         seen = hairs.sum(-1) / all_hairs.sum()
@@ -181,16 +191,34 @@ def test_numbers_mend_what_eyes_aside_see(small: Small) -> None:
         after.append(np.abs(np.log((texels * told).sum(-1) / all_texels / seen)))
     assert np.mean(after) < 0.4 * np.mean(before)
     assert np.mean(after) < 0.16
-    again = fit_eye(pelt, seen_hairs(strands, SMALL.coat, pelt.height, pelt.layers, pelt.size))
-    assert again is not None
+    again = law_of(pelt, strands)
     np.testing.assert_array_equal(law.weights, again.weights)
     np.testing.assert_array_equal(law.surge, again.surge)
 
 
+@pytest.mark.parametrize(("height", "traced"), [(0.3, 0.542), (0.6, 0.907)])
+def test_light_across_the_eye_is_a_path_tracers(height: float, traced: float) -> None:
+    """Of teddy's hairs on a ball of β = 4, where nearly all of it has met several of them.
+
+    traced : mean radiance towards an eye at v·n = .5 from 160 places of the path-traced ball (.006 to .007 of noise)
+    """
+    teddy = replace(preset("teddy"), size=64, layers=16)
+    strands = grow(teddy.coat, teddy.own_height, teddy.seed)
+    hairs = strands, teddy.coat, teddy.own_height, teddy.layers, teddy.size
+    lights = rings((height,), 4)[1:]
+    eyes = rings((0.5,), 4)[1:] * [-1, -1, 1]
+    seen = towards(eyes, list(np.arange(4)[:, None]), lights, *hairs)
+    coarse, told = (
+        float(np.mean([light.sum() / all_hairs.sum() for light, all_hairs in zip(each, seen.seen, strict=True)]))
+        for each in ([sum(pair) for pair in zip(seen.once, seen.several, strict=True)], seen.light(gauge(*hairs)))
+    )
+    assert told == pytest.approx(traced, rel=0.1)
+    assert coarse > 1.15 * traced
+
+
 def test_the_side_towards_the_light_is_the_brighter_one(small: Small) -> None:
     pelt, strands, _ = small
-    law = fit_eye(pelt, seen_hairs(strands, SMALL.coat, pelt.height, pelt.layers, pelt.size))
-    assert law is not None
+    law = law_of(pelt, strands)
     light = np.array([[0.0, -0.8, 0.6]])
     there, against = (
         float(factor(light, np.array([[0.0, side, 0.6]]), np.array([0.0, 1.0]), np.array([0.8]), law.weights).item())

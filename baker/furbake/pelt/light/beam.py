@@ -131,7 +131,7 @@ class Beam:
         two.
         """
         along = self.along(light)
-        passed, skin = self._reach(light, along)
+        passed, skin = self._reach(light, along, self.sides)
         return self.to_eye(passed, light, along), *self.caught(passed, along), pool(skin, self.even)
 
     def along(self, way: Array) -> Single:
@@ -165,11 +165,13 @@ class Beam:
             np.divide(self.stored(lit), self.hair[some], out=caught[some])
         return caught, reaching
 
-    def reach(self, light: Array) -> tuple[Single, Single]:
-        """T of the fine voxels, (K, N, N), and the skin's irradiance, (N, N)."""
-        return self._reach(light, self.along(light))
+    def reach(self, light: Array, *, sides: bool = True) -> tuple[Single, Single]:
+        """T of the fine voxels, (K, N, N), and the skin's irradiance, (N, N); sides : of hairs are told apart, else
+        what a hair leaves of its own light is its mean.
+        """
+        return self._reach(light, self.along(light), self.sides if sides else None)
 
-    def _reach(self, light: Array, along: Single) -> tuple[Single, Single]:
+    def _reach(self, light: Array, along: Single, sides: Sides | None) -> tuple[Single, Single]:
         return transmitted(
             self.sigma,
             shown(along),
@@ -179,7 +181,7 @@ class Beam:
             self.beta,
             aside=self.aside,
             merged=self.merged,
-            sides=self.sides,
+            sides=sides,
         )
 
     def slabs(self) -> Slabs:
