@@ -198,7 +198,7 @@ def test_numbers_mend_what_eyes_aside_see(small: Small) -> None:
 
 @pytest.mark.parametrize(("height", "traced"), [(0.3, 0.542), (0.6, 0.907)])
 def test_light_across_the_eye_is_a_path_tracers(height: float, traced: float) -> None:
-    """Of teddy's hairs on a ball of β = 4, where nearly all of it has met several of them.
+    """Hairs of `teddy` on a ball of β = 4; nearly all of this light has met several of them.
 
     traced : mean radiance towards an eye at v·n = .5 from 160 places of the path-traced ball (.006 to .007 of noise)
     """
