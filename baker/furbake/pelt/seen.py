@@ -32,6 +32,14 @@ DARK = 1e-6
 CONTRAST = 1.75
 """Contrast of the texels' light on a page over the stored one: `CONTRAST` of web/fur/light/texels.ts."""
 
+ASIDE = np.float32(0.86), np.float32(0.15)
+"""Light that met one hair over the path tracer's, c₀ + c₁·max(cos φ, 0), φ between light and eye around the hair.
+
+On balls in `teddy`, `sheep`, `bunny`, `fox` and `wolf`, by hairs in 64 texels, it is .93 to .98 of it without this and
+.97 to 1.02 with it; 1.00 to 1.03 (1.00 to 1.03) where the eye is beside the light, .90 to .93 (.97 to 1.00) at 90° from
+it, .76 to .98 (.84 to 1.07) opposite (40 pairs each).
+"""
+
 SHOWN_SIZE = 64
 """Texels a side that are composited at most: a page shows larger tiles by their smaller levels."""
 
@@ -88,6 +96,7 @@ class LitHairs:
             np.exp(seen, out=seen)
             seen *= hairs.scattered(sin_light, turn)
             seen *= see
+            seen /= ASIDE[0] + ASIDE[1] * np.maximum(turn, 0)
             once.append(_sums(seen, self.layers))
         onwards = np.maximum(sent(self.arriving, self.tangent, eye)[:, some], 0)
         blocks = pool(see.reshape(self.layers, -1, *see.shape[1:]).sum(1), onwards.shape[-1])

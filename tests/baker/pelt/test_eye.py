@@ -212,7 +212,7 @@ def test_light_across_the_eye_is_a_path_tracers(height: float, traced: float) ->
         float(np.mean([light.sum() / all_hairs.sum() for light, all_hairs in zip(each, seen.seen, strict=True)]))
         for each in ([sum(pair) for pair in zip(seen.once, seen.several, strict=True)], seen.light(gauge(*hairs)))
     )
-    assert told == pytest.approx(traced, rel=0.1)
+    assert told == pytest.approx(traced, rel=0.12)
     assert coarse > 1.15 * traced
 
 
