@@ -146,7 +146,7 @@ class Tile:
 
     @cached_property
     def _gauge(self) -> Later[Floats]:
-        """Light that met several hairs, for both of these laws."""
+        """Light in finer voxels, for both of these laws."""
         return self.beside.submit(gauge, *self._own_hairs, self.options.flat)
 
     @cached_property
