@@ -51,7 +51,7 @@ export class Looks {
 	#looks: Look[] = [];
 	/** Looks that are being faded out. */
 	#leavingLooks: readonly Look[] = [];
-	/** Furs of both, kept as frames would make the list anew. */
+	/** Furs of both: a list that frames would make anew. */
 	#drawn: readonly Fur[] = [];
 	/** True while the first picture is drawn. */
 	#first = false;
@@ -159,7 +159,7 @@ export class Looks {
 		this.#fade = undefined;
 		const before = this.#leavingLooks;
 		this.#leavingLooks = [];
-		this.#list();
+		this.#listDrawn();
 		this.#showOnlyLooks(before);
 		this.#onFaded();
 	}
@@ -182,10 +182,10 @@ export class Looks {
 			style(fur, gloss, view);
 			return { fur, gloss, rival: light?.(fur, method, this.#methodOptions) };
 		});
-		this.#list();
+		this.#listDrawn();
 	}
 
-	#list(): void {
+	#listDrawn(): void {
 		this.#drawn = [...this.#looks, ...this.#leavingLooks].map(({ fur }) => fur);
 	}
 
@@ -289,7 +289,7 @@ export class Looks {
 		this.finishFade();
 		for (const { rival } of this.#looks) rival?.dispose();
 		this.#looks = [];
-		this.#list();
+		this.#listDrawn();
 		for (const fur of [...this.#furs.values()].flat()) fur.dispose();
 		this.#furs.clear();
 		this.#body = undefined;
