@@ -110,6 +110,33 @@ test('the factor is never less than a tenth', async ({ page }) => {
 	expect((await lit(page, held, [0, 0, 1])) / (await lit(page, plain, [0, 0, 1]))).toBeCloseTo(0.1, 3);
 });
 
+test('of light to an eye aside the less has met several hairs the brighter it is', async ({ page }) => {
+	const open = await openEyes(page);
+	const { pelts, layers } = JSON.parse(await readFile(`${repository}${golden}/model.gltf`, 'utf8')).extensions
+		.FUR_ptm_shells;
+	const [colour, albedo, ratio, share] = [0.3, 0.8, 0.7, 0.5];
+	const every = <T>(value: T) => new Array<T>(layers).fill(value);
+	const multiple = { albedo, shares: every([share, 0, 0]), ratio: every(ratio), seen: every(0.25), tint: every(1) };
+	const grey = [colour, colour, colour];
+	const ramp = { root: grey, tip: grey, tip2: grey, power: 1 };
+	const many = pelts.map((pelt: object) => ({ ...pelt, multiple }));
+	const gain = ((colour / albedo) * (1 - ratio * albedo)) / (1 - ratio * colour);
+	for (const [nap, surge, perFragment] of [
+		[1.3, 1, false],
+		[0.7, 1.4, true],
+		[0.5, 1, false],
+	] as const) {
+		const eye = zeros();
+		if (eye[0]) eye[0][0] = (nap - 1) / (1 - cosine ** 2);
+		const law = { ramp, eye, surge: [surge - 1, 0, 0.1] };
+		const [plain = '', told = ''] = await open([law, { ...law, pelts: many }]);
+		const light = (url: string) => lit(page, url, [0, 0, 1], 1, perFragment);
+		const several = Math.min(share / (nap ** 1.8 * surge), 1);
+		expect((await light(told)) / (await light(plain)), `${nap}`).toBeCloseTo(1 + several * (gain - 1), 2);
+		await page.unrouteAll();
+	}
+});
+
 test('a fin has no surge, and shows at most what an upright hair sends back to a lamp beside the eye', async ({
 	page,
 }) => {

@@ -106,6 +106,8 @@ float meanLight(FurPoint point, vec4 curves) {
 }
 
 #ifdef MULTIPLE
+#define NAP_POWER 1.8 // exponent of the eye's light in the share of it that has met several hairs
+
 // Mean colour of the slab's hairs at a point, defined by each material. tint: mean of its texels.
 vec3 slabColour(FurPoint point, float tint);
 
@@ -116,11 +118,15 @@ vec3 multipleGain(FurPoint point) {
 	return orders.y * colour / (1.0 - orders.x * colour);
 }
 
-// Factor of a lamp's light for the hairs' colour. height: light over the horizon, at least 0. nap: share of the light for
-// the eye, nearly all of it light that has met one hair.
-vec3 lampTinge(FurPoint point, vec3 gain, float radius, float height, float nap) {
+// Factor of a lamp's light for the hairs' colour, by the law of pelt/multiple.py. height: light over the horizon, at
+// least 0. nap, surge: factors of the light for the eye
+vec3 lampTinge(FurPoint point, vec3 gain, float radius, float height, float nap, float surge) {
 	vec3 terms = vec3(1.0, sqrt(height), 0.5 * log2(radius));
-	return mix(vec3(1.0), gain, clamp(dot(ofSlab(point, SHARES).xyz, terms) / nap, 0.0, 1.0));
+	float share = dot(ofSlab(point, SHARES).xyz, terms) / surge;
+#ifdef EYE
+	share *= pow(nap, -NAP_POWER);
+#endif
+	return mix(vec3(1.0), gain, clamp(share, 0.0, 1.0));
 }
 
 // Factor of the sky's light. place: see skyPlace

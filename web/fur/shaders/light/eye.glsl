@@ -75,6 +75,7 @@ float surgeTowards(Eye from, vec3 way) {
 	return 1.0 + surgeFrom(from.up) / (1.0 + dot(apart, apart));
 }
 
+// Share of a lamp's light for the eye at a height s, without the surge.
 float napAt(Arrival at, float s) {
 	s /= furTrim;
 	float nap = at.nap.x + s * (at.nap.y + s * at.nap.z);
@@ -82,7 +83,7 @@ float napAt(Arrival at, float s) {
 	// The law is found for shells, of which the highest hardly count in what is seen.
 	nap = min(nap, MOST_SEEN);
 #endif
-	return max(nap, MIN_SEEN) * at.surge;
+	return max(nap, MIN_SEEN);
 }
 #else
 vec3 napTowards(Eye from, vec3 lightTS) {

@@ -78,7 +78,7 @@ vec2 highlights(vec3 strand, vec3 normalVS, vec3 light, vec3 viewer) {
 void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bending, Arrival at, vec3 many, vec3 lightVS, vec3 irradiance) {
 	vec3 lightTS = at.lightTS;
 	vec4 curves = at.curves;
-	float nap = napAt(at, point.s), gain = nap, left = horizonShare(point, at.height, at.radius);
+	float nap = napAt(at, point.s), gain = nap * at.surge, left = horizonShare(point, at.height, at.radius);
 #ifndef UNBENT
 	if (bending.there) {
 		gain *= bentLight(lightTS, bending);
@@ -103,12 +103,12 @@ void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bendi
 	lamps.moments.low += (gain * strength) * low;
 	lamps.moments.high += (gain * strength) * high;
 #ifdef TINGED
-	lamps.tinge += max(gain * strength, 0.0) * vec4(lampTinge(point, many, at.radius, max(at.height, 0.0), nap), 1.0);
+	lamps.tinge += max(gain * strength, 0.0) * vec4(lampTinge(point, many, at.radius, max(at.height, 0.0), nap, at.surge), 1.0);
 #endif
 #else
 	vec3 strength = irradiance, coloured = gain * strength;
 #ifdef MULTIPLE
-	coloured *= lampTinge(point, many, at.radius, max(at.height, 0.0), nap);
+	coloured *= lampTinge(point, many, at.radius, max(at.height, 0.0), nap, at.surge);
 #endif
 	lamps.moments.low += outerProduct(coloured, low);
 	lamps.moments.high += outerProduct(coloured, high);
