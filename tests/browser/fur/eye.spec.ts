@@ -131,7 +131,7 @@ test('of light to an eye aside the less has met several hairs the brighter it is
 		const law = { ramp, eye, surge: [surge - 1, 0, 0.1] };
 		const [plain = '', told = ''] = await open([law, { ...law, pelts: many }]);
 		const light = (url: string) => lit(page, url, [0, 0, 1], 1, perFragment);
-		const several = Math.min(share / (nap ** 1.8 * surge), 1);
+		const several = Math.min(share / (nap ** 1.9 * surge), 1);
 		expect((await light(told)) / (await light(plain)), `${nap}`).toBeCloseTo(1 + several * (gain - 1), 2);
 		await page.unrouteAll();
 	}
