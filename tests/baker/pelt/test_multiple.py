@@ -74,7 +74,7 @@ def test_fur_of_other_greys_is_as_bright_as_transport_has_it(
 
 
 TRACED = {(0.8, 0.3, 0): 0.27, (0.5, 0.3, 0): 0.19, (0.8, 0.3, 180): 0.80, (0.5, 0.3, 180): 0.95}
-"""By v·n, l·n and the angle between the two around the skin: what share of the light to an eye has met several hairs.
+"""By v·n, l·n and the degrees between them around the normal: share of the light to an eye that has met several hairs.
 
 Of the mean of 16 places of a path-traced ball in `teddy`, depth 32 and 2, noise .01.
 """

@@ -106,7 +106,7 @@ float meanLight(FurPoint point, vec4 curves) {
 }
 
 #ifdef MULTIPLE
-#define NAP_POWER 1.9 // exponent of the eye's light in the share of it that has met several hairs
+#define NAP_POWER 1.9 // exponent of the nap in lampTinge, as in pelt/multiple.py
 
 // Mean colour of the slab's hairs at a point, defined by each material. tint: mean of its texels.
 vec3 slabColour(FurPoint point, float tint);
