@@ -19,10 +19,10 @@ from furbake.pelt.eye import factor, fit_eye, gauge, seen_hairs, surge
 from furbake.pelt.hairs.ramp import Ramp
 from furbake.pelt.hairs.states import DIRTY, PeltState, in_state, moistened
 from furbake.pelt.hairs.strands import grow
-from furbake.pelt.hairs.volume import Volume, coarsen
+from furbake.pelt.hairs.volume import Volume, coarsen, fine_shape, voxelise
 from furbake.pelt.light.paths import BODY_RADIUS
 from furbake.pelt.light.transport import Setting, hemisphere, sample_apart
-from furbake.pelt.means import Measured, coarser, directions, mean_light
+from furbake.pelt.means import Measured, coarser, directions, mean_light, seen_shares
 from furbake.pelt.multiple import STEEP, Multiple, multiple_of, shares_of, shrinking, terms
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.seen import ShownTexels
@@ -105,6 +105,27 @@ def test_shares_for_eyes_aside_are_a_path_tracers() -> None:
         off.append([found - traced, (texels * told(pelt).share(lights)).sum() / sent.sum() - traced])
     mended, before = np.sqrt(np.square(off).mean(0))
     assert mended < 0.4 * before
+
+
+@pytest.mark.parametrize("name", ["teddy", "fox", "sheep"])
+def test_pressed_hairs_share_less_of_steep_light(name: str) -> None:
+    options = replace(preset(name), layers=8, size=32)
+    strands, fine, _ = grown(options)
+    lights, found = hemisphere(12), []
+    for length in (1.0, 0.4):
+        short = replace(strands, points=strands.points * [1.0, 1.0, length])
+        pressed = voxelise(short, fine.height * length, *fine_shape(8, 32, fine.height), options.coat.opacity * length)
+        cover = coarsen(pressed, 8, 32).coverage
+        one, several, _ = sample_apart(pressed, 8, 32, lights, Setting(options.coat.albedo, options.coat.skin))
+        seen = seen_shares(cover.mean((1, 2)))
+        met, once = (mean_light(light, cover) @ seen for light in (several, one))
+        found.append(met / (met + once))
+    numbers = Multiple(options.coat.albedo, np.array([[0.5, 0.0, 0.0]]), *np.ones((3, 1)))
+    law = (numbers.share(lights, length=0.4) / numbers.share(lights))[:, 0]
+    steep = lights[:, 2] > 0.5
+    assert np.mean(found[1][steep]) < 0.93 * np.mean(found[0][steep])
+    assert np.mean(found[1][steep] / found[0][steep]) == pytest.approx(np.mean(law[steep]), rel=0.13)
+    assert np.mean(found[1][~steep] / found[0][~steep]) == pytest.approx(np.mean(law[~steep]), rel=0.13)
 
 
 def test_stored_numbers_are_those_of_the_slabs(baked: tuple[BakeOptions, Volume, Pelt]) -> None:

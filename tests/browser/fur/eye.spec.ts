@@ -137,6 +137,24 @@ test('of light to an eye aside the less has met several hairs the brighter it is
 	}
 });
 
+test('of shorter hairs, which lie flatter, less steep light has met several', async ({ page }) => {
+	const open = await openEyes(page);
+	const fur = JSON.parse(await readFile(`${repository}${golden}/model.gltf`, 'utf8')).extensions.FUR_ptm_shells;
+	const [colour, albedo, ratio, share] = [0.3, 0.8, 0.7, 0.5];
+	const every = <T>(value: T) => new Array<T>(fur.layers).fill(value);
+	const multiple = { albedo, shares: every([share, 0, 0]), ratio: every(ratio), seen: every(0.25), tint: every(1) };
+	const grey = [colour, colour, colour];
+	const many = fur.pelts.map((pelt: object) => ({ ...pelt, multiple }));
+	const gain = ((colour / albedo) * (1 - ratio * albedo)) / (1 - ratio * colour);
+	const law = { ramp: { root: grey, tip: grey, tip2: grey, power: 1 }, eye: zeros() };
+	const [plain = '', tinged = ''] = await open([law, { ...law, pelts: many }]);
+	for (const length of [1, 0.5]) {
+		const light = (url: string) => lit(page, url, [0, 0, 1], length);
+		const several = share * (1 + (1 - length ** 2) * (0.2 - 0.5 * Math.sqrt(cosine)));
+		expect((await light(tinged)) / (await light(plain)), `${length}`).toBeCloseTo(1 + several * (gain - 1), 2);
+	}
+});
+
 test('a fin has no surge, and shows at most what an upright hair sends back to a lamp beside the eye', async ({
 	page,
 }) => {
