@@ -59,7 +59,6 @@ Of light towards 10 eyes under 4 lights, beside what path-traced balls in five f
 there, the error of fur whose g is .12 is .13 (RMS of the logarithm, by what is seen); it is .24 with the exponent 1.
 """
 
-
 PRESSED = (0.2, 0.5)
 """Numbers of `Multiple.share` for shorter hairs.
 

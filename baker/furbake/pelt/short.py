@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from furbake.pelt.bent import MONOMIALS
 from furbake.pelt.hairs.strands import Coat, Strands
-from furbake.pelt.hairs.volume import coarsen, fine_shape, voxelise
+from furbake.pelt.hairs.volume import Volume, coarsen, fine_shape, voxelise
 from furbake.pelt.light.transport import Setting, hemisphere, sample
 from furbake.pelt.means import mean_light, seen_shares
 
@@ -47,6 +47,13 @@ def growth(share: float, s: Array, numbers: Array) -> Array:
     return np.asarray(1 - np.log(min(max(share, SHORTEST), 1.0)) * (over_s @ numbers))
 
 
+def pressed(strands: Strands, coat: Coat, height: float, layers: int, size: int, share: float) -> Volume:
+    """The fine volume of hairs with a share of their length; parameters as of `pressed_light`."""
+    short = replace(strands, points=strands.points * [1.0, 1.0, share])
+    # Opacity refers to a share of the height.
+    return voxelise(short, height * share, *fine_shape(layers, min(size, SIZE), height), coat.opacity * share)
+
+
 def pressed_light(
     strands: Strands, coat: Coat, height: float, layers: int, size: int, share: float, lights: Array
 ) -> tuple[Array, Array]:
@@ -54,10 +61,7 @@ def pressed_light(
 
     height : of the pelt, tile widths; size : texels a side, of which at most `SIZE` are taken; lights : (n, 3)
     """
-    few, points = min(size, SIZE), strands.points * [1.0, 1.0, share]
-    short = replace(strands, points=points)
-    # Opacity refers to a share of the height.
-    fine = voxelise(short, height * share, *fine_shape(layers, few, height), coat.opacity * share)
+    few, fine = min(size, SIZE), pressed(strands, coat, height, layers, size, share)
     cover = coarsen(fine, layers, few).coverage
     found = sample(fine, layers, few, lights, Setting(coat.albedo, coat.skin))
     return mean_light(found, cover), seen_shares(cover.mean((1, 2)))

@@ -19,13 +19,14 @@ from furbake.pelt.eye import factor, fit_eye, gauge, seen_hairs, surge
 from furbake.pelt.hairs.ramp import Ramp
 from furbake.pelt.hairs.states import DIRTY, PeltState, in_state, moistened
 from furbake.pelt.hairs.strands import grow
-from furbake.pelt.hairs.volume import Volume, coarsen, fine_shape, voxelise
+from furbake.pelt.hairs.volume import Volume, coarsen
 from furbake.pelt.light.paths import BODY_RADIUS
 from furbake.pelt.light.transport import Setting, hemisphere, sample_apart
 from furbake.pelt.means import Measured, coarser, directions, mean_light, seen_shares
 from furbake.pelt.multiple import STEEP, Multiple, multiple_of, shares_of, shrinking, terms
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.seen import ShownTexels
+from furbake.pelt.short import pressed
 from furbake.show.swatch import radiance
 from furbake.tile.fitting import fit_pelt, fit_pelts
 from furbake.tile.lighting import grown, light, sampled
@@ -113,10 +114,9 @@ def test_pressed_hairs_share_less_of_steep_light(name: str) -> None:
     strands, fine, _ = grown(options)
     lights, found = hemisphere(12), []
     for length in (1.0, 0.4):
-        short = replace(strands, points=strands.points * [1.0, 1.0, length])
-        pressed = voxelise(short, fine.height * length, *fine_shape(8, 32, fine.height), options.coat.opacity * length)
-        cover = coarsen(pressed, 8, 32).coverage
-        one, several, _ = sample_apart(pressed, 8, 32, lights, Setting(options.coat.albedo, options.coat.skin))
+        short = pressed(strands, options.coat, fine.height, 8, 32, length)
+        cover = coarsen(short, 8, 32).coverage
+        one, several, _ = sample_apart(short, 8, 32, lights, Setting(options.coat.albedo, options.coat.skin))
         seen = seen_shares(cover.mean((1, 2)))
         met, once = (mean_light(light, cover) @ seen for light in (several, one))
         found.append(met / (met + once))

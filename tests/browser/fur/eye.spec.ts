@@ -58,6 +58,20 @@ async function lit(page: Page, url: string, lamp: Vector, share = 1, perFragment
 	return drawn.light.reduce((sum, light) => sum + light, 0) / drawn.light.length;
 }
 
+/** Pelts of dark grey hairs, with a share of light that has met several, which counts `gain` times. */
+async function darkHairs() {
+	const { pelts, layers } = JSON.parse(await readFile(`${repository}${golden}/model.gltf`, 'utf8')).extensions
+		.FUR_ptm_shells;
+	const [colour, albedo, ratio, share] = [0.3, 0.8, 0.7, 0.5];
+	const every = <T>(value: T) => new Array<T>(layers).fill(value);
+	const multiple = { albedo, shares: every([share, 0, 0]), ratio: every(ratio), seen: every(0.25), tint: every(1) };
+	const grey = [colour, colour, colour];
+	const ramp = { root: grey, tip: grey, tip2: grey, power: 1 };
+	const many = pelts.map((pelt: object) => ({ ...pelt, multiple }));
+	const gain = ((colour / albedo) * (1 - ratio * albedo)) / (1 - ratio * colour);
+	return { ramp, many, share, gain };
+}
+
 test('every number meets its term and power of the height', async ({ page }) => {
 	const open = await openEyes(page);
 	const { drift } = JSON.parse(await readFile(`${repository}${golden}/model.gltf`, 'utf8')).extensions.FUR_ptm_shells;
@@ -112,15 +126,7 @@ test('the factor is never less than a tenth', async ({ page }) => {
 
 test('of light to an eye aside the less has met several hairs the brighter it is', async ({ page }) => {
 	const open = await openEyes(page);
-	const { pelts, layers } = JSON.parse(await readFile(`${repository}${golden}/model.gltf`, 'utf8')).extensions
-		.FUR_ptm_shells;
-	const [colour, albedo, ratio, share] = [0.3, 0.8, 0.7, 0.5];
-	const every = <T>(value: T) => new Array<T>(layers).fill(value);
-	const multiple = { albedo, shares: every([share, 0, 0]), ratio: every(ratio), seen: every(0.25), tint: every(1) };
-	const grey = [colour, colour, colour];
-	const ramp = { root: grey, tip: grey, tip2: grey, power: 1 };
-	const many = pelts.map((pelt: object) => ({ ...pelt, multiple }));
-	const gain = ((colour / albedo) * (1 - ratio * albedo)) / (1 - ratio * colour);
+	const { ramp, many, share, gain } = await darkHairs();
 	for (const [nap, surge, perFragment] of [
 		[1.3, 1, false],
 		[0.7, 1.4, true],
@@ -139,14 +145,8 @@ test('of light to an eye aside the less has met several hairs the brighter it is
 
 test('of shorter hairs, which lie flatter, less steep light has met several', async ({ page }) => {
 	const open = await openEyes(page);
-	const fur = JSON.parse(await readFile(`${repository}${golden}/model.gltf`, 'utf8')).extensions.FUR_ptm_shells;
-	const [colour, albedo, ratio, share] = [0.3, 0.8, 0.7, 0.5];
-	const every = <T>(value: T) => new Array<T>(fur.layers).fill(value);
-	const multiple = { albedo, shares: every([share, 0, 0]), ratio: every(ratio), seen: every(0.25), tint: every(1) };
-	const grey = [colour, colour, colour];
-	const many = fur.pelts.map((pelt: object) => ({ ...pelt, multiple }));
-	const gain = ((colour / albedo) * (1 - ratio * albedo)) / (1 - ratio * colour);
-	const law = { ramp: { root: grey, tip: grey, tip2: grey, power: 1 }, eye: zeros() };
+	const { ramp, many, share, gain } = await darkHairs();
+	const law = { ramp, eye: zeros() };
 	const [plain = '', tinged = ''] = await open([law, { ...law, pelts: many }]);
 	for (const length of [1, 0.5]) {
 		const light = (url: string) => lit(page, url, [0, 0, 1], length);
