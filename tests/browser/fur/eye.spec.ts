@@ -150,7 +150,8 @@ test('of shorter hairs, which lie flatter, less steep light has met several', as
 	const [plain = '', tinged = ''] = await open([law, { ...law, pelts: many }]);
 	for (const length of [1, 0.5]) {
 		const light = (url: string) => lit(page, url, [0, 0, 1], length);
-		const several = share * (1 + (1 - length ** 2) * (0.2 - 0.5 * Math.sqrt(cosine)));
+		const nap = 1 + (1 - length) * (0.3 + 0.4) * (1 - cosine ** 2);
+		const several = (share * (1 + (1 - length ** 2) * (0.2 - 0.5 * Math.sqrt(cosine)))) / nap ** 1.9;
 		expect((await light(tinged)) / (await light(plain)), `${length}`).toBeCloseTo(1 + several * (gain - 1), 2);
 	}
 });
@@ -192,7 +193,7 @@ test('a fin with numbers of its own shows light by them, and its eye is on the h
 	}
 });
 
-test('shorter hairs grow in light, and are seen on the way that meets as much of the whole ones', async ({ page }) => {
+test('shorter hairs grow in light, and are seen on the way that meets as much of the whole ones, brighter from aside', async ({ page }) => {
 	const open = await openEyes(page);
 	const [growth, eye] = [[0.3, 0.4, -0.2] as const, zeros()];
 	// The eye's q alone, at all heights.
@@ -210,6 +211,9 @@ test('shorter hairs grow in light, and are seen on the way that meets as much of
 		return way.map((part) => part / length) as Vector;
 	};
 	const lamp: Vector = [0.3, 0.1, Math.sqrt(0.9)];
+	const inFrame = (way: Vector) => frame.map((axis) => dot(axis, way)) as Vector;
+	const [light, toEye] = [inFrame(lamp), inFrame([0, 0, 1])];
+	const asItIs = { q: toEye[0] ** 2 + toEye[1] ** 2, a: toEye[0] * light[0] + toEye[1] * light[1] };
 	for (const [share, perFragment] of [
 		[1, false],
 		[0.5, false],
@@ -223,13 +227,13 @@ test('shorter hairs grow in light, and are seen on the way that meets as much of
 			1 - Math.log(counts) * (growth[0] + growth[1] * s + growth[2] * s * s),
 			2,
 		);
-		const [l, v] = [lamp, [0, 0, 1] as Vector].map((way) =>
-			through(frame.map((axis) => dot(axis, way)) as Vector, counts),
-		) as [Vector, Vector];
+		const [l, v] = [through(light, counts), through(toEye, counts)];
 		const q = 1 - v[2] ** 2;
-		expect(await over(aside), `eye, ${share}`).toBeCloseTo(1 + 0.5 * q, 2);
+		const shorter = 1 + (1 - counts) * (0.3 * asItIs.q + 0.4 * asItIs.a);
+		expect(await over(aside), `eye, ${share}`).toBeCloseTo(shorter + 0.5 * q, 2);
 		const apart = (l[0] - v[0]) ** 2 + (l[1] - v[1]) ** 2 + (l[2] - v[2]) ** 2;
-		expect(await over(surging), `surge, ${share}`).toBeCloseTo(1 + (0.2 + 0.5 * q) / (1 + apart / 0.01), 2);
+		const surge = 1 + (0.2 + 0.5 * q) / (1 + apart / 0.01);
+		expect(await over(surging), `surge, ${share}`).toBeCloseTo(shorter * surge, 2);
 	}
 });
 

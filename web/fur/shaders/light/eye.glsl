@@ -20,11 +20,18 @@ struct Eye {
 	vec3 level; // the horizontal part of that way, turned and clamped to the horizon, the frame's axes
 	float q; // |level|²
 	float p; // level·leaning
+	float more; // what shorter hairs add to the nap, whatever the light, by pelt/short.py
+	vec3 rise; // what they add to it by the light, a gradient
 };
 
 Eye eyeAt(FurPoint point, Bending bending) {
 	Eye from;
-	from.viewer = throughPelt(point, viewerVS(point.pointVS) * point.frameVS);
+	vec3 viewer = viewerVS(point.pointVS) * point.frameVS;
+	from.viewer = throughPelt(point, viewer);
+	viewer.UP = 0.0;
+	from.rise = (1.0 - point.share) * viewer;
+	from.more = 0.3 * dot(from.rise, viewer);
+	from.rise *= 0.4;
 	from.level = from.viewer;
 	if (from.level.UP < 0.0) {
 		from.level.UP = 0.0;
@@ -54,7 +61,7 @@ Eye eyeAt(FurPoint point, Bending bending) {
 vec3 napTowards(Eye from, vec3 lightTS) {
 	float q = from.q, p = from.p, a = dot(from.level, lightTS), b = dot(leanTS(), lightTS), z = lightTS.UP;
 	mat4 terms = mat4(vec4(q, a, q * b, p * b), vec4(q * z, q * b * b, p, a * a), vec4(p * a * b, q * p, q * b * z, q * a * b), vec4(a * z, p * z, q * z * z, q * p * b));
-	vec3 nap = vec3(1.0, 0.0, 0.0);
+	vec3 nap = vec3(1.0 + from.more + dot(from.rise, lightTS), 0.0, 0.0);
 	for (int i = 0; i < 4; i++)
 		nap += vec3(dot(terms[i], ofFur(eye, 12, i)), dot(terms[i], ofFur(eye, 12, 4 + i)), dot(terms[i], ofFur(eye, 12, 8 + i)));
 	return nap;

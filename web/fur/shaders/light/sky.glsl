@@ -11,8 +11,8 @@ Quadratic seenByEye(FurPoint point, Eye from) {
 	vec4 second = ofFur(eye, 12, 1) + s * (ofFur(eye, 12, 5) + s * ofFur(eye, 12, 9));
 	vec4 third = ofFur(eye, 12, 2) + s * (ofFur(eye, 12, 6) + s * ofFur(eye, 12, 10));
 	vec4 last = ofFur(eye, 12, 3) + s * (ofFur(eye, 12, 7) + s * ofFur(eye, 12, 11));
-	seen.even += first.x * q + second.z * p + third.y * q * p;
-	seen.gradient = first.y * level + (first.z * q + first.w * p + last.w * q * p) * leaning + (second.x * q + last.y * p) * upright;
+	seen.even += first.x * q + second.z * p + third.y * q * p + from.more;
+	seen.gradient = from.rise + first.y * level + (first.z * q + first.w * p + last.w * q * p) * leaning + (second.x * q + last.y * p) * upright;
 	seen.form = outerProduct(second.w * level + (third.x * p + third.w * q) * leaning + last.x * upright, level);
 	seen.form += outerProduct(q * (second.y * leaning + third.z * upright), leaning) + outerProduct(last.z * q * upright, upright);
 #endif
