@@ -5,8 +5,8 @@ strands are pressed flat, as wide as before. The law, in the tile's frame:
 
 - Ways. Thin hairs take from a ray along (x, y, z) what the pelt's hairs take from one along (x, y, z/f). So an eye sees
   of short fur what it sees of the pelt on that way, by the law of light and eye, by its surge and by the slabs'
-  opacities: the flatter hairs lie, the more they look from aside as from above. Less so than that: for light from l (held
-  on the horizon) and an eye at v, whose way is as it is here, G of `eye` is greater by
+  opacities: the flatter hairs lie, the more they look from aside as from above. It is more light than that: for light
+  from l (held on the horizon) and an eye at v, their ways as they are here, G of `eye` is greater by
 
       (1 − f)·(0.3·|v_h|² + 0.4·v_h·l_h),
 

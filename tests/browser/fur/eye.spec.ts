@@ -193,7 +193,7 @@ test('a fin with numbers of its own shows light by them, and its eye is on the h
 	}
 });
 
-test('shorter hairs grow in light, and are seen on the way that meets as much of the whole ones, brighter from aside', async ({ page }) => {
+test('shorter hairs grow in light, and are seen through the pelt, brighter from aside', async ({ page }) => {
 	const open = await openEyes(page);
 	const [growth, eye] = [[0.3, 0.4, -0.2] as const, zeros()];
 	// The eye's q alone, at all heights.

@@ -20,8 +20,8 @@ struct Eye {
 	vec3 level; // the horizontal part of that way, turned and clamped to the horizon, the frame's axes
 	float q; // |level|²
 	float p; // level·leaning
-	float more; // what shorter hairs add to the nap, whatever the light, by pelt/short.py
-	vec3 rise; // what they add to it by the light, a gradient
+	float more; // excess of the nap on shorter hairs under any light, by pelt/short.py
+	vec3 rise; // gradient of this excess by the light, the frame's axes
 };
 
 Eye eyeAt(FurPoint point, Bending bending) {
