@@ -174,7 +174,8 @@ def radiance(
     beside_eye = np.ones(len(lights)) if pelt.surge is None else surge(lights, above, np.asarray(pelt.surge))
     tinge = np.ones((len(lights) + 1, pelt.layers, 3))
     if pelt.multiple is not None and pelt.curves is not None and pelt.weights is not None:
-        tinge = pelt.multiple.tinges(pelt.curves, pelt.weights, hairs.ramp, base, lights, beta)
+        lean = pelt.drift[-1] / pelt.height
+        tinge = pelt.multiple.tinges(pelt.curves, pelt.weights, hairs.ramp, base, lights, lean, beta)
 
     def lit(at: Array, k: int, s: float) -> Iterator[Array]:
         """Light of all pixels of slab k under each lamp."""

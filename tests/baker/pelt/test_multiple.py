@@ -15,7 +15,8 @@ from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt
 from furbake.asset.validate import validate
 from furbake.options import BakeOptions, preset
-from furbake.pelt.eye import factor, fit_eye, gauge, seen_hairs, surge
+from furbake.pelt.curves import lean_direction
+from furbake.pelt.eye import factor, fit_eye, gauge, rings, seen_hairs, surge
 from furbake.pelt.hairs.ramp import Ramp
 from furbake.pelt.hairs.states import DIRTY, PeltState, in_state, moistened
 from furbake.pelt.hairs.strands import grow
@@ -23,9 +24,9 @@ from furbake.pelt.hairs.volume import Volume, coarsen
 from furbake.pelt.light.paths import BODY_RADIUS
 from furbake.pelt.light.transport import Setting, hemisphere, sample_apart
 from furbake.pelt.means import Measured, coarser, directions, mean_light, seen_shares
-from furbake.pelt.multiple import STEEP, Multiple, multiple_of, shares_of, shrinking, terms
+from furbake.pelt.multiple import STEEP, Multiple, leaning, multiple_of, shares_of, shrinking, terms
 from furbake.pelt.pelt import Pelt
-from furbake.pelt.seen import ShownTexels
+from furbake.pelt.seen import LitHairs, ShownTexels
 from furbake.pelt.short import pressed
 from furbake.show.swatch import radiance
 from furbake.tile.fitting import fit_pelt, fit_pelts
@@ -97,15 +98,33 @@ def test_shares_for_eyes_aside_are_a_path_tracers() -> None:
             for z, turned in ((height, azimuth), (up, azimuth + np.radians(apart)))
         )
         shown = ShownTexels(pelt, lights)
-        nap = factor(lights, eyes, fine.drift[-1] / fine.height, middle, law.weights)
+        lean = fine.drift[-1] / fine.height
+        nap = factor(lights, eyes, lean, middle, law.weights)
         beside = surge(lights, eyes, law.surge)
         texels = np.concatenate([shown.towards(eye, np.array([i]))[0] for i, eye in enumerate(eyes)])
         sent = texels * nap * beside[:, None]
-        found = (sent * told(pelt).towards(lights, nap, beside)).sum() / sent.sum()
+        found = (sent * told(pelt).towards(lights, lean, nap, beside)).sum() / sent.sum()
         assert found == pytest.approx(traced, rel=0.13)
         off.append([found - traced, (texels * told(pelt).share(lights)).sum() / sent.sum() - traced])
     mended, before = np.sqrt(np.square(off).mean(0))
     assert mended < 0.4 * before
+
+
+@pytest.mark.parametrize("name", ["teddy", "fox", "sheep", "wolf"])
+def test_more_of_light_towards_the_lean_has_met_several(name: str) -> None:
+    """Against hairs of the fine volume, seen by eyes all around: slope of log x over b at lights of one height."""
+    options = replace(preset(name), layers=8, size=32)
+    _, fine, _ = grown(options)
+    lights, eyes = rings((0.8, 0.5, 0.2), 6)[1:], rings((0.85, 0.5, 0.2), 6)
+    lit, lean = LitHairs(fine, 8, 32, lights, options.coat), fine.drift[-1] / fine.height
+    once, several = np.sum([lit.towards(eye, np.arange(len(lights)))[:2] for eye in eyes], 0).sum(-1)
+    over_b = []
+    for x in (several / (once + several), leaning(lights, lean)):
+        logs = np.log(x).reshape(3, 6)
+        b = (lights[:, :2] @ lean_direction(lean)).reshape(3, 6)
+        over_b.append(float(((logs - logs.mean(1, keepdims=True)) * b).sum() / (b**2).sum()))
+    assert over_b[1] == pytest.approx(over_b[0], abs=0.12)
+    assert np.hypot(*lean) < 0.2 or over_b[0] > 0.1
 
 
 @pytest.mark.parametrize("name", ["teddy", "fox", "sheep"])

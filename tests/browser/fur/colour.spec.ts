@@ -3,6 +3,7 @@
 import { readFile } from 'node:fs/promises';
 import type { Page } from '@playwright/test';
 import type { FurAsset, Multiple } from '../../../web/fur/format.ts';
+import { leanOf, wayOf } from '../../../web/fur/light/bent.ts';
 import { expect, test } from '../harness.ts';
 import type { Stage } from '../inPage/stage.ts';
 import { floats, openStage, repository, served } from '../library.ts';
@@ -31,6 +32,12 @@ const shareOf = (k: number, height: number, radius: number) => {
 	const [even = 0, steep = 0, body = 0] = multiple.shares[k] ?? [];
 	return even + steep * Math.sqrt(height) + (body * Math.log2(radius)) / 2;
 };
+
+/** Factor of that share for hairs that lean, under a lamp along (T, B, N). */
+function leaning(fur: FurAsset, [t, b, n]: readonly [number, number, number]): number {
+	const [u, v] = wayOf(fur);
+	return Math.exp((Math.min(0.66 * leanOf(fur).length(), 0.33) * (t * u + b * v)) / Math.hypot(t, b, n));
+}
 
 /** Serves the golden asset with hairs of one colour, and with what it tells of it or without. */
 async function serve(page: Page, colour: number, told: boolean): Promise<FurAsset> {
@@ -79,7 +86,8 @@ for (const [name, look] of [
 				return drawn.light;
 			});
 			const height = lamp[2] / Math.hypot(...lamp);
-			const share = Math.min(Math.max(shareOf(layer, height, radius), 0), 1);
+			const fur = await serve(page, colour, true);
+			const share = Math.min(Math.max(shareOf(layer, height, radius) * leaning(fur, lamp), 0), 1);
 			const expected = 1 + share * (gainOf(layer, colour) - 1);
 			for (const ratio of found) expect(ratio).toBeCloseTo(expected, 2);
 			expect(Math.abs(expected - 1)).toBeGreaterThan(0.03);
@@ -114,7 +122,8 @@ test("the sky has one share for all directions, by the skin's curvature", async 
 
 test('fins mix the slabs by height', async ({ page }) => {
 	await openStage(page);
-	const { pelts, layers } = await serve(page, 0.5, true);
+	const fur = await serve(page, 0.5, true);
+	const { pelts, layers } = fur;
 	const { width = 0, height = 0 } = pelts[0]?.fin ?? {};
 	const lamp = [0.3, 0.8, 0.5];
 	const draw = async () =>
@@ -138,7 +147,7 @@ test('fins mix the slabs by height', async ({ page }) => {
 			of(below) + (slab - below) * (of(Math.min(below + 1, layers - 1)) - of(below));
 		const [ratio, tint] = [mixed((k) => multiple.ratio[k] ?? 0), mixed((k) => multiple.tint[k] ?? 0)];
 		const factor = mixed((k) => (1 - (multiple.ratio[k] ?? 0) * multiple.albedo) / multiple.albedo);
-		const share = mixed((k) => shareOf(k, up, 4));
+		const share = mixed((k) => shareOf(k, up, 4)) * leaning(fur, [0.5, 0.3, 0.8]); // a fin's axes are B, N, T
 		const expected = 1 + share * ((0.5 * tint * factor) / (1 - ratio * 0.5 * tint) - 1);
 		for (let column = 0; column < width; column++) {
 			const light = before[row * width + column] ?? 0;

@@ -2,7 +2,7 @@
 
 import { readFile } from 'node:fs/promises';
 import type { Page } from '@playwright/test';
-import { wayOf } from '../../../web/fur/light/bent.ts';
+import { leanOf, wayOf } from '../../../web/fur/light/bent.ts';
 import { expect, test } from '../harness.ts';
 import type { Stage } from '../inPage/stage.ts';
 import { floats, openStage, repository, served } from '../library.ts';
@@ -58,17 +58,20 @@ async function lit(page: Page, url: string, lamp: Vector, share = 1, perFragment
 	return drawn.light.reduce((sum, light) => sum + light, 0) / drawn.light.length;
 }
 
-/** Pelts of dark grey hairs, with a share of light that has met several, which counts `gain` times. */
+/** Pelts of dark grey hairs, with a share of light from the eye that has met several, which counts `gain` times. */
 async function darkHairs() {
-	const { pelts, layers } = JSON.parse(await readFile(`${repository}${golden}/model.gltf`, 'utf8')).extensions
-		.FUR_ptm_shells;
-	const [colour, albedo, ratio, share] = [0.3, 0.8, 0.7, 0.5];
+	const { pelts, layers, drift, height } = JSON.parse(await readFile(`${repository}${golden}/model.gltf`, 'utf8'))
+		.extensions.FUR_ptm_shells;
+	const [colour, albedo, ratio, straight] = [0.3, 0.8, 0.7, 0.5];
 	const every = <T>(value: T) => new Array<T>(layers).fill(value);
-	const multiple = { albedo, shares: every([share, 0, 0]), ratio: every(ratio), seen: every(0.25), tint: every(1) };
+	const multiple = { albedo, shares: every([straight, 0, 0]), ratio: every(ratio), seen: every(0.25), tint: every(1) };
 	const grey = [colour, colour, colour];
 	const ramp = { root: grey, tip: grey, tip2: grey, power: 1 };
 	const many = pelts.map((pelt: object) => ({ ...pelt, multiple }));
 	const gain = ((colour / albedo) * (1 - ratio * albedo)) / (1 - ratio * colour);
+	const m = wayOf({ drift });
+	const b = frame[0][2] * m[0] + frame[1][2] * m[1];
+	const share = straight * Math.exp(Math.min(0.66 * leanOf({ drift, height }).length(), 0.33) * b);
 	return { ramp, many, share, gain };
 }
 

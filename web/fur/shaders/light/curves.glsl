@@ -107,6 +107,7 @@ float meanLight(FurPoint point, vec4 curves) {
 
 #ifdef MULTIPLE
 #define NAP_POWER 1.9 // exponent of the nap in lampTinge, as in pelt/multiple.py
+#define LEANING vec2(0.66, 0.33) // see lampTinge, as in pelt/multiple.py
 #define PRESSED vec2(0.2, 0.5) // see pressedShare, as in pelt/multiple.py
 
 // Mean colour of the slab's hairs at a point, defined by each material. tint: mean of its texels.
@@ -119,16 +120,18 @@ vec3 multipleGain(FurPoint point) {
 	return orders.y * colour / (1.0 - orders.x * colour);
 }
 
-// Factor of the share of light that has met several hairs, where hairs are shorter. height: as in lampTinge
+// Factor of the share of light that has met several hairs, where hairs are shorter. height: light over the horizon, at least 0
 float pressedShare(FurPoint point, float height) {
 	return 1.0 + (1.0 - point.share * point.share) * (PRESSED.x - PRESSED.y * sqrt(height));
 }
 
-// Factor of a lamp's light for the hairs' colour, by the law of pelt/multiple.py. height: light over the horizon, at
-// least 0. nap, surge: factors of the light for the eye
-vec3 lampTinge(FurPoint point, vec3 gain, float radius, float height, float nap, float surge) {
+// Factor of a lamp's light for the hairs' colour, by the law of pelt/multiple.py. lightTS: not below the horizon. nap, surge:
+// factors of the light for the eye
+vec3 lampTinge(FurPoint point, vec3 gain, float radius, vec3 lightTS, float nap, float surge) {
+	float height = lightTS.UP;
 	vec3 terms = vec3(1.0, sqrt(height), 0.5 * log2(radius));
 	float share = dot(ofSlab(point, SHARES).xyz, terms) * pressedShare(point, height) / surge;
+	share *= exp(min(LEANING.x * length(lean), LEANING.y) * dot(leanTS(), lightTS));
 #ifdef EYE
 	share *= pow(nap, -NAP_POWER);
 #endif
