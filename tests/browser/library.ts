@@ -4,6 +4,7 @@ import { readFile } from 'node:fs/promises';
 import { fileURLToPath } from 'node:url';
 import type { Page } from '@playwright/test';
 import type { FurAsset } from '../../web/fur/format.ts';
+import { leanOf, wayOf } from '../../web/fur/light/bent.ts';
 import { openModule } from '../../web/tools/browser.mjs';
 import { site } from './harness.ts';
 
@@ -20,6 +21,12 @@ export const openStage = (page: Page) => openInPage(page, 'stage');
 export async function readAsset(folder: string): Promise<{ fur: FurAsset; images: { uri: string }[] }> {
 	const gltf = JSON.parse(await readFile(`${repository}${folder}/model.gltf`, 'utf8'));
 	return { fur: gltf.extensions.FUR_ptm_shells, images: gltf.images };
+}
+
+/** Factor, under a lamp along (T, B, N), of the share of light that has met several hairs, where hairs lean. */
+export function leaning(fur: Pick<FurAsset, 'drift' | 'height'>, [t, b, n]: readonly [number, number, number]): number {
+	const [u, v] = wayOf(fur);
+	return Math.exp((Math.min(0.66 * leanOf(fur).length(), 0.33) * (t * u + b * v)) / Math.hypot(t, b, n));
 }
 
 export async function readFloats(path: string): Promise<Float32Array> {

@@ -9,8 +9,8 @@ times the M that was sampled; T·D is as it was. So a slab's light is its sample
 With the colours of the own slab alone, transport in hairs of the presets' ramps, seen from above, is met within 4 %
 on the mean of all lights.
 
-x goes by the height of the light, and by how far it comes from where the hairs lean to: of light that meets their ends
-more goes on to others (`leaning`).
+x goes by the height of the light and by its azimuth: it is more of light from the side to which hairs lean, which
+meets their ends and goes on to others (`leaning`).
 
 Shorter hairs, share f of the pelt's length, lie flatter: of steep light they catch more themselves and let less on to
 others. x counts 1 + (1 − f²)·(0.2 − 0.5·√lz) times there.
@@ -103,18 +103,21 @@ class Multiple:
     tint: Array
     colour: Array | None = None
 
-    def share(self, lights: Array, beta: float = BODY_RADIUS, length: float = 1.0) -> Array:
-        """x, (n, 3) unit directions → (n, K) in 0..1; length : f of the hairs, over the pelt's."""
+    def share(self, lights: Array, beta: float = BODY_RADIUS, length: float = 1.0, lean: Array | None = None) -> Array:
+        """x, (n, 3) unit directions → (n, K) in 0..1.
+
+        length : f of the hairs, over the pelt's; lean : as of `leaning`, None for the mean of all azimuths
+        """
         pressed = 1 + (1 - length**2) * (PRESSED[0] - PRESSED[1] * np.sqrt(np.maximum(lights[:, 2:], 0)))
-        return np.clip(terms(lights, beta) @ self.shares.T * pressed, 0, 1)
+        counts = pressed if lean is None else pressed * leaning(lights, lean)[:, None]
+        return np.clip(terms(lights, beta) @ self.shares.T * counts, 0, 1)
 
     def towards(self, lights: Array, lean: Array, nap: Array, surge: Array, beta: float = BODY_RADIUS) -> Array:
         """x of the light for eyes aside, n pairs, (n, K).
 
         lean : as of `leaning`; nap, surge : (n, K) and (n,) of `eye.factor` and `eye.surge`
         """
-        counts = (leaning(lights, lean) / surge)[:, None]
-        return np.clip(self.share(lights, beta) * counts * nap**-NAP_POWER, 0, 1)
+        return np.clip(self.share(lights, beta, lean=lean) * nap**-NAP_POWER / surge[:, None], 0, 1)
 
     def gain(self, colour: Array) -> Array:
         """g, for hairs of colours (..., K) or (..., 1)."""
@@ -131,8 +134,7 @@ class Multiple:
         lean : as of `leaning`
         """
         colour = ramp.colour(self.tint, np.zeros(len(self.tint))) if self.colour is None else self.colour
-        lamps = np.minimum(self.share(lights, beta) * leaning(lights, lean)[:, None], 1)
-        shares = np.concatenate([lamps, sky_share(self, curves, weights, beta)[None]])
+        shares = np.concatenate([self.share(lights, beta, lean=lean), sky_share(self, curves, weights, beta)[None]])
         return np.asarray(1 + shares[..., None] * (self.gain((base * colour).T).T - 1))
 
 

@@ -3,14 +3,14 @@
 import { readFile } from 'node:fs/promises';
 import type { Page } from '@playwright/test';
 import type { FurAsset, Multiple } from '../../../web/fur/format.ts';
-import { leanOf, wayOf } from '../../../web/fur/light/bent.ts';
 import { expect, test } from '../harness.ts';
 import type { Stage } from '../inPage/stage.ts';
-import { floats, openStage, repository, served } from '../library.ts';
+import { floats, leaning, openStage, readAsset, repository, served } from '../library.ts';
 
 declare const stage: Stage;
 
-const file = 'tests/golden/ptm-6-curves/model.gltf';
+const folder = 'tests/golden/ptm-6-curves';
+const file = `${folder}/model.gltf`;
 
 const multiple: Multiple = {
 	albedo: 0.8,
@@ -32,12 +32,6 @@ const shareOf = (k: number, height: number, radius: number) => {
 	const [even = 0, steep = 0, body = 0] = multiple.shares[k] ?? [];
 	return even + steep * Math.sqrt(height) + (body * Math.log2(radius)) / 2;
 };
-
-/** Factor of that share for hairs that lean, under a lamp along (T, B, N). */
-function leaning(fur: FurAsset, [t, b, n]: readonly [number, number, number]): number {
-	const [u, v] = wayOf(fur);
-	return Math.exp((Math.min(0.66 * leanOf(fur).length(), 0.33) * (t * u + b * v)) / Math.hypot(t, b, n));
-}
 
 /** Serves the golden asset with hairs of one colour, and with what it tells of it or without. */
 async function serve(page: Page, colour: number, told: boolean): Promise<FurAsset> {
@@ -71,6 +65,7 @@ for (const [name, look] of [
 ] as const) {
 	test(`lamps ${name} have the share of their height and the gain of the hairs' colour`, async ({ page }) => {
 		await openStage(page);
+		const { fur } = await readAsset(folder);
 		for (const [layer, colour, radius, lamp] of [
 			[3, 0.3, 4, [0.3, 0.2, 0.93]],
 			[2, 0.6, 16, [0.8, -0.5, 0.33]],
@@ -86,7 +81,6 @@ for (const [name, look] of [
 				return drawn.light;
 			});
 			const height = lamp[2] / Math.hypot(...lamp);
-			const fur = await serve(page, colour, true);
 			const share = Math.min(Math.max(shareOf(layer, height, radius) * leaning(fur, lamp), 0), 1);
 			const expected = 1 + share * (gainOf(layer, colour) - 1);
 			for (const ratio of found) expect(ratio).toBeCloseTo(expected, 2);

@@ -2,10 +2,10 @@
 
 import { readFile } from 'node:fs/promises';
 import type { Page } from '@playwright/test';
-import { leanOf, wayOf } from '../../../web/fur/light/bent.ts';
+import { wayOf } from '../../../web/fur/light/bent.ts';
 import { expect, test } from '../harness.ts';
 import type { Stage } from '../inPage/stage.ts';
-import { floats, openStage, repository, served } from '../library.ts';
+import { floats, leaning, openStage, repository, served } from '../library.ts';
 
 declare const stage: Stage;
 
@@ -69,9 +69,7 @@ async function darkHairs() {
 	const ramp = { root: grey, tip: grey, tip2: grey, power: 1 };
 	const many = pelts.map((pelt: object) => ({ ...pelt, multiple }));
 	const gain = ((colour / albedo) * (1 - ratio * albedo)) / (1 - ratio * colour);
-	const m = wayOf({ drift });
-	const b = frame[0][2] * m[0] + frame[1][2] * m[1];
-	const share = straight * Math.exp(Math.min(0.66 * leanOf({ drift, height }).length(), 0.33) * b);
+	const share = straight * leaning({ drift, height }, [frame[0][2], frame[1][2], frame[2][2]]);
 	return { ramp, many, share, gain };
 }
 
