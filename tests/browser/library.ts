@@ -23,10 +23,18 @@ export async function readAsset(folder: string): Promise<{ fur: FurAsset; images
 	return { fur: gltf.extensions.FUR_ptm_shells, images: gltf.images };
 }
 
-/** Factor, under a lamp along (T, B, N), of the share of light that has met several hairs, where hairs lean. */
-export function leaning(fur: Pick<FurAsset, 'drift' | 'height'>, [t, b, n]: readonly [number, number, number]): number {
+/**
+ * Factor, under a lamp along (T, B, N), of the share of light that has met several hairs, where hairs lean.
+ * @param opposite −cos of the angle from the eye to the lamp, at least 0
+ */
+export function leaning(
+	fur: Pick<FurAsset, 'drift' | 'height'>,
+	[t, b, n]: readonly [number, number, number],
+	opposite = 0,
+): number {
 	const [u, v] = wayOf(fur);
-	return Math.exp((Math.min(0.66 * leanOf(fur).length(), 0.33) * (t * u + b * v)) / Math.hypot(t, b, n));
+	const towards = (t * u + b * v) / Math.hypot(t, b, Math.max(n, 0));
+	return Math.exp(Math.min(0.66 * leanOf(fur).length(), 0.33) * (towards + 1.1 * opposite));
 }
 
 export async function readFloats(path: string): Promise<Float32Array> {

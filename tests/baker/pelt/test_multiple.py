@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from furbake import bake
 from furbake.asset.read import read_asset
@@ -31,6 +32,8 @@ from furbake.pelt.short import pressed
 from furbake.show.swatch import radiance
 from furbake.tile.fitting import fit_pelt, fit_pelts
 from furbake.tile.lighting import grown, light, sampled
+
+Array = NDArray[np.float64]
 
 RNG = np.random.default_rng(8)
 
@@ -75,6 +78,12 @@ def test_fur_of_other_greys_is_as_bright_as_transport_has_it(
     assert before > 1.15 * truth
 
 
+def ring(height: float, azimuth: Array) -> Array:
+    """Unit vectors at a height, (n, 3)."""
+    level = np.sqrt(1 - height * height)
+    return np.stack([level * np.cos(azimuth), level * np.sin(azimuth), np.full(len(azimuth), height)], -1)
+
+
 TRACED = {(0.8, 0.3, 0): 0.27, (0.5, 0.3, 0): 0.19, (0.8, 0.3, 180): 0.80, (0.5, 0.3, 180): 0.95}
 """By v·n, l·n and the degrees between them around the normal: share of the light to an eye that has met several hairs.
 
@@ -93,21 +102,47 @@ def test_shares_for_eyes_aside_are_a_path_tracers() -> None:
     off = []
     for (up, height, apart), traced in TRACED.items():
         azimuth = np.arange(4) * np.pi / 2 + 0.4
-        lights, eyes = (
-            np.stack([np.sqrt(1 - z * z) * np.cos(turned), np.sqrt(1 - z * z) * np.sin(turned), np.full(4, z)], -1)
-            for z, turned in ((height, azimuth), (up, azimuth + np.radians(apart)))
-        )
+        lights, eyes = ring(height, azimuth), ring(up, azimuth + np.radians(apart))
         shown = ShownTexels(pelt, lights)
         lean = fine.drift[-1] / fine.height
         nap = factor(lights, eyes, lean, middle, law.weights)
         beside = surge(lights, eyes, law.surge)
         texels = np.concatenate([shown.towards(eye, np.array([i]))[0] for i, eye in enumerate(eyes)])
         sent = texels * nap * beside[:, None]
-        found = (sent * told(pelt).towards(lights, lean, nap, beside)).sum() / sent.sum()
+        found = (sent * told(pelt).towards(lights, eyes, lean, nap, beside)).sum() / sent.sum()
         assert found == pytest.approx(traced, rel=0.13)
         off.append([found - traced, (texels * told(pelt).share(lights)).sum() / sent.sum() - traced])
     mended, before = np.sqrt(np.square(off).mean(0))
     assert mended < 0.4 * before
+
+
+@pytest.mark.parametrize("name", ["fox", "wolf"])
+def test_more_of_light_to_eyes_opposite_has_met_several(name: str) -> None:
+    """Against hairs of the fine volume: .85 to .95 of light past hairs that lean."""
+    options = replace(preset(name), layers=8, size=32, lights=24)
+    strands, fine, volume = grown(options)
+    pelt = fit_pelt(volume, light(fine, options), options)[0]
+    hairs = strands, options.coat, pelt.height, pelt.layers, pelt.size
+    law = fit_eye(pelt, seen_hairs(*hairs), gauge(*hairs))
+    assert law is not None
+    azimuth, middle, lean = np.arange(6) * np.pi / 3 + 0.4, (np.arange(8) + 0.5) / 8, fine.drift[-1] / fine.height
+    off = []
+    for up, height in ((0.6, 0.2), (0.3, -0.2)):
+        lights, eyes = ring(height, azimuth), ring(up, azimuth + np.pi)
+        lit, shown = LitHairs(fine, 8, 32, lights, options.coat), ShownTexels(pelt, lights)
+        several, whole = np.sum(
+            [(many.sum(), (once + many).sum()) for i, eye in enumerate(eyes)
+             for once, many, _ in [lit.towards(eye, np.array([i]))]], 0
+        )  # fmt: skip
+        nap, beside = factor(lights, eyes, lean, middle, law.weights), surge(lights, eyes, law.surge)
+        sent = nap * beside[:, None]
+        sent *= np.concatenate([shown.towards(eye, np.array([i]))[0] for i, eye in enumerate(eyes)])
+        # Beside the light an eye has none of it.
+        without = told(pelt).towards(lights, lights, lean, nap, beside)
+        shares = told(pelt).towards(lights, eyes, lean, nap, beside), without
+        off.append([(sent * x).sum() / sent.sum() - several / whole for x in shares])
+    mended, before = np.sqrt(np.square(off).mean(0))
+    assert mended < 0.65 * before
 
 
 @pytest.mark.parametrize("name", ["teddy", "fox", "sheep", "wolf"])

@@ -70,6 +70,7 @@ for (const [name, look] of [
 			[3, 0.3, 4, [0.3, 0.2, 0.93]],
 			[2, 0.6, 16, [0.8, -0.5, 0.33]],
 			[1, 0.95, 1, [-0.6, 0.6, 0.53]],
+			[2, 0.3, 1, [0.4, -0.8, -0.45]], // opposite the eye
 		] as const) {
 			const found = await ratios(page, colour, async () => {
 				const drawn = await page.evaluate(([url, k, a, l]) => stage.vertices(url, k, a, l), [
@@ -81,7 +82,8 @@ for (const [name, look] of [
 				return drawn.light;
 			});
 			const height = lamp[2] / Math.hypot(...lamp);
-			const share = Math.min(Math.max(shareOf(layer, height, radius) * leaning(fur, lamp), 0), 1);
+			const straight = shareOf(layer, Math.max(height, 0), radius);
+			const share = Math.min(Math.max(straight * leaning(fur, lamp, Math.max(-height, 0)), 0), 1);
 			const expected = 1 + share * (gainOf(layer, colour) - 1);
 			for (const ratio of found) expect(ratio).toBeCloseTo(expected, 2);
 			expect(Math.abs(expected - 1)).toBeGreaterThan(0.03);

@@ -107,7 +107,6 @@ float meanLight(FurPoint point, vec4 curves) {
 
 #ifdef MULTIPLE
 #define NAP_POWER 1.9 // exponent of the nap in lampTinge, as in pelt/multiple.py
-#define LEANING vec2(0.66, 0.33) // see lampTinge, as in pelt/multiple.py
 #define PRESSED vec2(0.2, 0.5) // see pressedShare, as in pelt/multiple.py
 
 // Mean colour of the slab's hairs at a point, defined by each material. tint: mean of its texels.
@@ -125,13 +124,13 @@ float pressedShare(FurPoint point, float height) {
 	return 1.0 + (1.0 - point.share * point.share) * (PRESSED.x - PRESSED.y * sqrt(height));
 }
 
-// Factor of a lamp's light for the hairs' colour, by the law of pelt/multiple.py. lightTS: not below the horizon. nap, surge:
-// factors of the light for the eye
-vec3 lampTinge(FurPoint point, vec3 gain, float radius, vec3 lightTS, float nap, float surge) {
-	float height = lightTS.UP;
-	vec3 terms = vec3(1.0, sqrt(height), 0.5 * log2(radius));
-	float share = dot(ofSlab(point, SHARES).xyz, terms) * pressedShare(point, height) / surge;
-	share *= exp(min(LEANING.x * length(lean), LEANING.y) * dot(leanTS(), lightTS));
+// Factor of a lamp's light for the hairs' colour, by the law and with the numbers of pelt/multiple.py. nap: factor of the
+// light for the eye
+vec3 lampTinge(FurPoint point, vec3 gain, Arrival at, vec3 lightVS, float nap) {
+	float height = at.lightTS.UP, opposite = max(-dot(viewerVS(point.pointVS), lightVS), 0.0);
+	vec3 terms = vec3(1.0, sqrt(height), 0.5 * log2(at.radius));
+	float share = dot(ofSlab(point, SHARES).xyz, terms) * pressedShare(point, height) / at.surge;
+	share *= exp(min(0.66 * length(lean), 0.33) * (dot(leanTS(), at.lightTS) + 1.1 * opposite));
 #ifdef EYE
 	share *= pow(nap, -NAP_POWER);
 #endif

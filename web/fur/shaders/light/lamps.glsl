@@ -103,12 +103,12 @@ void addLamp(inout Lamps lamps, inout float power, FurPoint point, Bending bendi
 	lamps.moments.low += (gain * strength) * low;
 	lamps.moments.high += (gain * strength) * high;
 #ifdef TINGED
-	lamps.tinge += max(gain * strength, 0.0) * vec4(lampTinge(point, many, at.radius, at.lightTS, nap, at.surge), 1.0);
+	lamps.tinge += max(gain * strength, 0.0) * vec4(lampTinge(point, many, at, lightVS, nap), 1.0);
 #endif
 #else
 	vec3 strength = irradiance, coloured = gain * strength;
 #ifdef MULTIPLE
-	coloured *= lampTinge(point, many, at.radius, at.lightTS, nap, at.surge);
+	coloured *= lampTinge(point, many, at, lightVS, nap);
 #endif
 	lamps.moments.low += outerProduct(coloured, low);
 	lamps.moments.high += outerProduct(coloured, high);
