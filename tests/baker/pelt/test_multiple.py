@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +17,7 @@ from furbake.asset.stored import read_pelt
 from furbake.asset.validate import validate
 from furbake.options import BakeOptions, preset
 from furbake.pelt.curves import lean_direction
-from furbake.pelt.eye import factor, fit_eye, gauge, rings, seen_hairs, surge
+from furbake.pelt.eye import EyeLaw, factor, fit_eye, gauge, rings, seen_hairs, surge
 from furbake.pelt.hairs.ramp import Ramp
 from furbake.pelt.hairs.states import DIRTY, PeltState, in_state, moistened
 from furbake.pelt.hairs.strands import grow
@@ -84,6 +84,40 @@ def ring(height: float, azimuth: Array) -> Array:
     return np.stack([level * np.cos(azimuth), level * np.sin(azimuth), np.full(len(azimuth), height)], -1)
 
 
+@dataclass(frozen=True)
+class SeenAside:
+    """A fur and its law of light and eye, and what its texels send to eyes aside."""
+
+    options: BakeOptions
+    fine: Volume
+    pelt: Pelt
+    law: EyeLaw
+
+    @property
+    def lean(self) -> Array:
+        return self.fine.drift[-1] / self.fine.height
+
+    def factors(self, lights: Array, eyes: Array) -> tuple[Array, Array]:
+        """Nap and surge, of pairs."""
+        middle = (np.arange(8) + 0.5) / 8
+        return factor(lights, eyes, self.lean, middle, self.law.weights), surge(lights, eyes, self.law.surge)
+
+    def texels(self, lights: Array, eyes: Array) -> Array:
+        """Light of the slabs without the law, (n, K)."""
+        shown = ShownTexels(self.pelt, lights)
+        return np.concatenate([shown.towards(eye, np.array([i]))[0] for i, eye in enumerate(eyes)])
+
+
+def seen_aside(name: str) -> SeenAside:
+    options = replace(preset(name), layers=8, size=32, lights=24)
+    strands, fine, volume = grown(options)
+    pelt = fit_pelt(volume, light(fine, options), options)[0]
+    hairs = strands, options.coat, pelt.height, pelt.layers, pelt.size
+    law = fit_eye(pelt, seen_hairs(*hairs), gauge(*hairs))
+    assert law is not None
+    return SeenAside(options, fine, pelt, law)
+
+
 TRACED = {(0.8, 0.3, 0): 0.27, (0.5, 0.3, 0): 0.19, (0.8, 0.3, 180): 0.80, (0.5, 0.3, 180): 0.95}
 """By v·n, l·n and the degrees between them around the normal: share of the light to an eye that has met several hairs.
 
@@ -92,26 +126,16 @@ Of the mean of 16 places of a path-traced ball in `teddy`, depth 32 and 2, noise
 
 
 def test_shares_for_eyes_aside_are_a_path_tracers() -> None:
-    options = replace(preset("teddy"), layers=8, size=32, lights=24)
-    strands, fine, volume = grown(options)
-    pelt = fit_pelt(volume, light(fine, options), options)[0]
-    hairs = strands, options.coat, pelt.height, pelt.layers, pelt.size
-    law = fit_eye(pelt, seen_hairs(*hairs), gauge(*hairs))
-    assert law is not None
-    middle = (np.arange(8) + 0.5) / 8
-    off = []
+    fur, off = seen_aside("teddy"), []
     for (up, height, apart), traced in TRACED.items():
         azimuth = np.arange(4) * np.pi / 2 + 0.4
         lights, eyes = ring(height, azimuth), ring(up, azimuth + np.radians(apart))
-        shown = ShownTexels(pelt, lights)
-        lean = fine.drift[-1] / fine.height
-        nap = factor(lights, eyes, lean, middle, law.weights)
-        beside = surge(lights, eyes, law.surge)
-        texels = np.concatenate([shown.towards(eye, np.array([i]))[0] for i, eye in enumerate(eyes)])
+        nap, beside = fur.factors(lights, eyes)
+        texels = fur.texels(lights, eyes)
         sent = texels * nap * beside[:, None]
-        found = (sent * told(pelt).towards(lights, eyes, lean, nap, beside)).sum() / sent.sum()
+        found = (sent * told(fur.pelt).towards(lights, eyes, fur.lean, nap, beside)).sum() / sent.sum()
         assert found == pytest.approx(traced, rel=0.13)
-        off.append([found - traced, (texels * told(pelt).share(lights)).sum() / sent.sum() - traced])
+        off.append([found - traced, (texels * told(fur.pelt).share(lights)).sum() / sent.sum() - traced])
     mended, before = np.sqrt(np.square(off).mean(0))
     assert mended < 0.4 * before
 
@@ -119,28 +143,16 @@ def test_shares_for_eyes_aside_are_a_path_tracers() -> None:
 @pytest.mark.parametrize("name", ["fox", "wolf"])
 def test_more_of_light_to_eyes_opposite_has_met_several(name: str) -> None:
     """Against hairs of the fine volume: .85 to .95 of light past hairs that lean."""
-    options = replace(preset(name), layers=8, size=32, lights=24)
-    strands, fine, volume = grown(options)
-    pelt = fit_pelt(volume, light(fine, options), options)[0]
-    hairs = strands, options.coat, pelt.height, pelt.layers, pelt.size
-    law = fit_eye(pelt, seen_hairs(*hairs), gauge(*hairs))
-    assert law is not None
-    azimuth, middle, lean = np.arange(6) * np.pi / 3 + 0.4, (np.arange(8) + 0.5) / 8, fine.drift[-1] / fine.height
-    off = []
+    fur, azimuth, off = seen_aside(name), np.arange(6) * np.pi / 3 + 0.4, []
     for up, height in ((0.6, 0.2), (0.3, -0.2)):
         lights, eyes = ring(height, azimuth), ring(up, azimuth + np.pi)
-        lit, shown = LitHairs(fine, 8, 32, lights, options.coat), ShownTexels(pelt, lights)
-        several, whole = np.sum(
-            [(many.sum(), (once + many).sum()) for i, eye in enumerate(eyes)
-             for once, many, _ in [lit.towards(eye, np.array([i]))]], 0
-        )  # fmt: skip
-        nap, beside = factor(lights, eyes, lean, middle, law.weights), surge(lights, eyes, law.surge)
-        sent = nap * beside[:, None]
-        sent *= np.concatenate([shown.towards(eye, np.array([i]))[0] for i, eye in enumerate(eyes)])
-        # Beside the light an eye has none of it.
-        without = told(pelt).towards(lights, lights, lean, nap, beside)
-        shares = told(pelt).towards(lights, eyes, lean, nap, beside), without
-        off.append([(sent * x).sum() / sent.sum() - several / whole for x in shares])
+        lit = LitHairs(fur.fine, 8, 32, lights, fur.options.coat)
+        once, several = np.sum([lit.towards(eye, np.array([i]))[:2] for i, eye in enumerate(eyes)], 0).sum((1, 2))
+        nap, beside = fur.factors(lights, eyes)
+        sent = fur.texels(lights, eyes) * nap * beside[:, None]
+        # Eyes at the lights have the law without that part.
+        shares = [told(fur.pelt).towards(lights, at, fur.lean, nap, beside) for at in (eyes, lights)]
+        off.append([(sent * x).sum() / sent.sum() - several / (once + several) for x in shares])
     mended, before = np.sqrt(np.square(off).mean(0))
     assert mended < 0.65 * before
 
