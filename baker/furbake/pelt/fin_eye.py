@@ -1,8 +1,8 @@
 """The law of light and eye for fins, which are seen from the side alone.
 
 Fins stand where the skin turns away from the eye, so that any eye is on their horizon. Their own weights of `eye.terms`
-bring the mean light of their texels, height by height, to what the hairs of the fine volume send to a level eye; the
-texels are lit as an eye straight above sees them.
+bring the mean light of their texels, height by height, to what the hairs of the fine volume send to a level eye, from
+whichever side it sees them; the texels are lit as an eye straight above sees them.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from furbake.pelt.texels.fit import relight
 
 Array = NDArray[np.float64]
 
-EYES = (0.0, 180.0)
-"""Azimuths of the level eyes, degrees from the tile's u, across which fins stand."""
+EYES = 6
+"""Level eyes, all around: at an outline hairs lean towards the eye, away from it or to a side."""
 
 SPOKES = 8
 """Lights in each ring of `LIGHT_HEIGHTS`."""
@@ -31,7 +31,7 @@ HIDDEN = 0.1
 
 def level_hairs(strands: Strands, coat: Coat, height: float, layers: int, size: int) -> SeenHairs:
     """Hairs as `fit_fin_eye` has them seen; layers, size : of the pelt."""
-    lights, azimuth = rings(LIGHT_HEIGHTS, SPOKES), np.radians(EYES)
+    lights, azimuth = rings(LIGHT_HEIGHTS, SPOKES), 2 * np.pi * np.arange(EYES) / EYES
     eyes = np.stack([np.cos(azimuth), np.sin(azimuth), np.zeros_like(azimuth)], -1)
     return towards(eyes, [np.arange(len(lights))] * len(eyes), lights, strands, coat, height, layers, size)
 
@@ -49,9 +49,7 @@ def fit_fin_eye(pelt: Pelt, fin: FinPelt, hairs: SeenHairs, finer: Array) -> Arr
         texels.append(light * share)
     wanted = np.concatenate(sends)
     whole = wanted.sum(-1)
-    # A fin's hairs lean along it.
-    along = np.array([0.0, np.hypot(*hairs.lean)])
-    found = terms(np.tile(lights, (len(eyes), 1)), np.repeat(eyes, len(lights), 0), along)
+    found = terms(np.tile(lights, (len(eyes), 1)), np.repeat(eyes, len(lights), 0), pelt.drift[-1])
     return np.round(solve(wanted, np.concatenate(texels), found, 1 / (whole + FAINT * whole.max())), 3)
 
 

@@ -31,24 +31,25 @@ def baked() -> tuple[Tile, Fitted]:
 
 
 def test_numbers_bring_fins_to_the_hairs_that_level_eyes_see(baked: tuple[Tile, Fitted]) -> None:
-    """Under lights that no fit has seen, with the law of shells and with that of fins; twice the same numbers."""
+    """From eyes along the fur's lean, against it and across it, under lights that no fit has seen, with the law of shells
+    and with that of fins; twice the same numbers.
+    """
     tile, ((pelt, _),) = baked
     assert pelt.eye is not None
     assert pelt.fin is not None
     assert pelt.fin_eye is not None
     fine = voxelise(tile.strands, pelt.height, *fine_shape(6, 16, pelt.height), SMALL.coat.opacity)
-    lights, along = rings((0.75, 0.45, 0.15), 6, 0.7)[1:], np.array([0.0, 1.0])
+    lights = rings((0.75, 0.45, 0.15), 6, 0.7)[1:]
     lit, light = LitHairs(fine, 6, 16, lights, SMALL.coat), fin_light(pelt, pelt.fin, lights)
     off: dict[str, list[float]] = {"eye": [], "fin_eye": []}
-    for side in (1.0, -1.0):
-        eye = np.array([side, 0.0, 0.0])
+    for eye in np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0]]):
         *each, seen = lit.towards(eye, np.arange(len(lights)))
         hairs = sum(each)
         for name, found in off.items():
-            told = factor(lights, np.repeat(eye[None], len(lights), 0), along, MIDDLE, getattr(pelt, name))
+            told = factor(lights, np.repeat(eye[None], len(lights), 0), pelt.drift[-1], MIDDLE, getattr(pelt, name))
             ratio = (light * told) @ seen / hairs.sum(-1)
             found.append(float(np.sqrt(np.mean(np.log(ratio) ** 2))))
-    assert np.mean(off["fin_eye"]) < 0.25
+    assert max(off["fin_eye"]) < 0.2
     assert np.mean(off["fin_eye"]) < 0.75 * np.mean(off["eye"])
     hairs = tile.strands, SMALL.coat, pelt.height, 6, 16
     again = fit_fin_eye(pelt, pelt.fin, level_hairs(*hairs), gauge(*hairs))

@@ -12,8 +12,12 @@ declare const stage: Stage;
 const golden = 'tests/golden/ptm-6';
 const ptm = { kind: 'ptm' } as const;
 
-/** The golden asset with fins, but only one: a quad along x at z = 0. */
-async function withOneFin() {
+/**
+ * The golden asset with fins, but only one: a quad along x at z = 0.
+ *
+ * @param laid angle to where the fur is laid, turns; undefined: no attribute tells
+ */
+async function withOneFin(laid?: number) {
 	const gltf = JSON.parse(await readFile(`${repository}${golden}/model.gltf`, 'utf8'));
 	const fur = gltf.extensions.FUR_ptm_shells;
 	const vertices = [
@@ -27,9 +31,11 @@ async function withOneFin() {
 		NORMAL: [0, 1, 0],
 		TANGENT: [1, 0, 0, 1],
 		_EDGE: [0.5, -0.5, 0, 0],
+		_FUR: laid === undefined ? [] : [laid, 1, 1, 0],
 	}));
 	const attributes: Record<string, number> = {};
-	for (const name of ['POSITION', 'TEXCOORD_0', 'NORMAL', 'TANGENT', '_EDGE'] as const) {
+	for (const name of ['POSITION', 'TEXCOORD_0', 'NORMAL', 'TANGENT', '_EDGE', '_FUR'] as const) {
+		if (!vertices[0]?.[name].length) continue;
 		const values = Buffer.from(new Float32Array(vertices.flatMap((vertex) => vertex[name])).buffer);
 		const width = vertices[0]?.[name].length;
 		const bounds = name === 'POSITION' ? { min: [-0.5, -1, 0], max: [0.5, -1, 0] } : {};
@@ -59,39 +65,44 @@ async function withOneFin() {
 	return gltf;
 }
 
-test("a fin's L equals numpy's in the frame of edge and normal, below the horizon too", async ({ page }) => {
-	await openStage(page);
-	const gltf = await withOneFin();
-	await page.route('**/ptm-6/model.gltf', (route) => route.fulfill({ json: gltf }));
-	const lights: [number, number, number][] = JSON.parse(await readFile(`${repository}${golden}/lights.json`, 'utf8'));
-	const expected = await readFloats(`${golden}/fin.f32`);
-	const { width, height } = gltf.extensions.FUR_ptm_shells.pelts[0].fin;
-	// (l·t, l·w, l·n) to world axes: t is x, n is y.
-	const world = lights.map(([t, w, n]) => [t, n, w]);
-	const fin = await page.evaluate(([url, l]) => stage.fin(url, l), [served(`${golden}/model.gltf`), world] as const);
-	const light = floats(fin.light);
-	expect(light).toHaveLength(expected.length);
-	const fade = ([t, w, n]: Direction, s: number) => lightMoments(ptm, [t, w, n], s)[5] ?? Number.NaN;
-	let worst = 0;
-	let below = 0;
-	light.forEach((value, i) => {
-		const direction = lights[Math.floor(i / (width * height))] ?? [0, 0, 1];
-		const s = ((Math.floor(i / width) % height) + 0.5) / height;
-		let wanted = expected[i] ?? Number.NaN;
-		if (direction[2] < 0) {
-			// Between root and tip the quad's light is linear; at the root nothing comes from below.
-			const exact = fade(direction, s);
-			if (exact === 0 && fade(direction, 1) > 0) return;
-			wanted *= exact ? (s * fade(direction, 1)) / exact : 1;
-			below++;
-		}
-		worst = Math.max(worst, Math.abs(value - wanted));
+for (const laid of [undefined, 0.3]) {
+	test(`a fin's L equals numpy's in the frame of fur ${laid ? 'across' : 'along'} the edge, below the horizon too`, async ({
+		page,
+	}) => {
+		await openStage(page);
+		const gltf = await withOneFin(laid);
+		await page.route('**/ptm-6/model.gltf', (route) => route.fulfill({ json: gltf }));
+		const lights: [number, number, number][] = JSON.parse(await readFile(`${repository}${golden}/lights.json`, 'utf8'));
+		const expected = await readFloats(`${golden}/fin.f32`);
+		const { width, height } = gltf.extensions.FUR_ptm_shells.pelts[0].fin;
+		// (l·t, l·w, l·n) to world axes: n is y, t is x where the fur is laid along the edge.
+		const [cos, sin] = [Math.cos(2 * Math.PI * (laid ?? 0)), Math.sin(2 * Math.PI * (laid ?? 0))];
+		const world = lights.map(([t, w, n]) => [cos * t - sin * w, n, sin * t + cos * w]);
+		const fin = await page.evaluate(([url, l]) => stage.fin(url, l), [served(`${golden}/model.gltf`), world] as const);
+		const light = floats(fin.light);
+		expect(light).toHaveLength(expected.length);
+		const fade = ([t, w, n]: Direction, s: number) => lightMoments(ptm, [t, w, n], s)[5] ?? Number.NaN;
+		let worst = 0;
+		let below = 0;
+		light.forEach((value, i) => {
+			const direction = lights[Math.floor(i / (width * height))] ?? [0, 0, 1];
+			const s = ((Math.floor(i / width) % height) + 0.5) / height;
+			let wanted = expected[i] ?? Number.NaN;
+			if (direction[2] < 0) {
+				// Between root and tip the quad's light is linear; at the root nothing comes from below.
+				const exact = fade(direction, s);
+				if (exact === 0 && fade(direction, 1) > 0) return;
+				wanted *= exact ? (s * fade(direction, 1)) / exact : 1;
+				below++;
+			}
+			worst = Math.max(worst, Math.abs(value - wanted));
+		});
+		expect(worst).toBeLessThan(2e-3);
+		expect(below).toBeGreaterThan(8 * width * height);
+		const alphas = Array.from({ length: height }, (_, row) => floats(fin.alpha)[row * width] ?? Number.NaN);
+		expect(alphas).toEqual(alphas.map((_, row) => expect.closeTo((0.9 * (255 - 32 * row)) / 255, 4)));
 	});
-	expect(worst).toBeLessThan(2e-3);
-	expect(below).toBeGreaterThan(8 * width * height);
-	const alphas = Array.from({ length: height }, (_, row) => floats(fin.alpha)[row * width] ?? Number.NaN);
-	expect(alphas).toEqual(alphas.map((_, row) => expect.closeTo((0.9 * (255 - 32 * row)) / 255, 4)));
-});
+}
 
 test('a vertex brings weight, openness, tip and colour', async ({ page }) => {
 	await openStage(page);

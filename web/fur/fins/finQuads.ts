@@ -127,14 +127,17 @@ class Root {
 		normal?.setXYZ(at, ...n.toArray());
 		tangent?.setXYZW(at, along.x, along.y, along.z, 1);
 		uv?.setXY(at, u, v);
-		_fur?.setXYZW(at, 1, fur?.getY(vertex) ?? 1, fur?.getZ(vertex) ?? 1, fur?.getW(vertex) ?? 0);
+		const [upright, aside] = this.#spare;
+		aside.crossVectors(along, n);
+		// Angle about the normal from the edge to where the fur is laid.
+		const laid = Math.atan2(this.across.dot(aside), this.across.dot(along)) / (2 * Math.PI);
+		_fur?.setXYZW(at, laid, fur?.getY(vertex) ?? 1, fur?.getZ(vertex) ?? 1, fur?.getW(vertex) ?? 0);
 		for (const name of COPIED) {
 			const [own, source] = [this.quads.attributes[name], this.surface.attributes[name]];
 			for (let c = 0; own && source && c < own.itemSize; c++) own.setComponent(at, c, source.getComponent(vertex, c));
 		}
 		// The comb, along the edge made perpendicular to the normal, and across.
-		const [upright, aside] = this.#spare;
-		aside.crossVectors(along, n).normalize();
+		aside.normalize();
 		const comb = [this.#comb.dot(upright.crossVectors(n, aside)), this.#comb.dot(aside)] as const;
 		// Angles about the edge, from the normal made perpendicular to it.
 		upright.copy(n).addScaledVector(along, -along.dot(n)).normalize();

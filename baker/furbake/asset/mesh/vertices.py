@@ -9,7 +9,7 @@ Where the body has joints a vertex takes 40 bytes at most, and 4 more where ther
 | 4 | TANGENT | TANGENT |
 | 4 | TEXCOORD_0 | TEXCOORD_0 |
 | 4 | COLOR_0, where the model has colours | COLOR_0 |
-| 4 | _FUR: weight, length, occlusion, tip | _FUR |
+| 4 | _FUR: weight, length, occlusion, tip | _FUR: where the fur is laid, length, occlusion, tip |
 | 4 | _COMB: along T and B | _EDGE: angles of the two faces, comb along and across |
 | 4 | JOINTS_0, where the body has joints; 8 of more than 256 | JOINTS_0 |
 | 4 | WEIGHTS_0, where the body has joints | WEIGHTS_0 |
@@ -83,7 +83,7 @@ def fin_vertices(surface: Surface, fins: Fins, fur: VertexFur, positions: Shorts
         "TANGENT": signed(np.column_stack([fins.tangents, np.ones(len(source))])),
         "TEXCOORD_0": quantise_uv(fins.uv, tiles),
         **_colour(fur, source),
-        **_fur(np.full(len(source), 255, np.uint8), fur, source),
+        **_fur(shares(fins.laid / (2 * np.pi) % 1), fur, source),
         "_EDGE": signed(np.column_stack([fins.angles / np.pi, _components(comb, along, across)])),
     }
 
@@ -173,9 +173,10 @@ def deep_shares(values: Floats) -> Shorts:
     return np.clip(np.rint(SHORT * values), 0, SHORT).astype(np.uint16)
 
 
-def _fur(weights: Bytes, fur: VertexFur, source: Ints) -> Attributes:
+def _fur(first: Bytes, fur: VertexFur, source: Ints) -> Attributes:
+    """`_FUR`; first : (M,) weights of shells, angles of fins."""
     place = np.column_stack([shares(values) for values in (fur.lengths, fur.occlusion, fur.tip)])
-    return omit_default("_FUR", np.column_stack([weights, place[source]]), FULL_FUR)
+    return omit_default("_FUR", np.column_stack([first, place[source]]), FULL_FUR)
 
 
 def _colour(fur: VertexFur, source: Ints) -> Attributes:

@@ -75,7 +75,7 @@ def chosen_fins(each: list[Fins], bounds: Bytes, seed: int) -> tuple[Fins, tuple
     count = sum(len(own) for own in corners)
     together = {
         name: np.concatenate([getattr(fins, name)[own] for fins, own in zip(each, corners, strict=True)])
-        for name in ("source", "tangents", "uv", "angles")
+        for name in ("source", "tangents", "uv", "angles", "laid")
     }
     quads = 4 * np.arange(count // 4)[:, None] + np.array([0, 1, 3, 0, 3, 2])
     return Fins(faces=quads.reshape(-1, 3), **together), tuple(len(own) for own in taken)

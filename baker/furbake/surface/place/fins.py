@@ -42,6 +42,7 @@ class Fins:
     angles : (4E, 2) radians, -π..π: the normals of the edge's two faces, turned about the edge t from n (the vertex
         normal made perpendicular to t) towards t × n. At a border the second is that of the direction into the face: a
         face that an eye outside the border sees from behind, so that the edge is an outline to it
+    laid : (4E,) radians, -π..π: where the fur is laid, turned about the vertex normal n from t towards t × n
     """
 
     source: Ints
@@ -49,6 +50,7 @@ class Fins:
     tangents: Floats
     uv: Floats
     angles: Floats
+    laid: Floats
 
 
 def build_fins(
@@ -97,6 +99,7 @@ def build_fins(
         tangents=tangents,
         uv=np.column_stack([u.reshape(-1), height]),
         angles=angles_about(tangents, surface.normals[source], np.repeat(normals, 4, axis=0)),
+        laid=-angles_about(surface.normals[source], tangents, direction[source][:, None])[:, 0],
     )
 
 

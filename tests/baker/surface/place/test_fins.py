@@ -43,6 +43,16 @@ def test_a_closed_surface_has_a_quad_per_edge() -> None:
     assert (height == [0, 0, 1, 1]).all()
 
 
+def test_light_finds_where_the_fur_is_laid() -> None:
+    surface = builtin("torus:8x8")
+    direction = downward(surface)
+    fins = build_fins(surface, direction, TILE)
+    n = surface.normals[fins.source]
+    across = unit(np.cross(fins.tangents, n))
+    turned = np.cross(n, across) * np.cos(fins.laid)[:, None] + across * np.sin(fins.laid)[:, None]
+    np.testing.assert_allclose(turned, direction[fins.source], atol=1e-9)
+
+
 def test_quads_are_whole() -> None:
     surface = builtin("torus:8x8")
     fins = build_fins(surface, downward(surface), TILE)

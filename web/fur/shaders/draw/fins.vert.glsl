@@ -1,5 +1,5 @@
 layout(location = 12) in vec4 color; // colour of the skin, linear
-layout(location = 13) in vec4 _fur; // see frame.glsl
+layout(location = 13) in vec4 _fur; // X = angle from the edge to where the fur is laid, over 2π; others see frame.glsl
 layout(location = 15) in vec4 _edge; // XY = angles of the two faces' normals about the edge, over π; ZW = comb along the edge and across it
 
 #ifdef ROOTS
@@ -79,5 +79,12 @@ void main() {
 	vSkin.rgb *= furTraits.y;
 #endif
 	float slab = clamp(s * float(LAYERS) - 0.5, 0.0, float(LAYERS) - 1.0);
+	// Light comes to hairs that lean as the fur is laid, whichever way the edge runs.
+	float angle = PI2 * _fur.x;
+	mat2 laid = mat2(cos(angle), sin(angle), -sin(angle), cos(angle));
+	mat2x3 level = mat2x3(frame[0], across) * laid;
+	frame = mat3(level[0], n, level[1]);
+	laid = transpose(laid) * mat2(bend.x, bend.z, bend.z, bend.y) * laid;
+	bend = vec3(laid[0].x, laid[1].y, laid[0].y);
 	passLight(fade > 0.0, FurPoint(turn * frame, comb * frame, pointVS, furReach(_fur.y), hairShare(_fur.y), s, slab, bend), _fur.z);
 }
