@@ -31,8 +31,8 @@ def baked() -> tuple[Tile, Fitted]:
 
 
 def test_numbers_bring_fins_to_the_hairs_that_level_eyes_see(baked: tuple[Tile, Fitted]) -> None:
-    """From eyes along the fur's lean, against it and across it, under lights that no fit has seen, with the law of shells
-    and with that of fins; twice the same numbers.
+    """From eyes along the lean, against it and across it, under lights that no fit has seen, with the law of shells and
+    with that of fins; twice the same numbers.
     """
     tile, ((pelt, _),) = baked
     assert pelt.eye is not None
