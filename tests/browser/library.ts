@@ -34,7 +34,7 @@ export function leaning(
 ): number {
 	const [u, v] = wayOf(fur);
 	const towards = (t * u + b * v) / Math.hypot(t, b, Math.max(n, 0));
-	return Math.exp(Math.min(0.66 * leanOf(fur).length(), 0.33) * (towards + 1.1 * opposite));
+	return Math.exp(Math.min(0.66 * leanOf(fur).length(), 0.33) * (towards + 1.1 * opposite) + 0.35 * opposite + 0.03);
 }
 
 export async function readFloats(path: string): Promise<Float32Array> {

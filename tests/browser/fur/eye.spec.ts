@@ -138,7 +138,7 @@ test('of light to an eye aside the less has met several hairs the brighter it is
 		const law = { ramp, eye, surge: [surge - 1, 0, 0.1] };
 		const [plain = '', told = ''] = await open([law, { ...law, pelts: many }]);
 		const light = (url: string) => lit(page, url, [0, 0, 1], 1, perFragment);
-		const several = Math.min(share / (nap ** 1.9 * surge), 1);
+		const several = Math.min(share / (nap ** 1.5 * surge), 1);
 		expect((await light(told)) / (await light(plain)), `${nap}`).toBeCloseTo(1 + several * (gain - 1), 2);
 		await page.unrouteAll();
 	}
@@ -152,7 +152,7 @@ test('of shorter hairs, which lie flatter, less steep light has met several', as
 	for (const length of [1, 0.5]) {
 		const light = (url: string) => lit(page, url, [0, 0, 1], length);
 		const nap = 1 + (1 - length) * (0.3 + 0.4) * (1 - cosine ** 2);
-		const several = (share * (1 + (1 - length ** 2) * (0.2 - 0.5 * Math.sqrt(cosine)))) / nap ** 1.9;
+		const several = (share * (1 + (1 - length ** 2) * (0.2 - 0.5 * Math.sqrt(cosine)))) / nap ** 1.5;
 		expect((await light(tinged)) / (await light(plain)), `${length}`).toBeCloseTo(1 + several * (gain - 1), 2);
 	}
 });

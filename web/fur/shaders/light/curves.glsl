@@ -106,7 +106,6 @@ float meanLight(FurPoint point, vec4 curves) {
 }
 
 #ifdef MULTIPLE
-#define NAP_POWER 1.9 // exponent of the nap in lampTinge, as in pelt/multiple.py
 #define PRESSED vec2(0.2, 0.5) // see pressedShare, as in pelt/multiple.py
 
 // Mean colour of the slab's hairs at a point, defined by each material. tint: mean of its texels.
@@ -130,9 +129,9 @@ vec3 lampTinge(FurPoint point, vec3 gain, Arrival at, vec3 lightVS, float nap) {
 	float height = at.lightTS.UP, opposite = max(-dot(viewerVS(point.pointVS), lightVS), 0.0);
 	vec3 terms = vec3(1.0, sqrt(height), 0.5 * log2(at.radius));
 	float share = dot(ofSlab(point, SHARES).xyz, terms) * pressedShare(point, height) / at.surge;
-	share *= exp(min(0.66 * length(lean), 0.33) * (dot(leanTS(), at.lightTS) + 1.1 * opposite));
+	share *= exp(min(0.66 * length(lean), 0.33) * (dot(leanTS(), at.lightTS) + 1.1 * opposite) + 0.35 * opposite + 0.03);
 #ifdef EYE
-	share *= pow(nap, -NAP_POWER);
+	share *= pow(nap, -1.5);
 #endif
 	return mix(vec3(1.0), gain, clamp(share, 0.0, 1.0));
 }
