@@ -57,7 +57,7 @@ NAP_POWER = 1.5
 
 Of light towards 10 eyes under 4 lights, beside what path-traced balls in five furs have of light that met several hairs
 there, the error of fur whose g is .12 is .13 (RMS of the logarithm, by what is seen) with 1.9; it is .24 with 1, .15
-with 1.6. Beside what the page itself shows of balls (`LEANING`) 1.4 is the best number.
+with 1.6. Beside what the page itself shows of balls (`OPPOSITE`) 1.4 is the best number.
 """
 
 PRESSED = (0.2, 0.5)
@@ -68,14 +68,18 @@ By light transport x of hairs of .4 of the length is, under a light at .94, .77 
 """
 
 
-LEANING = (0.66, 0.33, 1.1, 0.35, 0.03)
-"""Numbers of `leaning`.
+LEANING = (0.66, 0.33)
+"""Numbers of `leaning` for light towards the lean.
 
 Of a path-traced bunny in `wolf`, `fox`, `teddy` and `sheep`, which lean by .54, .93, .25 and .09, x is off by .120,
-.105, .045 and .041 without the first two (RMS over places that are lit alike), .076, .083, .039 and .040 with them.
+.105, .045 and .041 without them (RMS over places that are lit alike), .076, .083, .039 and .040 with them.
 Seen by eyes all around, hairs of the fine volume have .42, .41, .17 and .09 in place of their .33, .33, .17 and .06.
+"""
 
-The third: of light past hairs that lean to eyes opposite .85 to .95 has met several, as hairs of the fine volume and
+OPPOSITE = (1.1, 0.35, 0.03)
+"""Numbers of `leaning` for eyes: the more of it the nearer they are to opposite the light, and a little for all.
+
+The first: of light past hairs that lean to eyes opposite .85 to .95 has met several, as hairs of the fine volume and
 path-traced bunnies have it; in `wolf` and `fox` x is off by .15 and .14 without it, .07 and .08 with it.
 
 The others, with `NAP_POWER` 1.5: in the light that a page shows of balls x is off by .056, .049, .043 and .032 in
@@ -92,7 +96,7 @@ def leaning(lights: Array, lean: Array, eyes: Array | None = None) -> Array:
     power = min(LEANING[0] * float(np.hypot(*lean)), LEANING[1])
     more = power * (held(lights)[:, :2] @ lean_direction(lean))
     if eyes is not None:
-        more += (power * LEANING[2] + LEANING[3]) * np.maximum(-(lights * eyes).sum(-1), 0) + LEANING[4]
+        more += (power * OPPOSITE[0] + OPPOSITE[1]) * np.maximum(-(lights * eyes).sum(-1), 0) + OPPOSITE[2]
     return np.asarray(np.exp(more))
 
 

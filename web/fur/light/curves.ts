@@ -62,9 +62,9 @@ export function curveValues({ even, along }: Curves, height: number, lean: numbe
 /**
  * Moments of a light of irradiance 1 from any direction for a slab.
  *
- * @param light unit vector in (T, B, N); of a fin (along the edge, across it, N)
+ * @param light unit vector in (T, B, N); of a fin (along the fur, across it, N)
  * @param weights of the slab, or of a fin at its height
- * @param fin whether φ takes the light along the edge and along the normal
+ * @param fin whether φ takes the light along the fur, as it is laid, and along the normal
  */
 export function curvedMoments(
 	basis: Basis,
@@ -75,7 +75,7 @@ export function curvedMoments(
 	fin = false,
 ): number[] {
 	const [u, v, z] = heldLight(light);
-	// The lean's part along u is across a fin, to either side alike.
+	// A fin's texels count light from both sides of the fur alike.
 	const lean = fin ? u * way[1] : u * way[0] + v * way[1];
 	const values = curveValues(curves, light[2], lean, radius);
 	const mean = weights.reduce((sum, weight, q) => sum + weight * (values[q] ?? 0), 0);
@@ -146,7 +146,7 @@ const coefficientsOf = (basis: Basis) => (basis.kind === 'ptm' ? 6 : basis.matri
  * A slab's response is their weighted sum.
  *
  * @param radius β of the body
- * @param fin as in `curvedMoments`; harmonics are then in (along the edge, N, across it)
+ * @param fin as in `curvedMoments`; harmonics are then in (along the fur, N, across it)
  * @param known cache of rings by height: above the horizon they are the same for all radii
  */
 export function curveSkies(

@@ -119,7 +119,7 @@ export class PolynomialFit {
 	}
 
 	/**
-	 * @param light in (T, B, N); of a fin (along the edge, across it, N)
+	 * @param light in (T, B, N); of a fin (along the fur, as it is laid, across it, N)
 	 * @param values of the functions there
 	 * @param share of the half sphere around this light
 	 */
@@ -134,7 +134,7 @@ export class PolynomialFit {
 	/**
 	 * Coefficients of p = (u², v², uv, u, v, 1, w, uw, vw): a row of nine per function.
 	 *
-	 * @param fin (u, v, w) are a fin's (along the edge, N, across it), not (T, B, N)
+	 * @param fin (u, v, w) are a fin's (along the fur, N, across it), not (T, B, N)
 	 */
 	rows(fin = false): number[][] {
 		return this.#sums.map(([one = 0, rise = 0, bow = 0, side = 0, uv = 0, u = 0, v = 0, uw = 0, vw = 0]) =>

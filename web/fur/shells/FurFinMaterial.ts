@@ -50,7 +50,7 @@ const SHARED = [
 /**
  * Fins: the fur cut from the side, on quads along the skin's edges, drawn at the silhouette.
  *
- * Lit by a polynomial texture map of their own over the light along the edge and along the normal. Colours and lengths are
+ * Lit by a polynomial texture map of their own over the light along the fur and along the normal. Colours and lengths are
  * the shells'. They write no depth: the shells are blended over them.
  */
 export class FurFinMaterial extends PeltMaterial {

@@ -1,5 +1,5 @@
 layout(location = 12) in vec4 color; // colour of the skin, linear
-layout(location = 13) in vec4 _fur; // X = angle from the edge to where the fur is laid, over 2π; others see frame.glsl
+layout(location = 13) in vec4 _fur; // X = angle from the edge to where the fur is laid, over 2π; YZW as in frame.glsl
 layout(location = 15) in vec4 _edge; // XY = angles of the two faces' normals about the edge, over π; ZW = comb along the edge and across it
 
 #ifdef ROOTS
@@ -84,7 +84,7 @@ void main() {
 	mat2 laid = mat2(cos(angle), sin(angle), -sin(angle), cos(angle));
 	mat2x3 level = mat2x3(frame[0], across) * laid;
 	frame = mat3(level[0], n, level[1]);
-	laid = transpose(laid) * mat2(bend.x, bend.z, bend.z, bend.y) * laid;
-	bend = vec3(laid[0].x, laid[1].y, laid[0].y);
+	mat2 curved = transpose(laid) * mat2(bend.x, bend.z, bend.z, bend.y) * laid;
+	bend = vec3(curved[0].x, curved[1].y, curved[0].y);
 	passLight(fade > 0.0, FurPoint(turn * frame, comb * frame, pointVS, furReach(_fur.y), hairShare(_fur.y), s, slab, bend), _fur.z);
 }

@@ -92,7 +92,7 @@ vec4 curvesAt(float height, float left, float radius, vec3 lightTS) {
 	float x = height < 0.0 ? 6.0 * left : 6.0 + 10.0 * sqrt(height);
 	vec2 at = vec2((x + 0.5) / 17.0, tablePlace(1.0 / (radius + 1.0)) + 0.5);
 #ifdef FIN
-	float along = leanTS().x * lightTS.x; // the lean's part across a fin points to either side
+	float along = leanTS().x * lightTS.x; // a fin's texels count light from both sides of the fur alike
 #else
 	float along = dot(leanTS(), lightTS);
 #endif

@@ -2,7 +2,7 @@
 // all directions that reach the fur.
 // A texel's light is then one dot product with its coefficients, whatever the number of lights.
 // Needs three's <common> and <lights_pars_begin>; directions are in view space until they enter the tangent frame (TS):
-// (T, B, N) of a shell; of a fin (along the edge, N, across it), its φ being of the first two as a shell's.
+// (T, B, N) of a shell; of a fin (along the fur as it is laid, N, across it), its φ being of the first two as a shell's.
 
 #ifdef FIN
 #define UP y
@@ -66,7 +66,7 @@ float quadratic(Quadratic of, vec3 at) {
 
 // Lit point of the fur.
 struct FurPoint {
-	mat3 frameVS; // (T, B, N) of the skin; for a fin (along the edge, N, across it)
+	mat3 frameVS; // (T, B, N) of the skin; for a fin (along the fur as it is laid, N, across it)
 	vec3 comb; // displacement of the tip in that frame, share of the length
 	vec3 pointVS;
 	float reach; // length of the hair, world units
