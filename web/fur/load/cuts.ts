@@ -9,7 +9,6 @@ import { decodePlanes, depthOf, type Layout, type PlaneFile, type Role } from '.
 import type { Cut } from '../planes/PeltStates.ts';
 import { readOneLevel, textureArray } from '../planes/planes.ts';
 import { statesOf } from '../planes/states.ts';
-import { ALPHA_CUT } from '../shells/lod.ts';
 
 /**
  * Anisotropy of the shells' planes. In close-ups of the bunny 2 gains 1.4 dB against a supersampled picture, 4 and more
@@ -25,17 +24,17 @@ type Stored = Pick<Pelt, 'planes' | 'colour' | 'direction'>;
 export async function shellCut(asset: FurAsset, files: GltfFiles, anisotropy = ANISOTROPY): Promise<Cut> {
 	const { size, layers, coefficients, height } = asset;
 	const extent = { width: size, height: size, layers };
-	const layout = { extent, coefficients, view: { cut: ALPHA_CUT, rise: height }, ...heightsOf(asset) };
+	const layout = { extent, coefficients, rise: height, ...heightsOf(asset) };
 	const cut = await cutOf(asset, files, layout, (state) => state);
 	for (const texture of Object.values(cut.textures)) texture.anisotropy = anisotropy;
 	return cut;
 }
 
-/** Planes of the fins: no alpha cut, clamped at the tips. */
+/** Planes of the fins, clamped at the tips. */
 export async function finCut(asset: FurAsset, files: GltfFiles, fin: Fin): Promise<Cut> {
 	const { width, height } = fin;
 	const extent = { width, height, layers: 1 };
-	const layout = { extent, coefficients: fin.scale.length, view: { cut: 0, rise: 0 }, ...heightsOf(asset) };
+	const layout = { extent, coefficients: fin.scale.length, rise: 0, ...heightsOf(asset) };
 	const cut = await cutOf(asset, files, layout, (state) => state.fin as Fin);
 	for (const texture of Object.values(cut.textures)) texture.wrapT = ClampToEdgeWrapping;
 	return cut;

@@ -187,8 +187,8 @@ export class PeltStates {
 		const own = files.get(state) as PlaneFile[][];
 		const planes: Plane[][] = [];
 		for (const [c, { layout }] of this.#all((cut) => cut).entries()) {
-			const view = { ...layout.view, rise: layout.view.rise * (state.length ?? 1) };
-			planes.push(await decodePlanes(own[c] as PlaneFile[], { ...layout, view }));
+			const rise = layout.rise * (state.length ?? 1);
+			planes.push(await decodePlanes(own[c] as PlaneFile[], { ...layout, rise }));
 		}
 		return planes;
 	}

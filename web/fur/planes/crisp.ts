@@ -3,21 +3,30 @@
  * contrast around one level of each slab makes them narrow and opaque, and fur hides as much.
  */
 
-import { type CompressedArrayTexture, Vector4 } from 'three';
+import type { CompressedArrayTexture } from 'three';
 import { alphaChannel } from '../format.ts';
 import type { FurTextures } from '../light/texels.ts';
 
-/**
- * Slabs that a ray to the eye crosses in a shell, where texels are larger than pixels and where they are smaller: magnified
- * fur has more shells.
- */
-const SLABS = [0.5, 1.4] as const;
+/** Contrast of coverage in a picture, and the coverage below which nothing is drawn. */
+export interface Contrast {
+	contrast: number;
+	cut: number;
+}
+
+/** Slabs that a ray to the eye crosses in a shell, at both of which fur hides as much: of many shells, and seen aslant. */
+const [THIN, THICK] = [0.25, 2] as const;
 
 /** Steps by halves towards the level: finer than a byte. */
-const STEPS = 12;
+const STEPS = 10;
 
 /** Values told apart. */
 const BINS = 256;
+
+/** Largest factor by which the level falls from thin shells to thick ones. */
+const FALL = 4;
+
+/** Range of the stored numbers. */
+const RANGE = 4;
 
 interface Level {
 	data: Uint8Array;
@@ -34,31 +43,42 @@ interface Slab {
 }
 
 /**
- * Coverage of each slab that keeps its value where the picture's contrast is raised, 0..1: X for texels of the finest
- * level, Y of the next one, ZW of the next slab. For `crispCoverage` of hair/opacity.glsl.
+ * Levels of coverage that keep their value where the picture's contrast is raised, for `keptLevel` of hair/shell.glsl: of
+ * a shell through which a ray crosses e slabs, c₀/(1 + r·e).
  *
  * @param textures the slabs of a state after those of the one before; where the processor has no bytes of them all levels
  * are one half
- * @param contrast at which fur hides as much as without; at others it nearly does
- * @param cut coverage below which nothing is drawn at that contrast
+ * @param contrasts with which texels of the finest level and of the next one hide as much as without; with others they
+ * nearly do
+ * @returns four numbers for two slabs each: c₀ and r of the finest level, of the next one, and of the next slab's; each two
+ * as 16 bits, of a range from 0 to 4
  */
-export function crispLevels({ plane0, plane1 }: FurTextures, contrast: number, cut: number): Vector4[] {
+export function crispLevels({ plane0, plane1 }: FurTextures, contrasts: readonly [Contrast, Contrast]): Uint32Array {
 	const { plane, channel } = alphaChannel(plane1 ? 6 : 3);
 	const { mipmaps, image } = (plane === 1 ? plane1 : plane0) as CompressedArrayTexture;
 	const layers = (image as { depth: number } | null)?.depth ?? 0;
-	const levels = Array.from({ length: layers }, (_, k) =>
-		SLABS.map((slabs, level) => {
-			const found = (mipmaps?.[level] ?? mipmaps?.[0]) as Level | undefined;
-			if (!found?.data) return 0.5;
+	const levels = new Uint32Array(4 * Math.ceil(layers / 2));
+	for (let i = 0; i < 2 * layers; i++) {
+		const found = (mipmaps?.[i % 2] ?? mipmaps?.[0]) as Level | undefined;
+		let [thin, fall] = [0.5, 0];
+		if (found?.data) {
 			const { data, width, height } = found;
 			const size = data.length / layers;
-			const texels = data.subarray(k * size, (k + 1) * size);
-			return keptLevel(between({ texels, width, height, channel }), slabs, contrast, cut);
-		}),
-	).flat();
-	return Array.from({ length: Math.ceil(layers / 2) }, (_, i) =>
-		new Vector4().fromArray([...levels.slice(4 * i, 4 * i + 4), 0, 0]),
-	);
+			const texels = data.subarray((i >> 1) * size, ((i >> 1) + 1) * size);
+			const shares = between({ texels, width, height, channel });
+			const contrast = contrasts[i % 2] as Contrast;
+			const one = keptLevel(shares, THIN, contrast);
+			const two = Math.max(keptLevel(shares, THICK, contrast), one / FALL);
+			fall = Math.max(one - two, 0) / (THICK * two - THIN * one);
+			thin = one * (1 + THIN * fall);
+		}
+		levels[i] = stored(thin) + 65536 * stored(fall);
+	}
+	return levels;
+}
+
+function stored(value: number): number {
+	return Math.round((value / RANGE) * 65535);
 }
 
 /** Shares of the values that coverage has between texels, a quarter of a texel off their middles. */
@@ -81,16 +101,19 @@ function between({ texels, width, height, channel }: Slab): Float64Array {
  *
  * @param shares of a's values
  */
-function keptLevel(shares: Float64Array, slabs: number, contrast: number, cut: number): number {
+function keptLevel(shares: Float64Array, slabs: number, { contrast, cut }: Contrast): number {
+	const hides = Float64Array.from(shares, (_, byte) => 1 - Math.max(1 - byte / (BINS - 1), 0.004) ** slabs);
 	const hidden = (change: (a: number) => number) =>
-		shares.reduce((sum, share, byte) => sum + share * (1 - Math.max(1 - change(byte / (BINS - 1)), 0) ** slabs), 0);
-	const wanted = hidden((a) => a);
+		shares.reduce((sum, share, byte) => {
+			const a = Math.min(change(byte / (BINS - 1)), 1);
+			return a < cut ? sum : sum + share * (hides[Math.round(a * (BINS - 1))] as number);
+		}, 0);
+	const wanted = shares.reduce((sum, share, byte) => sum + share * (hides[byte] as number), 0);
 	let [low, high] = [0, 1];
 	for (let step = 0; step < STEPS; step++) {
 		const level = (low + high) / 2;
-		const crisp = (a: number) => (a - level) * contrast + level;
-		if (hidden((a) => (crisp(a) < cut ? 0 : crisp(a))) > wanted) low = level;
+		if (hidden((a) => (a - level) * contrast + level) > wanted) low = level;
 		else high = level;
 	}
-	return (low + high) / 2;
+	return high;
 }

@@ -1,6 +1,6 @@
 /** Mip levels from the files of a pelt's planes; stacked for several states. */
 
-import { decodePlane, type Extent, type MipOptions, mipSteps, type PlaneBytes } from './planes.ts';
+import { decodePlane, type Extent, mipSteps, type PlaneBytes } from './planes.ts';
 import { turn, unhurried } from './steps.ts';
 
 /** Role of a plane: its key in `FurTextures`. */
@@ -17,11 +17,12 @@ export interface PlaneFile {
 	fur?: number;
 }
 
-/** Size and number of coefficients of a plane, and options of its mip levels. */
+/** Size and number of coefficients of a plane, and the height of the fur. */
 export interface Layout {
 	extent: Extent;
 	coefficients: number;
-	view: MipOptions;
+	/** Height, widths of the tile. */
+	rise: number;
 	/** Heights of several furs over the first one's, tile widths. */
 	heights?: readonly number[];
 }
@@ -57,11 +58,11 @@ export async function decodePlanes(files: readonly PlaneFile[], layout: Layout):
 	const { heights = [1] } = layout;
 	const furs: Plane[][] = [];
 	for (const [i, height] of heights.entries()) {
-		const view = { ...layout.view, rise: layout.view.rise * height };
+		const rise = layout.rise * height;
 		furs.push(
 			await decodeFur(
 				files.filter(({ fur = 0 }) => fur === i),
-				{ ...layout, view },
+				{ ...layout, rise },
 			),
 		);
 	}
@@ -71,9 +72,9 @@ export async function decodePlanes(files: readonly PlaneFile[], layout: Layout):
 }
 
 async function decodeFur(files: readonly PlaneFile[], layout: Layout): Promise<Plane[]> {
-	const { extent, coefficients, view } = layout;
+	const { extent, coefficients, rise } = layout;
 	const texels = await decodeAll(files, extent);
-	const mips = await unhurried(mipSteps(texels, extent, coefficients, view));
+	const mips = await unhurried(mipSteps(texels, extent, coefficients, rise));
 	return files.map(({ role, name }, p) => ({ role, name, levels: mips.flatMap((level) => level[p] ?? []) }));
 }
 

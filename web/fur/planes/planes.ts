@@ -1,4 +1,4 @@
-/** PNG planes → texture arrays, byte for byte, with mip levels that keep what the alpha cut lets through. */
+/** PNG planes → texture arrays, byte for byte, with mip levels that keep the light that they let through. */
 
 import {
 	type ColorSpace,
@@ -54,14 +54,6 @@ export interface Extent {
 	layers: number;
 }
 
-/** Options of the mip levels. */
-export interface MipOptions {
-	/** Coverage below which level 0 draws nothing. */
-	cut: number;
-	/** Height of the fur, widths of the tile. */
-	rise: number;
-}
-
 interface MipLevel {
 	/** PlaneBytes of one layer. */
 	width: number;
@@ -90,14 +82,11 @@ const VIEW_SLOPES = [
  * A coarser texel stands for a bundle of hairs that partly hide each other from layer to layer; mean coverages would
  * composite as if they didn't. Its coverage keeps the transmitted light instead: the share that the bundle stops of the
  * light that reaches it. All other values are means weighted by visibility.
+ *
+ * @param rise height of the fur, widths of the tile
  */
-export function mipLevels(
-	planes: PlaneBytes[],
-	extent: Extent,
-	coefficients: number,
-	view: MipOptions,
-): PlaneBytes[][] {
-	const steps = mipSteps(planes, extent, coefficients, view);
+export function mipLevels(planes: PlaneBytes[], extent: Extent, coefficients: number, rise: number): PlaneBytes[][] {
+	const steps = mipSteps(planes, extent, coefficients, rise);
 	let step = steps.next();
 	while (!step.done) step = steps.next();
 	return step.value;
@@ -108,14 +97,13 @@ export function* mipSteps(
 	planes: PlaneBytes[],
 	{ width, height, layers }: Extent,
 	coefficients: number,
-	{ cut, rise }: MipOptions,
+	rise: number,
 ): Generator<void, PlaneBytes[][]> {
 	const { plane: alphaPlane, channel } = alphaChannel(coefficients);
 	const base = planes[alphaPlane] as PlaneBytes;
 	const alpha = Float32Array.from({ length: base.length / 4 }, (_, i) => (base[i * 4 + channel] as number) / 255);
-	const drawn = alpha.map((value) => (value < cut ? 0 : value));
-	const open = yield* openness(drawn, { width, height, layers }, rise);
-	const seen = open.map((share, i) => share * (drawn[i] as number));
+	const open = yield* openness(alpha, { width, height, layers }, rise);
+	const seen = open.map((share, i) => share * (alpha[i] as number));
 
 	let level: MipLevel = { width, height, planes: planes.map((plane) => Float32Array.from(plane)), alpha, open, seen };
 	const levels = [planes];

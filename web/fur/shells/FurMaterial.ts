@@ -15,7 +15,7 @@ import hairOut from '../shaders/hair/hair.vert.glsl?raw';
 import opacity from '../shaders/hair/opacity.glsl?raw';
 import shell from '../shaders/hair/shell.glsl?raw';
 import drift from '../shaders/hair/tile/drift.glsl?raw';
-import { ALPHA_CUT, CRISPEST } from './lod.ts';
+import { ALPHA_CUT, CONTRASTS } from './lod.ts';
 import { PeltMaterial } from './PeltMaterial.ts';
 import { morphUniforms, weightUniforms } from './parts/morphs.ts';
 import { parts } from './parts/parts.ts';
@@ -157,7 +157,7 @@ export class FurMaterial extends PeltMaterial {
 					...weightUniforms(),
 					alphaCut: { value: ALPHA_CUT },
 					crispness: { value: new Vector2(1, 0) },
-					crispLevels: { value: [] },
+					crispLevels: { value: new Uint32Array() },
 					skinColor: { value: new Color(1, 1, 1) },
 					root: { value: new Color(...ramp.root) },
 					tip: { value: new Color(...ramp.tip) },
@@ -189,7 +189,7 @@ export class FurMaterial extends PeltMaterial {
 	override setTextures(textures: FurTextures): void {
 		super.setTextures(textures);
 		const { crispLevels: levels } = this.uniforms;
-		if (levels) levels.value = crispLevels(textures, CRISPEST, ALPHA_CUT);
+		if (levels) levels.value = crispLevels(textures, CONTRASTS);
 	}
 }
 

@@ -31,7 +31,7 @@ const CRISP_FROM = 0.3;
 const CRISP_PER_PIXEL = 1.5;
 
 /** Largest crispness: beyond, the texels' corners show. */
-export const CRISPEST = 2.5;
+const CRISPEST = 2.5;
 
 /**
  * Contrast of coverage on screen over the texels'.
@@ -40,6 +40,14 @@ export const CRISPEST = 2.5;
  */
 export function crispnessFor(pixels: number): number {
 	return Math.min(Math.max(1 + CRISP_PER_PIXEL * (pixels - CRISP_FROM), 1), CRISPEST);
+}
+
+/** Contrast and cut of near texels, and of those that the next level stands in for: see `crispLevels`. */
+export const CONTRASTS = [contrastFor(2), contrastFor(0.5)] as const;
+
+/** @param pixels width of a texel on screen */
+function contrastFor(pixels: number): { contrast: number; cut: number } {
+	return { contrast: crispnessFor(pixels), cut: cutFor(pixels) };
 }
 
 /**

@@ -1,10 +1,9 @@
 import { describe, expect, it } from 'vitest';
 import { crispLevels } from '../../../../web/fur/planes/crisp.ts';
 import { textureArray } from '../../../../web/fur/planes/planes.ts';
-import { coarserShare, crispnessFor, LOD_BIAS } from '../../../../web/fur/shells/lod.ts';
+import { CONTRASTS, coarserShare, crispnessFor, LOD_BIAS } from '../../../../web/fur/shells/lod.ts';
 
 const SIZE = 32;
-const [CONTRAST, CUT] = [2.5, 0.1];
 
 /** Coverage of soft round hairs on a grid of empty texels; `height` of their middles, 0..255. */
 function hairs(size: number, radius: number, height: number): number[] {
@@ -52,19 +51,31 @@ describe('crisp hairs', () => {
 		const plane = textureArray('plane', [level(slabs, channel), level(coarse, channel)], extent);
 		const other = textureArray('other', [new Uint8Array(SIZE * SIZE * 12)], extent);
 		const planes = channel === 2 ? { plane0: other, plane1: plane } : { plane0: plane };
-		const levels = crispLevels(planes, CONTRAST, CUT);
-		expect(levels).toHaveLength(2);
-		const each = levels.flatMap((two) => two.toArray());
+		const levels = crispLevels(planes, CONTRASTS);
+		expect(levels).toHaveLength(8);
+		/** Level of a shell of `slabs`, as the shader finds it from the stored numbers. */
+		const kept = (at: number, slabs: number) => {
+			const [low, high] = [(levels[at] as number) & 65535, (levels[at] as number) >>> 16];
+			return (4 * low) / 65535 / (1 + (4 * high * slabs) / 65535);
+		};
 		for (const k of [0, 1, 2]) {
-			const [near, far] = [each[2 * k] as number, each[2 * k + 1] as number];
-			const soft = hidden(slabs[k] as number[], SIZE, 0.5, 1, 0);
-			expect(Math.abs(hidden(slabs[k] as number[], SIZE, 0.5, CONTRAST, near, CUT) / soft - 1)).toBeLessThan(0.06);
-			const softer = hidden(coarse[k] as number[], SIZE / 2, 1.4, 1, 0);
-			expect(Math.abs(hidden(coarse[k] as number[], SIZE / 2, 1.4, CONTRAST, far, CUT) / softer - 1)).toBeLessThan(
-				0.06,
-			);
-			// Around one half all but the thickest hairs would get thin, or vanish.
-			if (k === 2) expect(hidden(slabs[k] as number[], SIZE, 0.5, CONTRAST, 0.5, CUT)).toBeLessThan(0.5 * soft);
+			for (const [at, one, size, { contrast, cut }] of [
+				[2 * k, slabs[k], SIZE, CONTRASTS[0]],
+				[2 * k + 1, coarse[k], SIZE / 2, CONTRASTS[1]],
+			] as const) {
+				// Of many shells, of as many as slabs, and of these seen aslant.
+				for (const through of [0.125, 0.25, 0.5, 1, 2, 4]) {
+					const soft = hidden(one as number[], size, through, 1, 0);
+					const crisp = hidden(one as number[], size, through, contrast, kept(at, through), cut);
+					expect(Math.abs(crisp / soft - 1), `slab ${k}, contrast ${contrast}, ${through} slabs`).toBeLessThan(0.08);
+				}
+			}
+			// With one level for all, hairs seen aslant would get thin, or vanish.
+			const [steep, aslant] = [0.25, 4].map((through) => {
+				const soft = hidden(slabs[k] as number[], SIZE, through, 1, 0);
+				return hidden(slabs[k] as number[], SIZE, through, 2.5, kept(2 * k, 0.25), 0.1) / soft;
+			}) as [number, number];
+			expect(steep - aslant).toBeGreaterThan(0.15);
 		}
 	});
 

@@ -57,19 +57,18 @@ function planesOf(alpha: number[], value: number): PlaneBytes[] {
 describe('mipLevels', () => {
 	const size = 16;
 	const extent = { width: size, height: size, layers: 1 };
-	const above = { cut: 0.1, rise: 0 };
 	const random = noise(size * size);
 	const alpha = Array.from(random, (x) => (x < 64 ? 30 + x : 0)); // a quarter of the texels is covered a little
 
 	it('go down to one texel and leave level 0 as it is', () => {
 		const planes = planesOf(alpha, 200);
-		const levels = mipLevels(planes, extent, 6, above);
+		const levels = mipLevels(planes, extent, 6, 0);
 		expect(levels.map(([plane]) => plane?.length)).toEqual([16, 8, 4, 2, 1].map((n) => n * n * 4));
 		expect(levels[0]).toEqual(planes);
 	});
 
 	it('average coefficients by coverage: empty texels do not count', () => {
-		for (const [plane] of mipLevels(planesOf(alpha, 200), extent, 6, above).slice(1, 4)) {
+		for (const [plane] of mipLevels(planesOf(alpha, 200), extent, 6, 0).slice(1, 4)) {
 			const values = Array.from(plane ?? []).filter((_, i) => i % 4 === 0);
 			expect(values.filter((value) => value > 0 && value < 190)).toEqual([]);
 			expect(Math.max(...values)).toBe(200);
@@ -80,20 +79,20 @@ describe('mipLevels', () => {
 		const layers = 4;
 		const column = Array.from(random, (x) => (x < 90 ? 2 * x : 0));
 		const hairs = Array.from({ length: layers }, (_, k) => column.map((a) => Math.max(a - 25 * k, 0))).flat();
-		const levels = mipLevels(planesOf(hairs, 200), { width: size, height: size, layers }, 6, above);
+		const levels = mipLevels(planesOf(hairs, 200), { width: size, height: size, layers }, 6, 0);
 		/** Mean over the texels of what comes down to the skin. */
-		const through = (plane: PlaneBytes | undefined, cut: number) => {
+		const through = (plane: PlaneBytes | undefined) => {
 			const values = Array.from(plane ?? [])
 				.filter((_, i) => i % 4 === 2)
-				.map((value) => (value / 255 < cut ? 0 : value / 255));
+				.map((value) => value / 255);
 			const texels = values.length / layers;
 			const light = Array.from({ length: texels }, (_, i) =>
 				[0, 1, 2, 3].reduce((rest, k) => rest * (1 - (values[k * texels + i] ?? 0)), 1),
 			);
 			return light.reduce((sum, share) => sum + share, 0) / texels;
 		};
-		const wanted = through(levels[0]?.[1], above.cut);
-		for (const [, plane] of levels.slice(1)) expect(through(plane, 0)).toBeCloseTo(wanted, 2);
+		const wanted = through(levels[0]?.[1]);
+		for (const [, plane] of levels.slice(1)) expect(through(plane)).toBeCloseTo(wanted, 2);
 		// Mean coverages would let far less through.
 		const means = [0, 1, 2, 3].map(
 			(k) => hairs.slice(k * 256, (k + 1) * 256).reduce((sum, a) => sum + a / 255, 0) / 256,
@@ -107,13 +106,13 @@ describe('mipLevels', () => {
 		const alpha = [...[128, 128, 128, 128], ...tops];
 		const [plane, other] = planesOf(alpha, 0) as [PlaneBytes, PlaneBytes];
 		for (let i = 0; i < 8; i++) plane[i * 4] = i % 2 ? 240 : 40;
-		const [, half] = mipLevels([plane, other], { width: 2, height: 2, layers: 2 }, 6, above);
+		const [, half] = mipLevels([plane, other], { width: 2, height: 2, layers: 2 }, 6, 0);
 		expect(half?.[0]?.[0]).toBeLessThan(50);
 	});
 
 	it('find coverage in the alpha of the only plane with three coefficients', () => {
 		const plane = Uint8Array.from(alpha.flatMap((a) => [a ? 90 : 0, 0, 0, a]));
-		const [, half] = mipLevels([plane], extent, 3, above);
+		const [, half] = mipLevels([plane], extent, 3, 0);
 		const values = Array.from(half?.[0] ?? []).filter((_, i) => i % 4 === 0);
 		expect(Math.max(...values)).toBe(90);
 	});
@@ -124,8 +123,8 @@ describe('mipLevels', () => {
 			[6, planesOf(alpha, 200)],
 			[3, [Uint8Array.from(alpha.flatMap((a) => [90, 90, 90, a]))]],
 		] as const) {
-			const alone = mipLevels([...planes], extent, coefficients, above);
-			const together = mipLevels([...planes, further], extent, coefficients, above);
+			const alone = mipLevels([...planes], extent, coefficients, 0);
+			const together = mipLevels([...planes, further], extent, coefficients, 0);
 			expect(together.map((level) => level.slice(0, -1))).toEqual(alone);
 			const half = together[1]?.at(-1) ?? [];
 			for (let i = 0; i < half.length; i += 4) {
@@ -145,18 +144,18 @@ describe('mipLevels', () => {
 	it('halve width and height by themselves, down to one texel', () => {
 		const alpha = noise(8 * 3);
 		const planes = planesOf([...alpha], 77);
-		const levels = mipLevels(planes, { width: 8, height: 3, layers: 1 }, 6, { cut: 0, rise: 0 });
+		const levels = mipLevels(planes, { width: 8, height: 3, layers: 1 }, 6, 0);
 		expect(levels.map(([plane]) => (plane?.length ?? 0) / 4)).toEqual([8 * 3, 4 * 1, 2 * 1, 1]);
 		const quad = [0, 1, 8, 9].reduce((sum, i) => sum + (alpha[i] ?? 0), 0) / 4;
 		expect(levels[1]?.[1]?.[2]).toBe(Math.round(quad));
 	});
 
-	it('with a cut of 0 keep the mean coverage', () => {
+	it('keep the mean coverage of a single slab', () => {
 		const mean = (plane: PlaneBytes | undefined) => {
 			const values = Array.from(plane ?? []).filter((_, i) => i % 4 === 2);
 			return values.reduce((sum, value) => sum + value, 0) / values.length;
 		};
-		const levels = mipLevels(planesOf(alpha, 200), extent, 6, { cut: 0, rise: 0 });
+		const levels = mipLevels(planesOf(alpha, 200), extent, 6, 0);
 		for (const [, plane] of levels) expect(Math.abs(mean(plane) - mean(levels[0]?.[1]))).toBeLessThan(0.6);
 	});
 
@@ -164,7 +163,7 @@ describe('mipLevels', () => {
 		const first = planesOf(new Array(16).fill(255), 100);
 		const second = planesOf(new Array(16).fill(255), 200);
 		const both = first.map((plane, p) => Uint8Array.from([...plane, ...(second[p] as PlaneBytes)]));
-		for (const [plane] of mipLevels(both, { width: 4, height: 4, layers: 2 }, 6, above)) {
+		for (const [plane] of mipLevels(both, { width: 4, height: 4, layers: 2 }, 6, 0)) {
 			const half = (plane?.length ?? 0) / 2;
 			expect(new Set(plane?.subarray(0, half))).toEqual(new Set([100]));
 			expect(new Set(plane?.subarray(half))).toEqual(new Set([200]));
@@ -175,9 +174,7 @@ describe('mipLevels', () => {
 describe('textureArray', () => {
 	it('is unflipped, not premultiplied, and sRGB for colours only', () => {
 		const extent = { width: 4, height: 4, layers: 1 };
-		const mips = mipLevels(planesOf(new Array(16).fill(255), 9), extent, 6, { cut: 0.1, rise: 0 }).map(
-			([plane]) => plane as PlaneBytes,
-		);
+		const mips = mipLevels(planesOf(new Array(16).fill(255), 9), extent, 6, 0).map(([plane]) => plane as PlaneBytes);
 		const [data, colour] = [textureArray('a', mips, extent), textureArray('b', mips, extent, true)];
 		expect([data.flipY, data.premultiplyAlpha, data.colorSpace, colour.colorSpace]).toEqual([false, false, '', 'srgb']);
 		expect(data.mipmaps).toHaveLength(3);

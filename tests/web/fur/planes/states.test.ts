@@ -69,7 +69,7 @@ async function peltOf(most: number, layers = 256, broken = false) {
 		pelt('soaked', { wetness: 1 }),
 		pelt('dirty', { dirt: 1 }),
 	];
-	const layout = { extent, coefficients: 6, view: { cut: 0.1, rise: 0.5 } };
+	const layout = { extent, coefficients: 6, rise: 0.5 };
 	const both = (value: number) => Promise.all([file('plane0', value), file('plane1', value)]);
 	const planes = await decodePlanes(await both(0), layout);
 	const textures = Object.fromEntries(

@@ -24,7 +24,7 @@ uniform vec4 groups; // X = lowest shells, which the last of them stands for, th
 #else
 #define CRISP_SLABS FUR_SLABS
 #endif
-uniform vec4 crispLevels[(CRISP_SLABS + 1) / 2]; // coverage of two slabs each, state after state, that crispness leaves alone: X = of texels, Y = of those twice as large
+uniform highp uvec4 crispLevels[(CRISP_SLABS + 1) / 2]; // levels of two slabs each, state after state: X = of texels, Y = of those twice as large; see crisp.ts
 #ifndef BODIES
 uniform vec2 crispness; // Y = share of the latter in the picture
 #endif
@@ -50,6 +50,7 @@ uniform vec3 spreads[FURS]; // X = spread of the hairs' slopes, 0 where it is no
 
 #define DENSE 0.1 // shares of open skin up to which hairs hide it as dust does, and from which on by their slopes
 #define SPARSE 0.3
+#define ASLANT 0.6 // share of their weight that many shells of one slab lose seen along the skin: they hide the gaps of each other there
 #define TIE 0.7 // phase at which half as many shells as slabs are as bright as a few more or less
 
 #define SLABS (furTrim * float(LAYERS)) // slabs left after a cut
@@ -73,20 +74,23 @@ int slabAt(float s, float i, float count) {
 	return clamp(int(s * float(LAYERS) + nudge), 0, TOP);
 }
 
+// Numbers of a slab's level, see crisp.ts.
 vec2 crispLevel(int slab) {
-	vec4 two = crispLevels[slab >> 1];
-	return (slab & 1) == 0 ? two.xy : two.zw;
+	uvec4 two = crispLevels[slab >> 1];
+	uvec2 level = (slab & 1) == 0 ? two.xy : two.zw;
+	return 4.0 * mix(unpackUnorm2x16(level.x), unpackUnorm2x16(level.y), crispness.y);
 }
 
-// Coverage of a slab, fur after fur, that crispness leaves alone, of texels and of those twice as large.
-vec2 keptLevels(int slab) {
+// Coverage of a slab, fur after fur, that crispness leaves alone. slabs: that a ray to the eye crosses in the shell
+float keptLevel(int slab, float slabs) {
 #ifdef WET
 	int below = stateBelow(vPlace);
 	vec2 drier = crispLevel(slab + below * FUR_SLABS);
-	return mix(drier, crispLevel(slab + (below + 1) * FUR_SLABS), clamp(vPlace - float(below), 0.0, 1.0));
+	vec2 level = mix(drier, crispLevel(slab + (below + 1) * FUR_SLABS), clamp(vPlace - float(below), 0.0, 1.0));
 #else
-	return crispLevel(slab);
+	vec2 level = crispLevel(slab);
 #endif
+	return level.x / (1.0 + level.y * slabs);
 }
 
 // First shell of a slab.
@@ -168,10 +172,11 @@ ShellPoint shellPoint() {
 #else
 	int slab = slabAt(point.s, i, count);
 #endif
-	float slabs = share / sharesOf(slab, count);
+	float shells = sharesOf(slab, count), slabs = share / shells;
 #ifndef BODIES
 	if (i < groups.w) {
 		bool lowest = i < groups.x, stands = i == (lowest ? groups.x - 1.0 : middleOf(slab, count));
+		shells = mix(shells, 1.0, merged);
 		slabs = mix(slabs, !stands ? 0.0 : lowest ? groups.x * SLABS / count : 1.0, merged);
 		if (stands && !lowest) point.s = mix(point.s, (float(slab) + 0.5) / float(LAYERS), merged);
 	}
@@ -185,6 +190,7 @@ ShellPoint shellPoint() {
 	vec3 eye = viewerVS(point.pointVS) * point.frameVS;
 	eye = normalize(vec3(eye.xy, eye.z / lengthShare));
 	vFacing = eye.z;
+	slabs *= 1.0 - ASLANT * (1.0 - abs(vFacing)) * (1.0 - 1.0 / max(shells, 1.0));
 	vWeight = _fur.x * FUR_SHARE * slabs * hairCover(point, slope, eye, lengthShare) * divergence(furCurvature(_fur.y), point.comb, point.s);
 #ifdef PARTED
 	drifted *= furWidth;
@@ -197,8 +203,7 @@ ShellPoint shellPoint() {
 	vHighest = bounds.y;
 #endif
 #endif
-	vec2 kept = keptLevels(slab + furHairs * LAYERS);
-	vKept = mix(kept.x, kept.y, crispness.y);
+	vKept = keptLevel(slab + furHairs * LAYERS, vWeight / max(abs(vFacing), 1.0 / MAX_SLANT));
 	gl_Position = point.there ? projectionMatrix * vec4(point.pointVS, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 	return point;
 }
