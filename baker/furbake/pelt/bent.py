@@ -48,7 +48,10 @@ LIGHTS, LIGHTS_UNBENT = 16, 32
 Unbent = tuple[Single, Array]
 """L of unbent hairs under `LIGHTS_UNBENT` lights, (n, K, N, N), and their coverage, (K, N, N)."""
 
-RIDGE = 1e-3
+FAINT = 0.05
+"""Share of the greatest light that is added to the scale of relative errors."""
+
+RIDGE = 3e-4
 """Regularisation, share of the diagonal: terms that the bends hardly determine stay small."""
 
 MONOMIALS = np.array([[1.0, 0, 0], [-1, 2, 0], [1, -6, 6]])
@@ -140,22 +143,27 @@ def fit_bends(pelt: Pelt, light: Sequence[Single], unbent: Unbent | None) -> Arr
         samples, alpha = unbent
         seen = hemisphere(LIGHTS_UNBENT)
         texels = fill(fit(samples, basis, seen, pelt.mean(seen)), alpha)
-    matrix, right = np.zeros((24, 24)), np.zeros(24)
     middle = (np.arange(pelt.layers) + 0.5) / pelt.layers
     over_s = np.polynomial.legendre.legvander(2 * middle - 1, 2)
+    rows, missing = [], []
     for (share, _), tip, truth in zip(BENDS, tips_of(lean), light, strict=True):
-        found = terms(lights, tip, lean)
+        stored = np.empty((len(lights), pelt.layers))
         for k, s in enumerate(middle):
             ways = sheared(lights, tip, s)
             mean = pelt.mean(ways)
             own = None if mean is None else mean[:, k : k + 1]
-            stored = relight(texels[k : k + 1], basis, ways, own)[:, 0].astype(np.float64)
-            power, shared = ((alpha[k] * stored * other).sum((1, 2)) / share for other in (stored, truth[:, k]))
-            row = (over_s[k][:, None] * found[:, None]).reshape(len(lights), 24)
-            matrix += (row * power[:, None]).T @ row
-            right += (shared - power) @ row
-    diagonal = np.diag(matrix)
+            stored[:, k] = (alpha[k] * relight(texels[k : k + 1], basis, ways, own)[:, 0]).sum((1, 2), dtype=np.float64)
+        wanted = np.einsum("nkrc,krc->nk", truth, alpha, dtype=np.float64)
+        whole = wanted.sum(1)
+        # A slab's mean light counts: texel by texel, patterns that differ anyway would make all of it too dark.
+        scale = 1 / np.maximum(np.sqrt(share) * (whole + FAINT * whole.max()), 1e-9)[:, None]
+        found = terms(lights, tip, lean)
+        rows.append(np.einsum("nk,kp,nf->nkpf", scale * stored, over_s, found).reshape(-1, 24))
+        missing.append((scale * (wanted - stored)).ravel())
+    matrix, right = np.concatenate(rows), np.concatenate(missing)
+    square = matrix.T @ matrix
+    diagonal = np.diag(square)
     if not diagonal.max() > 0:
         return None
-    solved = np.linalg.solve(matrix + np.diag(RIDGE * diagonal + 1e-9 * diagonal.max()), right)
+    solved = np.linalg.solve(square + np.diag(RIDGE * diagonal + 1e-9 * diagonal.max()), matrix.T @ right)
     return np.asarray(np.round(MONOMIALS.T @ solved.reshape(3, 8), 3))

@@ -29,7 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from furbake.pelt.curves import Curves, lean_direction, sphere
-from furbake.pelt.hairs.volume import Volume
+from furbake.pelt.hairs.volume import Volume, seen_from_above
 from furbake.pelt.light.paths import BODY_RADIUS
 from furbake.pelt.means import LESS, Measured, rounded
 from furbake.pelt.texels.basis import held
@@ -183,12 +183,10 @@ def multiple_of(
         return None
     cover = np.maximum(volume.coverage, 1e-6)
     total = cover.sum((1, 2))
-    above = np.cumprod((1 - volume.coverage)[::-1], axis=0)[::-1]
-    clear = np.concatenate([above[1:], np.ones_like(above[:1])])
     tint = (cover * volume.tint).sum((1, 2)) / total
     directions, area = sphere(BODY_RADIUS)
     light = np.maximum(weights @ (area @ curves(directions)), 0)
-    seen = (clear * volume.coverage).mean((1, 2)) * light * tint
+    seen = seen_from_above(volume.coverage, 1)[0].mean((1, 2)) * light * tint
     return Multiple(
         albedo=bodies[0].albedo,
         shares=rounded(shares_of(bodies)),
