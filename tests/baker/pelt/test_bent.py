@@ -17,8 +17,20 @@ from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt
 from furbake.asset.validate import validate
 from furbake.options import BakeOptions, preset
-from furbake.pelt.bent import MAX_TIP, MIN_FACTOR, bent_light, factor, fit_bends, general, terms, tips_of, unbent_light
-from furbake.pelt.hairs.strands import grow
+from furbake.pelt.bent import (
+    MAX_TIP,
+    MIN_FACTOR,
+    bent_light,
+    factor,
+    fit_bends,
+    general,
+    sheared,
+    terms,
+    tips_of,
+    unbent_light,
+)
+from furbake.pelt.curves import lean_direction
+from furbake.pelt.hairs.strands import Coat, Strands, grow
 from furbake.pelt.hairs.volume import coarsen, fine_shape, voxelise
 from furbake.pelt.light.transport import hemisphere
 from furbake.pelt.pelt import Pelt
@@ -57,19 +69,50 @@ def test_terms() -> None:
     np.testing.assert_allclose(terms(LIGHTS, 0.5 * far, 3 * lean), turned)
 
 
+def pelt_of(options: BakeOptions) -> Pelt:
+    strands = grow(options.coat, options.height_share, options.seed)
+    shape = fine_shape(options.layers, options.size, options.height_share)
+    fine = voxelise(strands, options.height_share, *shape, options.coat.opacity)
+    return fit_pelt(coarsen(fine, options.layers, options.size), light(fine, options), options)[0]
+
+
 @pytest.fixture
 def small() -> Pelt:
-    strands = grow(SMALL.coat, SMALL.height_share, SMALL.seed)
-    fine = voxelise(strands, SMALL.height_share, *fine_shape(6, 16, SMALL.height_share), SMALL.coat.opacity)
-    return fit_pelt(coarsen(fine, 6, 16), light(fine, SMALL), SMALL)[0]
+    return pelt_of(SMALL)
 
 
-def numbers_of(pelt: Pelt) -> Array | None:
+def hairs_of(pelt: Pelt, options: BakeOptions) -> tuple[Strands, Coat, float, int, int]:
+    return grow(options.coat, pelt.height, options.seed), options.coat, pelt.height, pelt.layers, pelt.size
+
+
+def numbers_of(pelt: Pelt, options: BakeOptions = SMALL) -> Array | None:
     """Numbers of the law for a small pelt, of light that is found for them."""
-    strands = grow(SMALL.coat, pelt.height, SMALL.seed)
-    hairs = strands, SMALL.coat, pelt.height, pelt.layers, pelt.size
+    hairs = hairs_of(pelt, options)
     light = [bent_light(*hairs, tip) for tip in tips_of(pelt.drift[-1] / pelt.height)]
     return fit_bends(pelt, light, unbent_light(*hairs))
+
+
+@pytest.mark.parametrize("name", ["teddy", "sheep", "wolf"])
+def test_slabs_are_as_bright_as_bent_hairs_are_under_low_lights(name: str) -> None:
+    """Against light transport through hairs that no fit has seen bent this way."""
+    options = replace(preset(name), size=16, layers=6, lights=24)
+    pelt = pelt_of(options)
+    numbers, lean = numbers_of(pelt, options), pelt.drift[-1] / pelt.height
+    assert numbers is not None
+    lights, alpha, off = hemisphere(16, turn=0.5), pelt.alpha / 255, []
+    low = lights[:, 2] < 0.45
+    for displaced, degrees in ((0.3, 0), (0.3, 180), (0.5, 90), (0.5, 270)):
+        turn = np.arctan2(*lean_direction(lean)[::-1]) + np.radians(degrees)
+        tip = displaced * np.array([np.cos(turn), np.sin(turn)])
+        truth = np.einsum("nkrc,krc->n", bent_light(*hairs_of(pelt, options), tip), alpha)
+        law = np.zeros(len(lights))
+        for k in range(pelt.layers):
+            s = (k + 0.5) / pelt.layers
+            ways = sheared(lights, tip, s)
+            slab = pelt.light(ways)[:, k]
+            law += np.einsum("nrc,rc->n", slab, alpha[k]) * factor(lights, tip, lean, s, numbers)
+        off.append((law[low] / truth[low]).mean() - 1)
+    assert abs(np.mean(off)) < 0.02
 
 
 def test_black_texels_have_no_numbers(small: Pelt) -> None:

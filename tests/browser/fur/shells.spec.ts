@@ -124,6 +124,26 @@ test('the number of shells changes without a jump', async ({ page }) => {
 	}
 });
 
+test('near fur is as bright as far fur: crisper hairs and more shells take and add next to no light', async ({
+	page,
+}) => {
+	await openStage(page);
+	for (const model of ['bunny', 'tiger']) {
+		const sizes = [96, 864];
+		const light: number[] = [];
+		for (const size of sizes) {
+			const [picture] = await page.evaluate(([url, pixels]) => stage.pictures(url, pixels, [{ shells: 'auto' }]), [
+				`/models/${model}/model.gltf`,
+				size,
+			] as const);
+			light.push(sumOf(floats(picture?.rgba ?? '')) / size ** 2);
+		}
+		const over = light.map((one) => one / (light[0] as number));
+		test.info().annotations.push({ type: model, description: over.map((one) => one.toFixed(3)).join(' ') });
+		for (const one of over) expect(Math.abs(one - 1)).toBeLessThan(0.04);
+	}
+});
+
 for (const { shells, drawn } of [
 	{ shells: 16, drawn: 11 },
 	{ shells: 48, drawn: 27 },

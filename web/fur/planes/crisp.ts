@@ -25,6 +25,12 @@ const BINS = 256;
 /** Largest factor by which the level falls from thin shells to thick ones. */
 const FALL = 4;
 
+/**
+ * Share of the level that is kept. Thin places have most of the light that comes from aside, and vanish: fur has to hide a
+ * little more for as much light on the mean of all sides.
+ */
+const LOWER = 0.94;
+
 /** Range of the stored numbers. */
 const RANGE = 4;
 
@@ -70,7 +76,7 @@ export function crispLevels({ plane0, plane1 }: FurTextures, contrasts: readonly
 			const one = keptLevel(shares, THIN, contrast);
 			const two = Math.max(keptLevel(shares, THICK, contrast), one / FALL);
 			fall = Math.max(one - two, 0) / (THICK * two - THIN * one);
-			thin = one * (1 + THIN * fall);
+			thin = LOWER * one * (1 + THIN * fall);
 		}
 		levels[i] = stored(thin) + 65536 * stored(fall);
 	}
