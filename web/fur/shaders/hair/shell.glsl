@@ -191,7 +191,8 @@ ShellPoint shellPoint() {
 	eye = normalize(vec3(eye.xy, eye.z / lengthShare));
 	vFacing = eye.z;
 	slabs *= 1.0 - ASLANT * (1.0 - abs(vFacing)) * (1.0 - 1.0 / max(shells, 1.0));
-	vWeight = _fur.x * FUR_SHARE * slabs * hairCover(point, slope, eye, lengthShare) * divergence(furCurvature(_fur.y), point.comb, point.s);
+	slabs *= _fur.x * hairCover(point, slope, eye, lengthShare) * divergence(furCurvature(_fur.y), point.comb, point.s);
+	vWeight = slabs * FUR_SHARE;
 #ifdef PARTED
 	drifted *= furWidth;
 	vRoot = (uv * tiles - drifted) * furCells;
@@ -203,7 +204,7 @@ ShellPoint shellPoint() {
 	vHighest = bounds.y;
 #endif
 #endif
-	vKept = keptLevel(slab + furHairs * LAYERS, vWeight / max(abs(vFacing), 1.0 / MAX_SLANT));
+	vKept = keptLevel(slab + furHairs * LAYERS, slabs / max(abs(vFacing), 1.0 / MAX_SLANT));
 	gl_Position = point.there ? projectionMatrix * vec4(point.pointVS, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
 	return point;
 }
