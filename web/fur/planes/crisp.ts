@@ -1,6 +1,6 @@
 /**
  * Crisp hairs: where coverage is blended between texels as large as pixels, hairs are broad and half transparent. More
- * contrast around one level of each slab makes them narrow and opaque, and fur hides as much.
+ * contrast around a level of each slab, lower for thicker shells, makes them narrow and opaque, and fur hides as much.
  */
 
 import type { CompressedArrayTexture } from 'three';
@@ -83,6 +83,7 @@ export function crispLevels({ plane0, plane1 }: FurTextures, contrasts: readonly
 	return levels;
 }
 
+/** Value of 0 to `RANGE` as 16 bits, as `unpackUnorm2x16` reads them. */
 function stored(value: number): number {
 	return Math.round((value / RANGE) * 65535);
 }

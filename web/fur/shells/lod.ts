@@ -1,6 +1,7 @@
 /** Number of shells, alpha cut and crispness for a picture. */
 
 import type { Camera } from 'three';
+import type { Contrast } from '../planes/crisp.ts';
 
 /** Coverage below which a fragment is dropped where texels are no smaller than pixels. */
 export const ALPHA_CUT = 0.1;
@@ -46,7 +47,7 @@ export function crispnessFor(pixels: number): number {
 export const CONTRASTS = [contrastFor(2), contrastFor(0.5)] as const;
 
 /** @param pixels width of a texel on screen */
-function contrastFor(pixels: number): { contrast: number; cut: number } {
+function contrastFor(pixels: number): Contrast {
 	return { contrast: crispnessFor(pixels), cut: cutFor(pixels) };
 }
 
