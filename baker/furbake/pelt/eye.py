@@ -9,7 +9,7 @@ tile's frame, texels at height s count times
 over the terms f of `terms`, all 0 for an eye straight above. They are at most quadratic in l: even + gradient·l +
 l·form·l, as the factor of bent hairs in `bent`, on which it is multiplied. Beside the light itself the eye sees no
 shadows (Hapke's opposition surge): light of a lamp counts times
-1 + (A + B·q)/(1 + |l − v|²/w²) besides, q = 1 − v_z².
+1 + (A + B·q)/(1 + |l − v|²/w²) besides, q = 1 − v_z², and between hairs that lean `along_lean` (`lean`).
 
 `fit_eye` finds these numbers by what eyes see (`seen`): slab by slab, and slabs over slabs, what shells show of the
 pelt as it is stored is brought to what the hairs of the fine volume send there. The two factors are fitted together:

@@ -20,6 +20,7 @@ from furbake.daylight import PAGE, RGB, Scene, tone_mapped
 from furbake.options import OptionError
 from furbake.pelt.curves import RADII
 from furbake.pelt.eye import surge
+from furbake.pelt.lean import along_lean
 from furbake.pelt.light.paths import BODY_RADIUS
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.texels.basis import environment
@@ -171,10 +172,11 @@ def radiance(
 
     mean = pelt.mean(lights, beta)
     above = np.broadcast_to(UP, lights.shape)
-    beside_eye = np.ones(len(lights)) if pelt.surge is None else surge(lights, above, np.asarray(pelt.surge))
+    lean, towards_eye = pelt.drift[-1] / pelt.height, np.ones(len(lights))
+    if pelt.surge is not None:
+        towards_eye = surge(lights, above, np.asarray(pelt.surge)) * along_lean(lights, above, lean)
     tinge = np.ones((len(lights) + 1, pelt.layers, 3))
     if pelt.multiple is not None and pelt.curves is not None and pelt.weights is not None:
-        lean = pelt.drift[-1] / pelt.height
         tinge = pelt.multiple.tinges(pelt.curves, pelt.weights, hairs.ramp, base, lights, lean, beta)
 
     def lit(at: Array, k: int, s: float) -> Iterator[Array]:
@@ -182,7 +184,7 @@ def radiance(
         sky = tinge[-1, k] * np.maximum(at @ sky_moments[k], 0)
         for n, light in enumerate(lights):
             seen, fade = above_horizon(light, s)
-            share = beside_eye[n] * (fade if mean is None else mean[n, k])
+            share = towards_eye[n] * (fade if mean is None else mean[n, k])
             curve = np.maximum(at @ (share * pelt.basis(seen[None])[0]), 0)
             yield (curve[..., None] * (tinge[n, k] * lamp) + sky) / (4 * np.pi)
 

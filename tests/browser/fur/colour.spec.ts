@@ -30,7 +30,7 @@ const gainOf = (k: number, colour: number, [ratio, tint] = [multiple.ratio[k] ??
 
 const shareOf = (k: number, height: number, radius: number) => {
 	const [even = 0, steep = 0, body = 0] = multiple.shares[k] ?? [];
-	return even + steep * Math.sqrt(height) + (body * Math.log2(radius)) / 2;
+	return even + steep * Math.sqrt(height) + (3 * body * (radius - 1)) / (2 * radius + 1);
 };
 
 /** Serves the golden asset with hairs of one colour, and with what it tells of it or without. */

@@ -2,7 +2,8 @@
 
 import { readFile } from 'node:fs/promises';
 import type { Page } from '@playwright/test';
-import { wayOf } from '../../../web/fur/light/bent.ts';
+import type { FurAsset } from '../../../web/fur/format.ts';
+import { leanOf, wayOf } from '../../../web/fur/light/bent.ts';
 import { expect, test } from '../harness.ts';
 import type { Stage } from '../inPage/stage.ts';
 import { floats, leaning, openStage, repository, served } from '../library.ts';
@@ -99,7 +100,7 @@ test('every number meets its term and power of the height', async ({ page }) => 
 		if (row) row[f] = 0.25 / (term * s ** (f % 3));
 		return { eye };
 	});
-	const urls = await open([{}, ...laws]);
+	const urls = await open([{ eye: zeros() }, ...laws]);
 	const plain = await lit(page, urls[0] ?? '', lamp);
 	expect(plain).toBeGreaterThan(0.1);
 	for (const [f] of terms.entries())
@@ -114,6 +115,29 @@ test('light of a lamp beside the eye surges, more where it is seen from aside', 
 		const lamp: Vector = [Math.sin(angle), 0, Math.cos(angle)];
 		const gain = 1 + most / (1 + (2 - 2 * Math.cos(angle)) / 0.01);
 		expect((await lit(page, surging, lamp)) / (await lit(page, plain, lamp)), `${angle}`).toBeCloseTo(gain, 2);
+	}
+});
+
+test('light along hairs that lean counts more, the more they lean', async ({ page }) => {
+	const open = await openEyes(page);
+	const { drift, height } = JSON.parse(await readFile(`${repository}${golden}/model.gltf`, 'utf8')).extensions
+		.FUR_ptm_shells as FurAsset;
+	const [m, own] = [wayOf({ drift }), leanOf({ drift, height }).length()];
+	for (const lean of [0.2, 0.4, 0.8]) {
+		const leaning = { drift: drift.map(([u, v]) => [(u * lean) / own, (v * lean) / own]) };
+		const [plain = '', told = ''] = await open([leaning, { ...leaning, eye: zeros() }]);
+		for (const lamp of [
+			[0.6, 0.3, 0.74],
+			[-0.6, 0.5, 0.62],
+			[0.8, -0.6, 0],
+		] as Vector[]) {
+			const [t, b] = frame.map((axis) => dot(axis, lamp)) as Vector;
+			const along = m[0] * t + m[1] * b;
+			const more = Math.min(Math.max(4 * lean - 1, 0), 1) * along ** 2 * (0.22 + 0.1 * along) * cosine;
+			const factor = (await lit(page, told, lamp)) / (await lit(page, plain, lamp));
+			expect(factor, `${lean}, ${lamp}`).toBeCloseTo(1 + more * (1 - Math.max(lamp[2], 0)), 3);
+		}
+		await page.unrouteAll();
 	}
 });
 

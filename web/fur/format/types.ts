@@ -59,7 +59,7 @@ export interface Curves {
 export interface Multiple {
 	/** ϖ of the sampled hairs. */
 	albedo: number;
-	/** Weights of 1, √lz and log₄ β in the share x. */
+	/** Weights of 1, √lz and 3·(β − 1)/(2·β + 1) in the share x. */
 	shares: number[][];
 	/** ρ, ratio of successive orders of scattering between white hairs. */
 	ratio: number[];

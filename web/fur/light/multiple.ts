@@ -25,7 +25,8 @@ export function gainOf(multiple: Multiple, slab: number, colour: number): number
  */
 export function shareOf({ shares }: Multiple, slab: number, height: number, radius: number): number {
 	const [even = 0, steep = 0, body = 0] = shares[slab] ?? [];
-	const share = even + steep * Math.sqrt(Math.max(height, 0)) + (body * Math.log2(heldRadius(radius))) / 2;
+	const beta = heldRadius(radius);
+	const share = even + steep * Math.sqrt(Math.max(height, 0)) + (3 * body * (beta - 1)) / (2 * beta + 1);
 	return Math.min(Math.max(share, 0), 1);
 }
 

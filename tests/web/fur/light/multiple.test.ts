@@ -21,7 +21,7 @@ describe('light that has met several hairs', () => {
 		expect(shareOf(multiple, 0, 1, 4)).toBeCloseTo(0.5, 9);
 		expect(shareOf(multiple, 0, 0.25, 4)).toBeCloseTo(0.75, 9);
 		expect(shareOf(multiple, 0, -0.5, 4)).toBe(1);
-		expect(shareOf(multiple, 1, 0.3, 16)).toBeCloseTo(0.45, 9);
+		expect(shareOf(multiple, 1, 0.3, 16)).toBeCloseTo(0.25 + (0.1 * 45) / 33, 9);
 		expect(shareOf({ ...multiple, shares: [[-1, 0, 0]] }, 0, 0.3, 4)).toBe(0);
 	});
 

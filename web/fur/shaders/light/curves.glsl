@@ -15,7 +15,7 @@ uniform highp sampler2D slabLight; // a row per slab, state after state, in each
 #define RADIUS 14 // texels stride of the sky's texels from β = 1 to 4, and from 4 to 16
 #define POLYNOMIALS 43 // curve times φ above the horizon as polynomials: three texels each for (u², v², uv), (u, v, 1), (w, uw, vw), low, then high
 
-#define SHARES 61 // XYZ = weights of 1, √lz and log₄ β in the share of light that has met several hairs
+#define SHARES 61 // XYZ = weights of 1, √lz and 3·(β − 1)/(2·β + 1) in the share of light that has met several hairs
 #define ORDERS 62 // X = ρ, ratio of its orders between white hairs; Y = (1 − ρϖ)/ϖ, ϖ of the baked hairs; Z = mean tint
 #define HAIRS 63 // RGB = mean colour, for a pelt with a colour plane
 
@@ -127,7 +127,7 @@ float pressedShare(FurPoint point, float height) {
 // light for the eye
 vec3 lampTinge(FurPoint point, vec3 gain, Arrival at, vec3 lightVS, float nap) {
 	float height = at.lightTS.UP, opposite = max(-dot(viewerVS(point.pointVS), lightVS), 0.0);
-	vec3 terms = vec3(1.0, sqrt(height), 0.5 * log2(at.radius));
+	vec3 terms = vec3(1.0, sqrt(height), 3.0 * (at.radius - 1.0) / (2.0 * at.radius + 1.0));
 	float share = dot(ofSlab(point, SHARES).xyz, terms) * pressedShare(point, height) / at.surge;
 	share *= exp(min(0.66 * length(lean), 0.33) * (dot(leanTS(), at.lightTS) + 1.1 * opposite) + 0.35 * opposite + 0.03);
 #ifdef EYE

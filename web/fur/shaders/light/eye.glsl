@@ -82,6 +82,17 @@ float surgeTowards(Eye from, vec3 way) {
 	return 1.0 + surgeFrom(from.up) / (1.0 + dot(apart, apart));
 }
 
+// How much more light an eye sees of hairs that lean where the light is along the lean, by pelt/lean.py.
+float leanSeen(Eye from) {
+	return clamp(4.0 * length(lean) - 1.0, 0.0, 1.0) * from.up;
+}
+
+// Factor of a lamp's light along hairs that lean. lightTS: not below the horizon; beside: cosine between lamp and eye
+float alongLean(Eye from, vec3 lightTS, float beside) {
+	float b = dot(leanTS(), lightTS);
+	return 1.0 + leanSeen(from) * b * b * (0.22 + 0.1 * b) * (1.0 - max(beside, 0.0));
+}
+
 // Share of a lamp's light for the eye at a height s, without the surge.
 float napAt(Arrival at, float s) {
 	s /= furTrim;
@@ -98,6 +109,10 @@ vec3 napTowards(Eye from, vec3 lightTS) {
 }
 
 float surgeTowards(Eye from, vec3 way) {
+	return 1.0;
+}
+
+float alongLean(Eye from, vec3 lightTS, float beside) {
 	return 1.0;
 }
 
