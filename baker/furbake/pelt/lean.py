@@ -3,10 +3,10 @@
 A lamp in the plane in which hairs lean casts their shadows behind themselves, for an eye above that plane, and its
 light runs along hairs. Voxels know neither, nor do samples, so light of a lamp l for an eye at v counts times
 
-    1 + κ·b²·(0.22 + 0.1·b)·v_z·(1 − max(l·v, 0)),   κ = 4·|lean| − 1 within 0..1, b = l·m
+    1 + κ·b²·(0.22 + 0.1·b)·v_z·(1 − |l·v|),   κ = 4·|lean| − 1 within 0..1, b = l·m
 
 along the lean m of length 1, l held on the horizon: two numbers for all furs, by pictures of balls and bunnies beside
-the path tracer. Beside the eye the surge of `eye` has that light.
+the path tracer. Beside the eye the surge of `eye` has that light; what comes from behind has enough of it.
 """
 
 from __future__ import annotations
@@ -36,5 +36,5 @@ def along_lean(lights: Array, eyes: Array, lean: Array) -> Array:
     """
     kappa = np.clip(4 * np.hypot(*lean) - 1, 0, 1)
     b, up = held(lights)[:, :2] @ lean_direction(lean), np.maximum(eyes[:, 2], 0)
-    aside = 1 - np.maximum((lights * eyes).sum(-1), 0)
+    aside = 1 - np.abs((lights * eyes).sum(-1))
     return np.asarray(1 + kappa * b**2 * (ALONG[0] + ALONG[1] * b) * up * aside)
