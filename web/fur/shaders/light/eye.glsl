@@ -84,13 +84,13 @@ float surgeTowards(Eye from, vec3 way) {
 
 // How much more light an eye sees of hairs that lean where the light is along the lean, by pelt/lean.py.
 float leanSeen(Eye from) {
-	return clamp(4.0 * length(lean) - 1.0, 0.0, 1.0) * from.up;
+	return clamp(4.0 * length(lean) - 1.0, 0.0, 1.0) * from.up * from.up;
 }
 
 // Factor of a lamp's light along hairs that lean. lightTS: not below the horizon; beside: cosine between lamp and eye
 float alongLean(Eye from, vec3 lightTS, float beside) {
 	float b = dot(leanTS(), lightTS);
-	return 1.0 + leanSeen(from) * b * b * (0.22 + 0.1 * b) * (1.0 - abs(beside));
+	return 1.0 + leanSeen(from) * b * b * (0.28 + 0.12 * b) * (1.0 - abs(beside));
 }
 
 // Share of a lamp's light for the eye at a height s, without the surge.
