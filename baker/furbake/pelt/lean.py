@@ -3,7 +3,7 @@
 A lamp in the plane in which hairs lean casts their shadows behind themselves, for an eye above that plane, and its
 light runs along hairs. Voxels know neither, nor do samples, so light of a lamp l for an eye at v counts times
 
-    1 + κ·b²·(0.28 + 0.12·b)·v_z²·(1 − |l·v|),   κ = 4·|lean| − 1 within 0..1, b = l·m
+    1 + κ·b²·(0.28 + 0.16·b)·v_z²·(1 − |l·v|),   κ = 4·|lean| − 1 within 0..1, b = l·m
 
 along the lean m of length 1, l held on the horizon: two numbers for all furs, by pictures of balls and bunnies beside
 the path tracer. Beside the eye the surge of `eye` has that light; what comes from behind has enough of it.
@@ -19,7 +19,7 @@ from furbake.pelt.texels.basis import held
 
 Array = NDArray[np.float64]
 
-ALONG = (0.28, 0.12)
+ALONG = (0.28, 0.16)
 """Numbers of `along_lean`.
 
 Flat tiles of hairs that lean by 1 and .55, path-traced and seen from straight above, are 1.1 to 1.2 times as bright as

@@ -37,7 +37,7 @@ def test_more_light_is_seen_along_hairs_that_lean() -> None:
 def test_the_factor_is_one_across_the_lean_beside_the_eye_and_on_the_horizon() -> None:
     lean, light = np.array([0.0, 0.8]), np.array([[0.0, 0.8, 0.6]])
     assert along_lean(light, np.array([[0.6, 0.0, 0.8]]), lean) == pytest.approx(
-        1 + 0.8**2 * (0.28 + 0.12 * 0.8) * 0.8**2 * (1 - 0.6 * 0.8)
+        1 + 0.8**2 * (0.28 + 0.16 * 0.8) * 0.8**2 * (1 - 0.6 * 0.8)
     )
     for lamp, eye in ((light[:, [1, 0, 2]], light), (light, light), (light, np.array([[1.0, 0, 0]]))):
         assert along_lean(lamp, eye, lean) == pytest.approx(1)

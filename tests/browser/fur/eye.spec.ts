@@ -133,7 +133,7 @@ test('light along hairs that lean counts more, the more they lean', async ({ pag
 		] as Vector[]) {
 			const [t, b] = frame.map((axis) => dot(axis, lamp)) as Vector;
 			const along = m[0] * t + m[1] * b;
-			const more = Math.min(Math.max(4 * lean - 1, 0), 1) * along ** 2 * (0.28 + 0.12 * along) * cosine ** 2;
+			const more = Math.min(Math.max(4 * lean - 1, 0), 1) * along ** 2 * (0.28 + 0.16 * along) * cosine ** 2;
 			const factor = (await lit(page, told, lamp)) / (await lit(page, plain, lamp));
 			expect(factor, `${lean}, ${lamp}`).toBeCloseTo(1 + more * (1 - Math.abs(lamp[2])), 3);
 		}

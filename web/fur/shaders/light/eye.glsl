@@ -90,7 +90,7 @@ float leanSeen(Eye from) {
 // Factor of a lamp's light along hairs that lean. lightTS: not below the horizon; beside: cosine between lamp and eye
 float alongLean(Eye from, vec3 lightTS, float beside) {
 	float b = dot(leanTS(), lightTS);
-	return 1.0 + leanSeen(from) * b * b * (0.28 + 0.12 * b) * (1.0 - abs(beside));
+	return 1.0 + leanSeen(from) * b * b * (0.28 + 0.16 * b) * (1.0 - abs(beside));
 }
 
 // Share of a lamp's light for the eye at a height s, without the surge.

@@ -14,8 +14,8 @@ Quadratic seenByEye(FurPoint point, Eye from) {
 	seen.even += first.x * q + second.z * p + third.y * q * p + from.more;
 	seen.gradient = from.rise + first.y * level + (first.z * q + first.w * p + last.w * q * p) * leaning + (second.x * q + last.y * p) * upright;
 	seen.form = outerProduct(second.w * level + (third.x * p + third.w * q) * leaning + last.x * upright, level);
-	// Lamps all around have three fifths of the factor between hairs that lean.
-	seen.form += outerProduct((q * second.y + 0.17 * leanSeen(from)) * leaning + q * third.z * upright, leaning) + outerProduct(last.z * q * upright, upright);
+	// Lamps all around have two thirds of the factor between hairs that lean.
+	seen.form += outerProduct((q * second.y + 0.19 * leanSeen(from)) * leaning + q * third.z * upright, leaning) + outerProduct(last.z * q * upright, upright);
 #endif
 	return seen;
 }
