@@ -6,7 +6,8 @@ light runs along hairs. Voxels know neither, nor do samples, so light of a lamp 
     1 + κ·b²·(0.28 + 0.16·b)·v_z²·(1 − |l·v|),   κ = 4·|lean| − 1 within 0..1, b = l·m
 
 along the lean m of length 1, l held on the horizon: two numbers for all furs, by pictures of balls and bunnies beside
-the path tracer. Beside the eye the surge of `eye` has that light; what comes from behind has enough of it.
+the path tracer. Beside the eye the surge of `eye` has that light; light from behind is bright
+enough without it.
 """
 
 from __future__ import annotations

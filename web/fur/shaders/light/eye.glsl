@@ -82,7 +82,7 @@ float surgeTowards(Eye from, vec3 way) {
 	return 1.0 + surgeFrom(from.up) / (1.0 + dot(apart, apart));
 }
 
-// How much more light an eye sees of hairs that lean where the light is along the lean, by pelt/lean.py.
+// κ·v_z² of pelt/lean.py: strength of light along hairs that lean.
 float leanSeen(Eye from) {
 	return clamp(4.0 * length(lean) - 1.0, 0.0, 1.0) * from.up * from.up;
 }
