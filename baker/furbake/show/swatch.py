@@ -174,7 +174,7 @@ def radiance(
     above = np.broadcast_to(UP, lights.shape)
     lean, towards_eye = pelt.drift[-1] / pelt.height, np.ones(len(lights))
     if pelt.surge is not None:
-        towards_eye = surge(lights, above, np.asarray(pelt.surge)) * along_lean(lights, above, lean)
+        towards_eye = surge(lights, above, np.asarray(pelt.surge)) * along_lean(lights, above, lean, beta)
     tinge = np.ones((len(lights) + 1, pelt.layers, 3))
     if pelt.multiple is not None and pelt.curves is not None and pelt.weights is not None:
         tinge = pelt.multiple.tinges(pelt.curves, pelt.weights, hairs.ramp, base, lights, lean, beta)

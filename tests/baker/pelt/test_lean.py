@@ -18,30 +18,38 @@ from furbake.tile.lighting import grown
 
 Array = NDArray[np.float64]
 
-TRACED = {1.0: 1.11, 0.55: 1.02, 0.23: 1.02}
-"""By the lean of hairs (`fox`, `wolf`, `teddy`): light along the lean over light across it, path-traced flat tiles over
-their samples, lights at 30°, seen from straight above; noise .005.
+TRACED = {
+    (0.54, 3.47): 1.135, (0.93, 5.38): 1.138, (0.54, 3.79): 1.065,
+    (0.54, 7.94): 1.052, (0.73, 7.69): 1.021, (0.54, 7.58): 1.004,
+}  # fmt: skip
+"""By the lean of hairs and the radius of a ball (`wolf`, `fox`, `bunny` twice as long, `wolf` half as long, `paper`,
+`bunny`): path-traced light over a page's without the factor, lamp at 90°, n·l from -.15 to .7, n·v over .3; noise .005.
 """
 
+WHOLE = 0.118
+"""Mean over the same pixels of what the law multiplies by κ, alike within .005."""
 
-def test_more_light_is_seen_along_hairs_that_lean() -> None:
-    level, up = np.cos(np.radians(30)), np.sin(np.radians(30))
-    lights = np.array([[level, 0, up], [-level, 0, up], [0, level, up], [0, -level, up]])
-    eyes = np.broadcast_to([0.0, 0, 1], lights.shape)
-    found = {lean: along_lean(lights, eyes, np.array([lean, 0])) for lean in TRACED}
-    off = np.array([factor[:2].mean() / factor[2:].mean() - TRACED[lean] for lean, factor in found.items()])
+
+def test_more_light_is_seen_along_hairs_that_lean_over_round_bodies() -> None:
+    light, eye = np.array([[0.0, 1.0, 0.0]]), np.array([[0.0, 0.0, 1.0]])
+    strongest = along_lean(light, eye, np.array([0.0, 9.0]), 1.0) - 1
+    off = []
+    for (lean, beta), traced in TRACED.items():
+        kappa = (along_lean(light, eye, np.array([0.0, lean]), beta) - 1) / strongest
+        off.append(1 + WHOLE * kappa - traced)
     without = 1 - np.array(list(TRACED.values()))
-    assert np.sqrt(np.square(off).mean()) < 0.8 * np.sqrt(np.square(without).mean())
+    assert np.sqrt(np.square(off).mean()) < 0.5 * np.sqrt(np.square(without).mean())
 
 
 def test_the_factor_is_one_across_the_lean_beside_the_eye_and_on_the_horizon() -> None:
     lean, light = np.array([0.0, 0.8]), np.array([[0.0, 0.8, 0.6]])
-    assert along_lean(light, np.array([[0.6, 0.0, 0.8]]), lean) == pytest.approx(
+    aside = np.array([[0.6, 0.0, 0.8]])
+    assert along_lean(light, aside, lean, 4.0) == pytest.approx(
         1 + 0.8**2 * (0.28 + 0.16 * 0.8) * 0.8**2 * (1 - 0.6 * 0.8)
     )
     for lamp, eye in ((light[:, [1, 0, 2]], light), (light, light), (light, np.array([[1.0, 0, 0]]))):
-        assert along_lean(lamp, eye, lean) == pytest.approx(1)
-    assert along_lean(light, np.array([[0.6, 0.0, 0.8]]), np.array([0.0, 0.25])) == pytest.approx(1)
+        assert along_lean(lamp, eye, lean, 4.0) == pytest.approx(1)
+    assert along_lean(light, aside, lean, 12.0) == pytest.approx(1)
 
 
 @pytest.mark.parametrize("name", ["wolf", "teddy"])

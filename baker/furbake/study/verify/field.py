@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from furbake.asset.read import read_asset
 from furbake.asset.stored import read_pelt
 from furbake.pelt.eye import factor, surge
-from furbake.pelt.lean import along_lean
 from furbake.pelt.pelt import Pelt
 from furbake.pelt.seen import ShownTexels
 from furbake.study.verify.pathtrace import FIELD, Tracer, VerifyError, load, tiles_around, write_tiles
@@ -86,9 +85,7 @@ def shown(pelt: Pelt, eyes: Array, lamps: Array) -> Array:
         if pelt.eye is not None:
             light *= factor(lamps, beside, lean, middle, pelt.eye)
         whole = light.sum(-1) / eye[2]
-        if pelt.surge is not None:
-            whole *= surge(lamps, beside, pelt.surge) * along_lean(lamps, beside, lean / pelt.height)
-        seen.append(whole)
+        seen.append(whole if pelt.surge is None else whole * surge(lamps, beside, pelt.surge))
     return np.stack(seen)
 
 

@@ -16,7 +16,7 @@ Arrival arrivalAt(FurPoint point, Eye from, Bending bending, vec3 lightVS) {
 		lightTS /= max(length(lightTS), 1e-4);
 	}
 	at.lightTS = lightTS;
-	at.surge *= alongLean(from, lightTS, dot(viewerVS(point.pointVS), lightVS));
+	at.surge *= alongLean(from, at.radius, lightTS, dot(viewerVS(point.pointVS), lightVS));
 	at.curves = curvesAt(at.height, horizonShare(point, at.height, at.radius), at.radius, lightTS);
 	at.nap = napTowards(from, bending.there ? unbent(lightTS, bending) : lightTS);
 #ifdef CURVES

@@ -82,15 +82,16 @@ float surgeTowards(Eye from, vec3 way) {
 	return 1.0 + surgeFrom(from.up) / (1.0 + dot(apart, apart));
 }
 
-// κ·v_z² of pelt/lean.py: strength of light along hairs that lean.
-float leanSeen(Eye from) {
-	return clamp(4.0 * length(lean) - 1.0, 0.0, 1.0) * from.up * from.up;
+// κ·v_z² of pelt/lean.py: strength of light along hairs that lean. radius: β of the body
+float leanSeen(Eye from, float radius) {
+	return clamp(12.0 * length(lean) / radius - 0.8, 0.0, 1.0) * from.up * from.up;
 }
 
-// Factor of a lamp's light along hairs that lean. lightTS: not below the horizon; beside: cosine between lamp and eye
-float alongLean(Eye from, vec3 lightTS, float beside) {
+// Factor of a lamp's light along hairs that lean. radius: β towards it; lightTS: not below the horizon; beside: cosine between
+// lamp and eye
+float alongLean(Eye from, float radius, vec3 lightTS, float beside) {
 	float b = dot(leanTS(), lightTS);
-	return 1.0 + leanSeen(from) * b * b * (0.28 + 0.16 * b) * (1.0 - abs(beside));
+	return 1.0 + leanSeen(from, radius) * b * b * (0.28 + 0.16 * b) * (1.0 - abs(beside));
 }
 
 // Share of a lamp's light for the eye at a height s, without the surge.
@@ -112,7 +113,7 @@ float surgeTowards(Eye from, vec3 way) {
 	return 1.0;
 }
 
-float alongLean(Eye from, vec3 lightTS, float beside) {
+float alongLean(Eye from, float radius, vec3 lightTS, float beside) {
 	return 1.0;
 }
 

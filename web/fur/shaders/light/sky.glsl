@@ -15,7 +15,7 @@ Quadratic seenByEye(FurPoint point, Eye from) {
 	seen.gradient = from.rise + first.y * level + (first.z * q + first.w * p + last.w * q * p) * leaning + (second.x * q + last.y * p) * upright;
 	seen.form = outerProduct(second.w * level + (third.x * p + third.w * q) * leaning + last.x * upright, level);
 	// Lamps all around have two thirds of the factor between hairs that lean.
-	seen.form += outerProduct((q * second.y + 0.19 * leanSeen(from)) * leaning + q * third.z * upright, leaning) + outerProduct(last.z * q * upright, upright);
+	seen.form += outerProduct((q * second.y + 0.19 * leanSeen(from, radiusTowards(point, leaning))) * leaning + q * third.z * upright, leaning) + outerProduct(last.z * q * upright, upright);
 #endif
 	return seen;
 }
