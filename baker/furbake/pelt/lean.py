@@ -1,7 +1,7 @@
 """Light along hairs that lean over a curved body.
 
-Hairs that lean over round skin rise above their neighbours ahead, the more, the longer they are beside the body's
-radius. Voxels of flat fur do not know that, nor do samples, so light of a lamp l for an eye at v counts times
+Where fur leans over round skin, hairs send more of a lamp's light along their lean than voxels of flat fur and samples
+say, the more, the longer they are beside the body's radius. Light of a lamp l for an eye at v counts times
 
     1 + κ·b²·(0.28 + 0.16·b)·v_z²·(1 − |l·v|),   κ = 12·|lean|/β − 0.8 within 0..1, b = l·m
 
