@@ -23,9 +23,9 @@ Array = NDArray[np.float64]
 ALONG = (0.28, 0.16)
 """Numbers of `along_lean`.
 
-Path-traced light of balls over a page without the factor, the lamp at 90°, n·l from -.15 to .7, asks for κ = 1.1
-(`wolf`, |lean|/β .156), 1 (`fox`, .17), .5 (`bunny` twice as long, .143), .4 (`wolf` half as long, .068), 0 (`bunny`,
-.071; `paper`, .094). Bunnies have .9 of the traced light in `wolf`, .91 in `fox` without it.
+Path-traced light of balls over a page without the factor, the lamp at 90°, n·l from -.15 to .7, asks for κ = 1.2
+(`fox`, |lean|/β .172), 1.1 (`wolf`, .155), .5 (`bunny` twice as long, .142), .2 (`paper`, .094), 0 (`bunny`, .071), .4
+(`wolf` half as long, .068). Bunnies have .9 of the traced light in `wolf`, .91 in `fox` without it.
 """
 
 

@@ -41,7 +41,7 @@ def test_more_light_is_seen_along_hairs_that_lean_over_round_bodies() -> None:
     assert np.sqrt(np.square(off).mean()) < 0.5 * np.sqrt(np.square(without).mean())
 
 
-def test_the_factor_is_one_across_the_lean_beside_the_eye_and_on_the_horizon() -> None:
+def test_the_factor_is_one_across_the_lean_beside_the_eye_on_the_horizon_and_on_flat_bodies() -> None:
     lean, light = np.array([0.0, 0.8]), np.array([[0.0, 0.8, 0.6]])
     aside = np.array([[0.6, 0.0, 0.8]])
     assert along_lean(light, aside, lean, 4.0) == pytest.approx(
