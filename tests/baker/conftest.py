@@ -13,6 +13,9 @@ from typing import Any
 for library in ("OPENBLAS", "OMP", "MKL"):
     os.environ.setdefault(f"{library}_NUM_THREADS", "1")
 
+# Tests run beside each other; threads of so small a bake take a third longer than one of them.
+os.environ.setdefault("FURBAKE_THREADS", "1")
+
 os.environ["FURBAKE_CACHE"] = ""  # no test reads or writes the user's cache
 
 import hypothesis  # noqa: E402

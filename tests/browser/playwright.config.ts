@@ -20,6 +20,8 @@ export default defineConfig({
 	// A software rasteriser uses every core by itself, pages that load and compile do not.
 	workers: 2,
 	fullyParallel: false,
+	// Proofs of minutes: `npm test -- --all`.
+	...(process.env.FURBAKE_TEST_ALL !== '1' && { grepInvert: /@long/ }),
 	forbidOnly: Boolean(process.env.CI),
 	// A machine may be several times as slow as another, and its software rasteriser with it.
 	timeout: 240_000,

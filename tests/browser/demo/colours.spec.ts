@@ -48,7 +48,7 @@ test('fur that faces the lamp is seen in the picked colour', async ({ page }) =>
 	}
 });
 
-test('fox on the page is the fox of its swatch', async ({ page }) => {
+test('fox on the page is the fox of its swatch', { tag: '@long' }, async ({ page }) => {
 	test.slow(); // four swatches, four pages
 	const pelt = join(root, 'public', 'models', 'pelt-fox');
 	const folder = test.info().outputPath();

@@ -25,11 +25,11 @@ test("a picture's harmonics are three's own of its cube map, and its sun is wher
 	expect(Math.max(...sunny.seen)).toBeGreaterThan(50 * sunny.mean);
 });
 
-for (const [name, picture, bounds] of [
-	['a sunset', sunset as string, [0.072, 0.06]],
-	['a sun above the sea', sky as string, [0.145, 0.03]],
+for (const [name, picture, bounds, tag] of [
+	['a sunset', sunset as string, [0.072, 0.06], []],
+	['a sun above the sea', sky as string, [0.145, 0.03], ['@long']],
 ] as const) {
-	test(`fur under the moments of ${name} is as under lamps all around`, async ({ page }) => {
+	test(`fur under the moments of ${name} is as under lamps all around`, { tag: [...tag] }, async ({ page }) => {
 		test.slow();
 		await openStage(page);
 		const figures = await page.evaluate(([model, file, options]) => stage.surroundings(model, file, options), [

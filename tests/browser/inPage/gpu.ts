@@ -96,6 +96,19 @@ export async function watchGpu(page: Page, missing: string[] = []): Promise<void
 	}, missing);
 }
 
+/** Draws each frame to its end before the next begins: a page that does not wait itself queues dozens in software. */
+export async function drawInTurn(page: Page): Promise<void> {
+	await page.addInitScript(() => {
+		const request = window.requestAnimationFrame.bind(window);
+		window.requestAnimationFrame = (draw) =>
+			request((time) => {
+				draw(time);
+				const gl = document.querySelector('canvas')?.getContext('webgl2');
+				gl?.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+			});
+	});
+}
+
 /** Everything is made and asked for but the pixels: for what elements, objects or memory tell, not the picture. */
 export async function drawNothing(page: Page): Promise<void> {
 	await page.addInitScript(() => {

@@ -8,6 +8,7 @@ import { build, type Rolldown } from 'vite';
 import { root } from '../../../web/tools/process.mjs';
 import { difference, expect, type Picture, picture, test } from '../harness.ts';
 import { type Host, serveFolder } from '../host.ts';
+import { drawInTurn } from '../inPage/gpu.ts';
 import { licencesIn } from './licences.ts';
 
 const run = promisify(execFile);
@@ -196,7 +197,6 @@ test('the arithmetic on the CPU is an entry point of its own, which Node runs', 
 });
 
 test('the example, built by another app, grows fur under the pointer as lamp', async ({ page }) => {
-	test.slow();
 	await build({
 		root: app,
 		base: './',
@@ -206,6 +206,7 @@ test('the example, built by another app, grows fur under the pointer as lamp', a
 		build: { modulePreload: { polyfill: false }, chunkSizeWarningLimit: 1200 },
 	});
 	host = await serveFolder(join(app, 'dist'), '/');
+	await drawInTurn(page);
 	/** The picture once the model is in it. */
 	const shown = async () => {
 		await page.goto(host.address);

@@ -82,17 +82,26 @@ def uppermost(strands: Strands, height: float, mud: Crumbs | None = None) -> Arr
 
 def _draw(top: Array, centre: Array, radius: Array, height: float) -> None:
     """Raise `top` to the height of discs where they lie."""
-    reach = int(np.ceil(radius.max(initial=0) * PIXELS))
-    offset = np.arange(-reach, reach + 1)
-    dv, du = (grid.ravel() for grid in np.meshgrid(offset, offset, indexing="ij"))
-    for first in range(0, len(centre), CHUNK):
-        some, thick = centre[first : first + CHUNK], radius[first : first + CHUNK] * PIXELS
-        position = some[:, :2] * PIXELS - 0.5
-        nearest = np.floor(position + 0.5).astype(np.int64)
-        u, v = (nearest[:, axis, None] + step - position[:, axis, None] for axis, step in ((0, du), (1, dv)))
-        disc, pixel = np.nonzero(u * u + v * v <= (thick * thick)[:, None])
-        at = (nearest[disc, 1] + dv[pixel]) % PIXELS * PIXELS + (nearest[disc, 0] + du[pixel]) % PIXELS
-        np.maximum.at(top, at, some[disc, 2] / height)
+    reach = np.ceil(radius * PIXELS).astype(np.int64)
+    for pixels in np.unique(reach):
+        alike = np.flatnonzero(reach == pixels)
+        for first in range(0, len(alike), CHUNK):
+            some = alike[first : first + CHUNK]
+            _draw_alike(top, centre[some], radius[some] * PIXELS, height, int(pixels))
+
+
+def _draw_alike(top: Array, centre: Array, thick: Array, height: float, reach: int) -> None:
+    """As `_draw`, of discs `thick` pixels in radius, of which none is more than `reach`."""
+    position = centre[:, :2] * PIXELS - 0.5
+    nearest = np.floor(position + 0.5).astype(np.int64)
+    square, up = thick * thick, centre[:, 2] / height
+    for dv in range(-reach, reach + 1):
+        v = nearest[:, 1] + dv - position[:, 1]
+        row, beside = (nearest[:, 1] + dv) % PIXELS * PIXELS, v * v
+        for du in range(-reach, reach + 1):
+            u = nearest[:, 0] + du - position[:, 0]
+            inside = np.flatnonzero(u * u + beside <= square)
+            np.maximum.at(top, row[inside] + (nearest[inside, 0] + du) % PIXELS, up[inside])
 
 
 def seen_from_above_by_slab(top: Array, layers: int) -> Array:
